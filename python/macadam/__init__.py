@@ -8,8 +8,8 @@
 
 All numbers are in SI units (m, kg, s, Pa), angles of results in degrees. docs/python.md shows everything.
 
-Names are loaded when they are first used, so that the parts in plain Python (macadam.report, macadam.study) also work if the
-compiled library is not installed.
+Names are loaded when they are first used, so that the parts in plain Python (macadam.report, macadam.study) also work
+if the compiled library is not installed.
 """
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
-# OpenMP reads OMP_WAIT_POLICY once, when the compiled library is loaded. By default, OpenMP's waiting threads spin; if other
-# programs use the cores, that makes the work several times slower.
+# OpenMP reads OMP_WAIT_POLICY once, when the compiled library is loaded. By default, OpenMP's waiting threads spin; if
+# other programs use the cores, that makes the work several times slower.
 if "OMP_WAIT_POLICY" not in os.environ and "GOMP_SPINCOUNT" not in os.environ:
     os.environ["OMP_WAIT_POLICY"] = "passive"
 
@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from .study.driver import study
     __version__: str
 
-#: All public names except InterruptedError, which would hide Python's exception of that name after `from macadam import *`.
+#: All public names except InterruptedError: `from macadam import *` would hide Python's exception of that name.
 __all__ = [name for name in _HOME_OF if name != "InterruptedError" and not name.startswith("_")] + list(_MODULES)
 
 

@@ -17,17 +17,18 @@ from . import _core
 if TYPE_CHECKING:
     import pandas
 
-#: Measurements: a table in a file, or columns of the same names in a DataFrame or a dictionary. The columns are frequency_hz,
-#: e_star_pa (or e_star_mpa, …) or g_star_pa, phase_deg (or e_prime_pa and e_double_prime_pa) and, if known, temperature_c,
-#: e_star_std, phase_std. Other columns are ignored, so `Result.table` of a cyclic test or a sweep can be given.
+#: Measurements: a table in a file, or columns of the same names in a DataFrame or a dictionary. The columns are
+#: frequency_hz, e_star_pa (or e_star_mpa, …) or g_star_pa, phase_deg (or e_prime_pa and e_double_prime_pa) and, if
+#: known, temperature_c, e_star_std, phase_std. Other columns are ignored, so `Result.table` of a cyclic test or a sweep
+#: can be given.
 Data = str | PathLike[str] | Mapping[str, Sequence[float]] | Any
 
 
 def modulus_data(data: Data, poisson: float | None = None, needed: str = "modulus-and-phase") -> _core.ModulusData:
     """Reads measurements from a file, a DataFrame or a dictionary of columns, with the reader of `macadam fit`.
 
-    poisson: Poisson's ratio, to convert a column g_star_pa. needed: the columns that must be there: "modulus-and-phase",
-    "modulus" or "phase"."""
+    poisson: Poisson's ratio, to convert a column g_star_pa. needed: the columns that must be there:
+    "modulus-and-phase", "modulus" or "phase"."""
     if isinstance(data, _core.ModulusData):
         return data
     if isinstance(data, (str, PathLike)):
@@ -55,7 +56,8 @@ class Fit:
 
     @cached_property
     def law(self) -> dict[str, Any]:
-        """The entry of `contacts` for a scene, in SI units. Its `pair` is M-M; change it to use the law for another pair.
+        """The entry of `contacts` for a scene, in SI units. Its `pair` is M-M; change it to use the law for another
+        pair.
 
         Raises InputError if no chain represents the fitted model; the last of the warnings says why."""
         if "law.toml" not in self.files:
@@ -95,9 +97,9 @@ def fit(data: Data | None = None, *, parameters: str | PathLike[str] | None = No
     data: a table in a file, a DataFrame (`Result.table` of a cyclic test or a sweep, for example) or a dictionary of
     columns. parameters: in place of data, the TOML file of a 2S2P1D or Huet-Sayegh model, which is converted into a
     chain that holds from `from_hz` to `to_hz` [Hz] with a relative error of at most `error`.
-    model: "kelvin", "2s2p1d" or "huet-sayegh". units: number of Kelvin units; if it is not given, the criterion ("aicc",
-    "bic") chooses it, up to `most_units`. flow: whether the chain has a dashpot in series. shift: "none", "wlf",
-    "arrhenius" or "free". reference_temperature: [°C]. poisson: Poisson's ratio, to convert a column g_star_pa.
+    model: "kelvin", "2s2p1d" or "huet-sayegh". units: number of Kelvin units; if it is not given, the criterion
+    ("aicc", "bic") chooses it, up to `most_units`. flow: whether the chain has a dashpot in series. shift: "none",
+    "wlf", "arrhenius" or "free". reference_temperature: [°C]. poisson: Poisson's ratio, to convert a column g_star_pa.
     out: a folder for the files.
     """
     if (data is None) == (parameters is None):

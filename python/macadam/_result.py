@@ -41,8 +41,8 @@ class _Outcome(NamedTuple):
 class Result:
     """The results of a test, and the folder with its files (docs/scene.md lists them).
 
-    `folder` is the folder that was given, or a temporary one that is removed together with this object; save() copies it.
-    A pickled result contains the files if the folder is temporary, otherwise only the folder's name.
+    `folder` is the folder that was given, or a temporary one that is removed together with this object; save() copies
+    it. A pickled result contains the files if the folder is temporary, otherwise only the folder's name.
     """
 
     def __init__(self, scene: Scene, specimen: _core.Specimen | None, out: str | PathLike[str] | None,
@@ -77,7 +77,8 @@ class Result:
 
     @cached_property
     def table(self) -> pandas.DataFrame:
-        """For a cyclic test or a sweep one row per frequency: frequency_hz, e_star_pa [Pa], phase_deg and so on. For the
+        """For a cyclic test or a sweep one row per frequency: frequency_hz, e_star_pa [Pa], phase_deg and so on. For
+        the
         other tests one row per time: time_s and the measured quantities."""
         import pandas
         rows = self.summary["results"]
@@ -87,16 +88,16 @@ class Result:
 
     @cached_property
     def sensitivities(self) -> pandas.DataFrame:
-        """Change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm; empty if the scene does not ask
-        for sensitivities."""
+        """Change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm; empty if the scene does
+        not ask for sensitivities."""
         import pandas
         return pandas.DataFrame([{"frequency_hz": r["frequency_hz"], **s} for r in self.summary["results"]
                                  for s in r.get("sensitivities", [])])
 
     @cached_property
     def response(self) -> pandas.DataFrame:
-        """The samples of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Other tests have no samples beside
-        `table`."""
+        """The samples of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Other tests have no samples
+        beside `table`."""
         return self.csv("response.csv")
 
     @cached_property

@@ -81,8 +81,8 @@ class Scene(_core.Scene):
     overrides: values that replace the scene's own. `seed`, `backend`, `precision`, `method`, `linear`, `threads` and
     `device` are the command's options. Any other name is a key: a section with a dictionary of the values to change
     (`loading={"frequencies": [10]}`), or, in a dictionary, a dotted key (`**{"contacts.M-A.delta": 1.5}`).
-    file: for a dictionary, the name of the scene in messages; paths in the dictionary are relative to the folder of this
-    file. By default the name is "scene" and the folder is the working folder.
+    file: for a dictionary, the name of the scene in messages; paths in the dictionary are relative to the folder of
+    this file. By default the name is "scene" and the folder is the working folder.
 
     Raises InputError with the command's message. The message names the line in the file, unless a key is overridden.
     """

@@ -52,15 +52,17 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: S
 
     scene: a Scene, file or dictionary, or a Specimen, which is then used as it is.
     out: the folder of the results; a temporary one if it is not given.
-    specimen: a Specimen of the same scene, made before; or a dictionary with the changed keys of the section `specimen`.
+    specimen: a Specimen of the same scene, made before; or a dictionary with the changed keys of the section
+    `specimen`.
     resume: continue from the checkpoint that an interrupted run left in `out`.
     on_step: called after every `every` steps of a stepped test with a Step: its time [s], strain, stress_pa [Pa] …
     progress: called with the name of the current stage and the fraction of it that is done, 0 to 1.
     on_plan: called with the decisions before the first step; on_warning: called with each warning as soon as it occurs.
-    overrides: as for Scene, in SI units or text with a unit: `backend="cuda"`, `method="harmonic"`, `threads=4`, `loading={"cycles": 3}` …
+    overrides: as for Scene, in SI units or text with a unit: `backend="cuda"`, `method="harmonic"`, `threads=4`,
+    `loading={"cycles": 3}` …
 
-    Ctrl-C ends a stepped test with a checkpoint in `out` and raises KeyboardInterrupt, whose message says so. An exception
-    in a callback ends the test in the same way and is raised again.
+    Ctrl-C ends a stepped test with a checkpoint in `out` and raises KeyboardInterrupt, whose message says so. An
+    exception in a callback ends the test in the same way and is raised again.
     """
     given, made = _scene_and_specimen(scene, specimen, overrides)
     if overrides:
@@ -71,8 +73,8 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: S
 
 def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, Any], overrides: dict[str, Any],
           method: str = "harmonic", **call: Any) -> Result:
-    """Runs another test than the scene's own. loading: the new section [loading]. call: arguments for run(); `overrides` may
-    hold such arguments too."""
+    """Runs another test than the scene's own. loading: the new section [loading]. call: arguments for run();
+    `overrides` may hold such arguments too."""
     given, made = _scene_and_specimen(scene, specimen, overrides)
     tables = given.as_dict()
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}
@@ -166,7 +168,8 @@ def creep(scene: SceneLike, *, stress: Number, times: Sequence[Number], points_p
           platen_mass: Number | None = None, poisson_ratio: float | None = None, method: str = "harmonic",
           specimen: SpecimenLike | None = None, out: str | PathLike[str] | None = None,
           progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
-    """Computes the strain under a constant stress [Pa], which is removed at `release` [s]: `kind = "creep"` (docs/relaxation.md).
+    """Computes the strain under a constant stress [Pa], which is removed at `release` [s]: `kind = "creep"`
+    (docs/relaxation.md).
 
     platen_mass: mass of the loaded top wall [kg], for method "explicit".
     times, points_per_decade, points, ramp, poisson_ratio, method, overrides: as for relaxation().
@@ -182,7 +185,8 @@ def monotonic(scene: SceneLike, *, rate: Number, times: Sequence[Number] | None 
               poisson_ratio: float | None = None, method: str = "harmonic", specimen: SpecimenLike | None = None,
               out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
               **overrides: Any) -> Result:
-    """Computes the stress under a constant strain rate [1/s], tension positive: `kind = "monotonic"` (docs/relaxation.md).
+    """Computes the stress under a constant strain rate [1/s], tension positive: `kind = "monotonic"`
+    (docs/relaxation.md).
 
     strain: the strain at which the test ends, in place of times. points: number of evenly spaced times.
     times, points_per_decade, poisson_ratio, method, overrides: as for relaxation().

@@ -25,9 +25,9 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
              sections: Sequence[str] = (), progress: Progress | None = None) -> _core.Specimen:
     """Makes a scene's particles, their Laguerre cells and their contacts: `macadam specimen`.
 
-    particles: arrays that replace the scene's particles; the scene then needs no source of particles. `centre` [m] (n, 3),
-    `radius` [m] (n,), `phase` (0 aggregate, 1 mastic; if it is not given, all are mastic), `body` (number of the aggregate,
-    -1 for mastic), and `box` [m] (3,), if it differs from the scene's.
+    particles: arrays that replace the scene's particles; the scene then needs no source of particles. `centre` [m] (n,
+    3), `radius` [m] (n,), `phase` (0 aggregate, 1 mastic; if it is not given, all are mastic), `body` (number of the
+    aggregate, -1 for mastic), and `box` [m] (3,), if it differs from the scene's.
     out: a folder to write specimen.csv, aggregates.csv, summary.json and so on into, as the command does.
     sections: planes ("x=0.025", "z=40 mm") whose cross sections are written into `out`.
     progress: called with a stage and the fraction of it that is done, 0 to 1.
@@ -52,8 +52,8 @@ def _of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str],
 
 
 def _scene_of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], box: ArrayLike | None) -> Scene:
-    """Returns the scene with the given particles as its source. The mixture is removed, because it does not describe these
-    particles; the densities of a recipe are kept."""
+    """Returns the scene with the given particles as its source. The mixture is removed, because it does not describe
+    these particles; the densities of a recipe are kept."""
     name, tables, options = tables_of(scene)
     section = tables.get("specimen", {})
     if "recipe" in section:  # the densities of aggregate and mastic follow from the recipe, which is removed below

@@ -38,17 +38,17 @@ def _surface(of: SurfaceLike) -> Surface:
 
 
 def check(surface: SurfaceLike) -> Verdict:
-    """Finds the faults of a surface and where they are. str() of the Verdict describes them; bool() is true if the surface is
-    good."""
+    """Finds the faults of a surface and where they are. str() of the Verdict describes them; bool() is true if the
+    surface is good."""
     return _core.check_surface(_surface(surface))
 
 
 def repair(surface: SurfaceLike, *, wrap: bool = False) -> tuple[Surface, str]:
-    """Returns a repaired surface that can be measured and filled, and a text that says what was done, with volume and area
-    before and after.
+    """Returns a repaired surface that can be measured and filled, and a text that says what was done, with volume and
+    area before and after.
 
-    wrap: accept a new skin around a faulty surface even if it changes volume or area by more than 1 %. Raises RunError if no
-    repair succeeds, or if a change of more than 1 % is not accepted.
+    wrap: accept a new skin around a faulty surface even if it changes volume or area by more than 1 %. Raises RunError
+    if no repair succeeds, or if a change of more than 1 % is not accepted.
     """
     return _core.repair_surface(_surface(surface), wrap)
 
@@ -105,8 +105,8 @@ def fill(surface: SurfaceLike, radius: float | tuple[float, float], *, porosity:
 
 def generate(out: str | PathLike[str] | None = None, *, seed: int = 1, count: int = 82,
              icosahedron: float | None = None) -> list[Surface]:
-    """Generates crushed aggregates with the statistics of the library that ships or, if `icosahedron` is given, the subdivided
-    icosahedron of this radius [m]. out: a folder for OFF files, which must not contain other shapes."""
+    """Generates crushed aggregates with the statistics of the library that ships or, if `icosahedron` is given, the
+    subdivided icosahedron of this radius [m]. out: a folder for OFF files, which must not contain other shapes."""
     shapes = _core.generate_shape_library(seed, count) if icosahedron is None else [_core.subdivided_icosahedron(icosahedron)]
     if out is not None:
         _core.write_shape_library(fspath(out), shapes)

@@ -37,7 +37,8 @@ ENVIRONMENT = {
 
 
 def command(line: str) -> list[str]:
-    """Returns the arguments that run a line of the documents, `macadam report …`. The program passes it on to this Python."""
+    """Returns the arguments that run a line of the documents, `macadam report …`. The program passes it on to this
+    Python."""
     words = shlex.split(line)
     assert words[0] == "macadam"
     return [str(PROGRAM), *words[1:]]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Starts a Slurm cluster that consists of this machine alone, from Debian's slurmctld, slurmd and munge. All its files are in one
-folder."""
+"""Starts a Slurm cluster that consists of this machine alone, from Debian's slurmctld, slurmd and munge. All its files
+are in one folder."""
 
 from __future__ import annotations
 
@@ -62,8 +62,8 @@ def _free_port() -> int:
 
 @contextlib.contextmanager
 def cluster(folder: Path) -> Iterator[dict[str, str]]:
-    """A context with a running cluster; yields the environment in which sbatch finds it. Raises RuntimeError with the logs if the
-    cluster does not start."""
+    """A context with a running cluster; yields the environment in which sbatch finds it. Raises RuntimeError with the
+    logs if the cluster does not start."""
     host = socket.gethostname().split(".")[0]
     (folder / "state").mkdir(parents=True)
     (folder / "spool").mkdir()
@@ -122,7 +122,8 @@ def _said(environment: dict[str, str], *command: str) -> str:
 
 
 def _wait(folder: Path, running: list[subprocess.Popen], ready: Callable[[], bool]) -> None:
-    """Returns when ready() is true. Raises RuntimeError with the logs if a daemon ends before, or after _LONG seconds."""
+    """Returns when ready() is true. Raises RuntimeError with the logs if a daemon ends before, or after _LONG
+    seconds."""
     end = time.monotonic() + _LONG
     while time.monotonic() < end and all(p.poll() is None for p in running):
         if ready():

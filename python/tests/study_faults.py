@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Helpers for the tests of studies: a stand-in for the program macadam, which is quick and logs its runs, and the scene that it
-reads."""
+"""Helpers for the tests of studies: a stand-in for the program macadam, which is quick and logs its runs, and the scene
+that it reads."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from pathlib import Path
 
 import report_folders
 
-# The stand-in's result: |E*| in GPa is the scene's delta, the phase angle is ten degrees. It writes a line to LOG at each start
-# and each end. Delta 13 fails with a message, delta 17 kills the program.
+# The stand-in's result: |E*| in GPa is the scene's delta, the phase angle is ten degrees. It writes a line to LOG at
+# each start and each end. Delta 13 fails with a message, delta 17 kills the program.
 _PROGRAM = """#!/bin/sh
 case $1 in
   --version) echo "macadam stand-in VERSION"; exit ;;
@@ -39,7 +39,8 @@ _WAIT = 'case $value in 1.0) ;; *) [ -e "FILE" ] || exec sleep 3600 ;; esac  # u
 def stand_in(
     folder: Path, pause: float = 0.0, version: str = "1", real: str = "", go: Path | None = None
 ) -> tuple[str, Path]:
-    """Writes the stand-in and returns its path and that of its log. real: values that end with this text are computed by macadam
+    """Writes the stand-in and returns its path and that of its log. real: values that end with this text are computed
+    by macadam
     itself. go: until this file exists, runs with values other than 1 never end."""
     log = folder / "log"
     lines = _REAL.replace("REAL", real).replace("PROGRAM", str(report_folders.PROGRAM)) if real else ""

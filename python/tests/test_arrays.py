@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays as arguments: every kind that NumPy reads is accepted, and a wrong shape raises an InputError that names the argument."""
+"""Arrays as arguments: every kind that NumPy reads is accepted, and a wrong shape raises an InputError that names the
+argument."""
 import numpy as np
 import pandas as pd
 import pytest
@@ -60,8 +61,8 @@ def test_what_is_missing_is_named(scene):
 
 
 def refusals(specimen):
-    """Returns calls of all other functions that take an array, each with an array of wrong shape, and the beginning of the
-    expected message."""
+    """Returns calls of all other functions that take an array, each with an array of wrong shape, and the beginning of
+    the expected message."""
     stepper = mc.Stepper(specimen, mc.Boundary(), backend="cpu")
     n, state = len(specimen), stepper.state()
     name = next(iter(state))

@@ -19,8 +19,8 @@ LONG = {"loading.frequencies": [0.5], "solver.tolerance": None, "solver.density_
 
 
 def interrupted(work, said, tmp_path):
-    """Runs `work` in another Python process, which prints `ready` and then gets Ctrl-C. Returns the process's output and the
-    seconds until it ended."""
+    """Runs `work` in another Python process, which prints `ready` and then gets Ctrl-C. Returns the process's output
+    and the seconds until it ended."""
     code = "import macadam as mc, numpy as np, sys\n" + textwrap.dedent(work)
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                              cwd=tmp_path, env={**os.environ, "PYTHONUNBUFFERED": "1"})

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands on the documentation pages. Those of the start page, the how-tos and the tutorial are run as a reader types them, in
-order. For every other command, and for those that a page marks `<!-- not run: REASON -->`, the test checks that the program knows
-the subcommand and all options."""
+"""Commands on the documentation pages. Those of the start page, the how-tos and the tutorial are run as a reader types
+them, in order. For every other command, and for those that a page marks `<!-- not run: REASON -->`, the test checks
+that the program knows the subcommand and all options."""
 import json
 import os
 import re
@@ -36,7 +36,8 @@ COMMANDS = [pytest.param(line, id=f"{page.relative_to(ROOT)}:{number}") for page
 
 @cache
 def options(command):
-    """Returns the options that a command's help lists. For commands written in Python it is the help of their parser."""
+    """Returns the options that a command's help lists. For commands written in Python it is the help of their
+    parser."""
     words = [sys.executable, "-m", f"macadam.{command[0]}"] if command[0] in ("report", "study") else [PROGRAM, *command]
     told = subprocess.run([*words, "--help"], capture_output=True, text=True, timeout=60)
     assert told.returncode == 0, f"{' '.join(command)} --help: {told.stderr}"
@@ -62,8 +63,8 @@ INLINE = re.compile(r"`(--[a-z][\w-]*) ([^`]+)`")  # an option with a value in a
 
 
 def not_run(page):
-    """Yields the commands of a page's blocks that are not run; and each of them with every option for which a sentence of the page
-    gives a value."""
+    """Yields the commands of a page's blocks that are not run; and each of them with every option for which a sentence
+    of the page gives a value."""
     text = page.read_text(encoding="utf-8")
     commands = [line for kind, _, language, code in FENCE.findall(text) if kind == "not run" and language == "sh"
                 for line in code.replace("\\\n", " ").splitlines() if line.startswith("macadam ")]

@@ -70,7 +70,8 @@ def test_a_calibration_finds_what_was_there(scene, small_file, lab, tmp_path, pr
 
 
 def test_results_are_targets_and_data(specimen, scene, tmp_path):
-    """Result.table can be given unchanged, although it has columns of numbers and words that a laboratory does not have."""
+    """Result.table can be given unchanged, although it has columns of numbers and words that a laboratory does not
+    have."""
     found = mc.harmonic(specimen, hz=[2, 5, 20, 50], **{"contacts.M-A.delta": 1.3})
     assert not {"frequency_hz", "e_star_pa", "phase_deg"} >= set(found.table.columns)
     law = mc.fit(found.table, units=1)

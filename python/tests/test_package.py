@@ -85,7 +85,8 @@ def fake(tmp_path, name):
 
 @pytest.mark.parametrize("name", ["report", "study"])
 def test_the_program_hands_on_what_is_python(name, tmp_path, program):
-    """A program without a package beside it starts the Python that MACADAM_PYTHON names, and passes on all arguments."""
+    """A program without a package beside it starts the Python that MACADAM_PYTHON names, and passes on all
+    arguments."""
     alone = tmp_path / "bin" / "macadam"
     alone.parent.mkdir()
     alone.symlink_to(program)  # /proc/self/exe is the real file, beside which the program finds its own package

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reports: the page of every kind of result folder shows the folder's contents; a wrong folder raises an error that names it."""
+"""Reports: the page of every kind of result folder shows the folder's contents; a wrong folder raises an error that
+names it."""
 
 from __future__ import annotations
 
@@ -81,8 +82,8 @@ def test_every_kind_of_folder(kind: str, tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_cells_of_a_plane_are_those_of_least_power_distance() -> None:
-    """Compares with a search over all particles at every point. The cases include very large spheres, and gaps far from any
-    sphere."""
+    """Compares with a search over all particles at every point. The cases include very large spheres, and gaps far from
+    any sphere."""
     draw = np.random.default_rng(5)
     for number, least, most in ((300, 0.4, 0.6), (40, 0.01, 3.0), (3, 0.1, 0.2)):
         centre = draw.uniform([0, 0, -5], [10, 12, 5], (number, 3))
@@ -225,7 +226,8 @@ def test_other_wrong_requests(tmp_path: Path, capsys) -> None:
 
 
 def test_commands_of_the_page(tmp_path: Path, no_pictures) -> None:
-    """Runs every command and every line of Python of docs/report.md, in a folder with results of the names used there."""
+    """Runs every command and every line of Python of docs/report.md, in a folder with results of the names used
+    there."""
     page = (ROOT / "docs/report.md").read_text(encoding="utf-8")
     shutil.copytree(make("stepped"), tmp_path / "results/demo")
     shutil.copytree(make("harmonic"), tmp_path / "results/harmonic")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures and first sentences of a report: the requested frame, one colour per size class, the scene's name, the result."""
+"""Pictures and first sentences of a report: the requested frame, one colour per size class, the scene's name, the
+result."""
 
 from __future__ import annotations
 

@@ -117,8 +117,8 @@ def test_pulses_and_what_drives_say_of_themselves(specimen, dt):
 
 
 def test_stresses_of_cells_are_those_of_the_whole(specimen, dt):
-    """The volume-weighted sum of the cells' stresses equals the stress on the walls, exactly so in equilibrium, when no momentum
-    is left."""
+    """The volume-weighted sum of the cells' stresses equals the stress on the walls, exactly so in equilibrium, when no
+    momentum is left."""
     ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=200)
     stepping = stepper(specimen, ramp, damping_kind="viscous", damping=0.05 / dt)
     stepping.advance(3000)

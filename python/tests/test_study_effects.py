@@ -58,8 +58,8 @@ def rows_of(change: float, offs: dict[int, float], b: tuple[str, ...] = ("x",)) 
 
 @pytest.mark.parametrize("change, within", [(0.2, True), (0.45, True), (0.47, False), (2.0, False)])
 def test_an_effect_within_the_scatter_of_seeds_is_told(change: float, within: bool, tmp_path: Path) -> None:
-    """Three seeds of each binder with a standard deviation of 0.2 GPa have 4 degrees of freedom, so t = 2.776, and the half
-    interval of the change is 0.2 GPa sqrt(2/3) t = 0.453 GPa."""
+    """Three seeds of each binder with a standard deviation of 0.2 GPa have 4 degrees of freedom, so t = 2.776, and the
+    half interval of the change is 0.2 GPa sqrt(2/3) t = 0.453 GPa."""
     design = asked(grid={"binder": [0, 1], "seed": [1, 2, 3]})
     (quantity,) = quantities(rows_of(change, {1: -0.2, 2: 0.0, 3: 0.2}), design)
     (effect,) = effects(quantity)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Damaged study files are either read or refused with a StudyError; there is no other exception and no endless loop. The changes
-are random with fixed seeds; a fuzzer for Python, as libFuzzer is for C++, would be one more package to install."""
+"""Damaged study files are either read or refused with a StudyError; there is no other exception and no endless loop.
+The changes are random with fixed seeds; a fuzzer for Python, as libFuzzer is for C++, would be one more package to
+install."""
 
 from __future__ import annotations
 

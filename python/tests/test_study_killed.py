@@ -66,7 +66,8 @@ def killed(process: psutil.Process) -> bool:
 
 
 def published(out: Path) -> dict[str, tuple[int, int]]:
-    """Returns the existing results with inode and time of their records, which would change if a result were computed again."""
+    """Returns the existing results with inode and time of their records, which would change if a result were computed
+    again."""
     there = {}
     for result in (out / "results").glob("*"):
         state = (result / "study.json").stat()
@@ -133,8 +134,8 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
 
 
 def test_a_manager_that_waits_for_ever_ends_with_its_study() -> None:
-    """A worker that is killed while it holds the queue of results leaves a manager that waits forever. Here a program that only
-    waits takes the manager's place."""
+    """A worker that is killed while it holds the queue of results leaves a manager that waits forever. Here a program
+    that only waits takes the manager's place."""
     study = subprocess.Popen(["sleep", "3600"])
     line = [sys.executable, "-m", "macadam.study.manager", str(study.pid), "1", "sleep", "3600"]
     manager = subprocess.Popen(line, env=ENVIRONMENT)

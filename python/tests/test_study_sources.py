@@ -182,8 +182,8 @@ def test_the_command_refuses_with_exit_2(folder: Path, monkeypatch, capsys) -> N
 
 
 def test_equal_points_have_a_row_each_and_are_told(folder: Path, monkeypatch, capsys) -> None:
-    """Two points with the same scene are computed once and have two rows. A point with the same values has no second row. Both
-    are reported."""
+    """Two points with the same scene are computed once and have two rows. A point with the same values has no second
+    row. Both are reported."""
     scene(folder)
     program, log = stand_in(folder)
     monkeypatch.setenv("MACADAM_PROGRAM", program)

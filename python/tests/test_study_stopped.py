@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies that are stopped by a signal: they end, leave no process, and write table and report of the results so far."""
+"""Studies that are stopped by a signal: they end, leave no process, and write table and report of the results so
+far."""
 
 from __future__ import annotations
 

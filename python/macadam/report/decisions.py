@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report on the run: the program's decisions and skips with their reasons, its warnings, wall times, version
-and machine."""
+"""Sections of the report on the run: the program's decisions and skips with their reasons, its warnings, wall times,
+version and machine."""
 
 from __future__ import annotations
 

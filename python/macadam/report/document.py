@@ -28,8 +28,9 @@ _KINDS = {
 def report(dirs: str | Path | Iterable[str | Path], out: str | Path, title: str | None = None) -> Path:
     """Writes one self-contained HTML file about the contents of the result folders.
 
-    dirs: one folder, or several, which are shown side by side. out: the file; its folder is made if needed. title: title of
-    the page. Returns the file. Raises ReportError if a folder is not a results folder, or a file in it cannot be read."""
+    dirs: one folder, or several, which are shown side by side. out: the file; its folder is made if needed. title:
+    title of the page. Returns the file. Raises ReportError if a folder is not a results folder, or a file in it cannot
+    be read."""
     folders = read_all([dirs] if isinstance(dirs, (str, Path)) else list(dirs))
     with look.style():
         page = _page(folders)
@@ -57,8 +58,8 @@ def _page(folders: list[Folder]) -> Page:
 
 
 def write(page: Page, out: str | Path, title: str, subtitle: str) -> Path:
-    """Writes the page to a file and returns the file. After an error there is no incomplete file. Raises ReportError if `out`
-    is a folder."""
+    """Writes the page to a file and returns the file. After an error there is no incomplete file. Raises ReportError if
+    `out` is a folder."""
     out = Path(out)
     if out.is_dir():
         raise ReportError(f"{out}: found a folder, expected the name of a file to write")
@@ -88,8 +89,8 @@ def _title(folders: list[Folder]) -> str:
 
 
 def _name(folder: Folder) -> str:
-    """Returns the name of the scene's file, or of its folder if the file is called scene.toml. If the folder has no scene,
-    returns its label."""
+    """Returns the name of the scene's file, or of its folder if the file is called scene.toml. If the folder has no
+    scene, returns its label."""
     scene = Path(str(folder.summary.get("scene") or ""))
     name = scene.parent.name if scene.stem == "scene" else scene.stem
     return name or folder.label

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws pictures of field files (docs/fields.md) with PyVista, without a screen: particles as spheres, contacts as tubes, cells
-as polygons."""
+"""Draws pictures of field files (docs/fields.md) with PyVista, without a screen: particles as spheres, contacts as
+tubes, cells as polygons."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ from macadam.report.page import Page
 
 MOST = 4  # largest number of folders whose fields are drawn
 STRONGEST = 0.06  # fraction of the contacts that is drawn, those with the largest forces
-# by kind of file: names of arrays, the first of which that the file has is drawn; factor of its numbers; its label with unit
+# by kind of file: names of arrays, the first of which that the file has is drawn; factor of its numbers; its label with
+# unit
 _SHOWN = {
     "particles": (("displacement_amplitude", "displacement"), 1e6, "displacement (µm)"),
     "contacts": (("normal_force_amplitude", "normal_force"), 1.0, "normal force (N)"),
@@ -28,7 +29,8 @@ _SHOWN = {
 
 
 def add(page: Page, folders: list[Folder]) -> None:
-    """Adds pictures of particles and contacts for each run that wrote fields, at its first frequency or its last time."""
+    """Adds pictures of particles and contacts for each run that wrote fields, at its first frequency or its last
+    time."""
     found = [(f, _files(f)) for f in folders if f.kind == "run"]
     found = [(f, files) for f, files in found if files]
     if not found:
@@ -59,8 +61,8 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def cannot_draw() -> str:
-    """Returns why pictures of fields cannot be drawn on this machine; empty if they can. This is tried in a separate process,
-    because VTK ends the process if no OpenGL library can draw without a screen."""
+    """Returns why pictures of fields cannot be drawn on this machine; empty if they can. This is tried in a separate
+    process, because VTK ends the process if no OpenGL library can draw without a screen."""
     if importlib.util.find_spec("pyvista") is None:
         return "the Python package PyVista is not installed"
     line = "import pyvista as p; t = p.Plotter(off_screen=True); t.add_mesh(p.Cube()); t.screenshot(return_img=True)"
@@ -72,8 +74,8 @@ def cannot_draw() -> str:
 
 
 def _files(folder: Folder) -> dict[str, Path]:
-    """Returns one file of particles and one of contacts, by kind: those of the lowest frequency, and of a series of .vtp files
-    the last frame."""
+    """Returns one file of particles and one of contacts, by kind: those of the lowest frequency, and of a series of
+    .vtp files the last frame."""
     chosen = {}
     for kind in _SHOWN:
         files = [p for end in ("vtkhdf", "vtp") for p in (folder.path / "fields").glob(f"{kind}*.{end}")]
@@ -104,10 +106,12 @@ def figure(
     limits: tuple[float, float] | None = None,
     size: tuple[float, float] = (look.WIDE / 2, 3.3),
 ) -> tuple[Any, str]:
-    """Returns a matplotlib figure of a .vtkhdf or .vtp file, coloured by an array, and a sentence that says what it shows.
+    """Returns a matplotlib figure of a .vtkhdf or .vtp file, coloured by an array, and a sentence that says what it
+    shows.
 
-    names: name of the array; if several are given, the first that the file has. Vectors are shown by their length. factor:
-    multiplies the numbers, 1e6 for micrometres. frame: number of the frame in a file with time, from 0, or negative from the
+    names: name of the array; if several are given, the first that the file has. Vectors are shown by their length.
+    factor: multiplies the numbers, 1e6 for micrometres. frame: number of the frame in a file with time, from 0, or
+    negative from the
     end. half: leave out everything in front of the middle of the box. least: leave out everything with a smaller value.
     strongest: draw only this fraction, that with the largest values. limits: range of the colours. size: [inches]."""
     data = _read(Path(file), frame)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report on results of `macadam calibrate` and `macadam fit`: the parameters found, and measured and predicted
-moduli in one picture."""
+"""Sections of the report on results of `macadam calibrate` and `macadam fit`: the parameters found, and measured and
+predicted moduli in one picture."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads result folders of macadam: the kind of a folder, its summary, and its tables, which are read when they are used."""
+"""Reads result folders of macadam: the kind of a folder, its summary, and its tables, which are read when they are
+used."""
 
 from __future__ import annotations
 
@@ -31,8 +32,8 @@ class ReportError(ValueError):
 
 @dataclass
 class Folder:
-    """One result folder. `label` is its name in the report, different from those of the others; `colour` is the colour of its
-    curves."""
+    """One result folder. `label` is its name in the report, different from those of the others; `colour` is the colour
+    of its curves."""
 
     path: Path
     kind: str
@@ -44,8 +45,8 @@ class Folder:
         return (self.path / name).is_file()
 
     def table(self, name: str, columns: list[str]) -> pd.DataFrame:
-        """Reads a CSV file of the folder without its lines that begin with #. Raises ReportError if a column is missing or the
-        table has no rows."""
+        """Reads a CSV file of the folder without its lines that begin with #. Raises ReportError if a column is missing
+        or the table has no rows."""
         file = self.path / name
         try:
             table = pd.read_csv(file, comment="#")
@@ -79,7 +80,8 @@ class Folder:
 
     @cached_property
     def of_study(self) -> dict[str, Any]:
-        """The data that a study added to the result: values of its factors, machine; empty if it is not a study's result."""
+        """The data that a study added to the result: values of its factors, machine; empty if it is not a study's
+        result."""
         return _json(self.path / "study.json") if self.has("study.json") else {}
 
     @property
@@ -125,8 +127,8 @@ def read(path: str | Path) -> Folder:
 
 
 def read_all(paths: list[str | Path]) -> list[Folder]:
-    """Reads the folders and gives each a colour and a label. Labels are the ends of the paths, as short as possible and all
-    different."""
+    """Reads the folders and gives each a colour and a label. Labels are the ends of the paths, as short as possible and
+    all different."""
     if not paths:
         raise ReportError("no result folder given")
     folders = [read(path) for path in paths]

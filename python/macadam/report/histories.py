@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report on tests in time (relaxation, creep with recovery, constant strain rate) and on the mixture's Prony
-series."""
+"""Sections of the report on tests in time (relaxation, creep with recovery, constant strain rate) and on the mixture's
+Prony series."""
 
 from __future__ import annotations
 
@@ -38,14 +38,16 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def _points(folder: Folder, *keys: str) -> list[np.ndarray]:
-    """Returns columns of the test's points. A value that a point does not have (a compliance after the release) is NaN."""
+    """Returns columns of the test's points. A value that a point does not have (a compliance after the release) is
+    NaN."""
     return [
         np.array([float("nan") if p[k] is None else float(p[k]) for p in folder.in_time["points"]]) for k in keys
     ]
 
 
 def _errors(folder: Folder) -> np.ndarray:
-    """Returns the relative error of each point: the point's own error in a stepped test, otherwise the error of the test."""
+    """Returns the relative error of each point: the point's own error in a stepped test, otherwise the error of the
+    test."""
     whole = folder.in_time.get("error") or 0
     errors = np.array([float(p.get("error") or whole) for p in folder.in_time["points"]])
     if folder.in_time.get("rupture"):
@@ -80,8 +82,8 @@ def _axes(found: list[Folder], columns: int = 2) -> tuple[Any, Any]:
 
 
 def _finish(figure: Any, first: Any, found: list[Folder], along: list[Any], up: list[Any]) -> None:
-    """Makes axes logarithmic if their numbers cover a wide range: times (`along`) more than a factor of 30, moduli (`up`) more
-    than a factor of four. Adds a legend if there are several folders."""
+    """Makes axes logarithmic if their numbers cover a wide range: times (`along`) more than a factor of 30, moduli
+    (`up`) more than a factor of four. Adds a legend if there are several folders."""
     times = np.concatenate([_points(f, "time_s")[0] for f in found])
     if times.min() > 0 and times.max() > 30 * times.min():
         for axes in along:

@@ -58,7 +58,8 @@ _RC = {
 
 
 def style() -> Any:
-    """Returns a context manager in which figures have the report's look. It restores matplotlib's settings at its end."""
+    """Returns a context manager in which figures have the report's look. It restores matplotlib's settings at its
+    end."""
     return matplotlib.rc_context(_RC)
 
 
@@ -69,8 +70,8 @@ def figure(width: float, height: float, rows: int = 1, columns: int = 1, **more:
 
 
 def embed(made, raster: bool = False) -> str:
-    """Returns the figure as a data URL, which contains the whole picture: as SVG, or as PNG (raster) for figures with very many
-    parts."""
+    """Returns the figure as a data URL, which contains the whole picture: as SVG, or as PNG (raster) for figures with
+    very many parts."""
     data = io.BytesIO()
     form = "png" if raster else "svg"
     made.savefig(data, format=form, metadata={} if raster else {"Date": None})
@@ -91,8 +92,8 @@ def modulus(value: float) -> str:
 
 
 def number(value: Any, digits: int = 4) -> str:
-    """Returns a number as readable text: `digits` significant digits, thousands separated by commas, a true minus sign; an en
-    dash if there is no number."""
+    """Returns a number as readable text: `digits` significant digits, thousands separated by commas, a true minus sign;
+    an en dash if there is no number."""
     if value is None or isinstance(value, float) and math.isnan(value):
         return "–"
     if isinstance(value, bool):

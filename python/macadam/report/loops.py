@@ -54,7 +54,8 @@ def _stepped(folder: Folder) -> tuple[Any, str]:
 
 
 def _from_moduli(folder: Folder) -> tuple[Any, str]:
-    """Draws the ellipses that follow from |E*| and the phase angle for a strain of amplitude one. Returns figure and caption."""
+    """Draws the ellipses that follow from |E*| and the phase angle for a strain of amplitude one. Returns figure and
+    caption."""
     warm = sorted({r.get("temperature_c") for r in folder.by_frequency}, key=lambda t: -1e9 if t is None else t)
     shown = warm[len(warm) // 2]
     rows = sorted((r for r in folder.by_frequency if r.get("temperature_c") == shown), key=lambda r: r["frequency_hz"])

@@ -116,8 +116,8 @@ def _composition(page: Page, folders: list[Folder]) -> None:
 
 
 def _from_coarse_to_fine(names: Iterable[str]) -> list[str]:
-    """Returns the classes of several mixes, the coarsest first. Classes without sizes, such as mastic, follow in the given
-    order."""
+    """Returns the classes of several mixes, the coarsest first. Classes without sizes, such as mastic, follow in the
+    given order."""
     return sorted(names, key=lambda name: -float(sizes[2]) if (sizes := SIZES.match(name)) else 0.0)
 
 
@@ -155,7 +155,8 @@ def _gradation(folder: Folder) -> Any:
 
 
 def _between_sieves(folder: Folder, recipe: dict[str, Any], at_cut: float) -> tuple[np.ndarray, np.ndarray]:
-    """Returns sizes [m] and the fraction of the aggregate's mass that passes each, one step per aggregate above the cut.
+    """Returns sizes [m] and the fraction of the aggregate's mass that passes each, one step per aggregate above the
+    cut.
     at_cut: the fraction that passes at the cut."""
     density = {c["class"]: float(c["density"]) for c in recipe["classes"]}
     grains = folder.aggregates.sort_values("size")

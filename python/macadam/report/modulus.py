@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section of the report on |E*| and phase angle over frequency: table, curves with error bars, Cole–Cole and black diagram."""
+"""Section of the report on |E*| and phase angle over frequency: table, curves with error bars, Cole–Cole and black
+diagram."""
 
 from __future__ import annotations
 
@@ -19,8 +20,8 @@ _OF_SEEDS = {"color": "black", "marker": "_", "lw": 0.9, "ms": 6, "zorder": 3}
 
 @dataclass
 class Curve:
-    """The results of one folder at one temperature: frequencies [Hz], |E*| [Pa], phase [degrees], their errors (relative and in
-    degrees)."""
+    """The results of one folder at one temperature: frequencies [Hz], |E*| [Pa], phase [degrees], their errors
+    (relative and in degrees)."""
 
     folder: Folder
     temperature: float | None
@@ -86,9 +87,9 @@ def curves(folders: list[Folder]) -> list[Curve]:
 
 
 def error(result: dict[str, Any]) -> tuple[float, float]:
-    """Returns the known error of a result: of |E*| (relative) and of the phase (degrees); NaN if it is unknown. For a stepped
-    result it is the difference from the harmonic solution, for a harmonic result the difference between the reactions of the
-    two walls, which are equal in exact equilibrium."""
+    """Returns the known error of a result: of |E*| (relative) and of the phase (degrees); NaN if it is unknown. For a
+    stepped result it is the difference from the harmonic solution, for a harmonic result the difference between the
+    reactions of the two walls, which are equal in exact equilibrium."""
     known = result.get("difference_from_harmonic") or result.get("predicted_error")
     if known and known.get("e_star") is not None:
         return abs(known["e_star"]), float(np.degrees(abs(known.get("phase_rad") or 0)))
@@ -101,7 +102,8 @@ def error(result: dict[str, Any]) -> tuple[float, float]:
 
 
 def decades(axis: Any, most: int = 9) -> None:
-    """Labels a logarithmic axis with at most `most` plain numbers; if it covers few decades, also between the decades."""
+    """Labels a logarithmic axis with at most `most` plain numbers; if it covers few decades, also between the
+    decades."""
     low, high = sorted(axis.get_view_interval())
     few = np.log10(high / low) < 2.2
     axis.set_major_locator(LogLocator(base=10, subs=(1, 2, 5) if few else (1,), numticks=most))

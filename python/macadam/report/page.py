@@ -41,7 +41,8 @@ class Page:
         self._add(f"<h3>{escape(words)}</h3>")
 
     def figure(self, made: Any, caption: str, alt: str, third: bool = False, raster: bool = False) -> None:
-        """Adds a matplotlib figure with a numbered caption. third: a third of the width, so that three consecutive figures stand
+        """Adds a matplotlib figure with a numbered caption. third: a third of the width, so that three consecutive
+        figures stand
         side by side. raster: embed as PNG."""
         width, height = made.get_size_inches()
         share = 100 if third else round(100 * width / look.WIDE)
@@ -84,8 +85,8 @@ class Page:
         )
 
     def columns(self, blocks: Sequence[tuple[str, str, str]]) -> None:
-        """Adds blocks side by side: title, colour, and HTML that is already escaped. A single block gets no title, unless the
-        page has several folders."""
+        """Adds blocks side by side: title, colour, and HTML that is already escaped. A single block gets no title,
+        unless the page has several folders."""
         if len(blocks) == 1 and not self.several:
             self._add(f'<div class="block">{blocks[0][2]}</div>')
             return

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report on results of `macadam ct` and `macadam shapes measure`: grains of a scan, twins, phantoms, shapes of a
-library."""
+"""Sections of the report on results of `macadam ct` and `macadam shapes measure`: grains of a scan, twins, phantoms,
+shapes of a library."""
 
 from __future__ import annotations
 

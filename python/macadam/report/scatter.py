@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Computes the scatter between specimens of one mix: mean and standard deviation over runs of one scene with several seeds."""
+"""Computes the scatter between specimens of one mix: mean and standard deviation over runs of one scene with several
+seeds."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ class Seeds:
 
 
 def scatter(curves: list[Curve]) -> list[Seeds]:
-    """Returns one entry for each scene, method and temperature that was run with two seeds or more at the same frequencies."""
+    """Returns one entry for each scene, method and temperature that was run with two seeds or more at the same
+    frequencies."""
     groups: dict[tuple, list[Curve]] = {}
     for c in curves:
         s = c.folder.summary

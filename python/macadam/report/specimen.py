@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section of the report with pictures of the specimen: the block as if sawn, a cross section, and the aggregates. Cells are
-Laguerre cells."""
+"""Section of the report with pictures of the specimen: the block as if sawn, a cross section, and the aggregates. Cells
+are Laguerre cells."""
 
 from __future__ import annotations
 
@@ -70,8 +70,8 @@ def class_colours(folders: list[Folder]) -> dict[str, str]:
 
 
 def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
-    """Returns a function from rows of specimen.csv to colours: mastic dark, air white, aggregates by size class, each a little
-    lighter or darker."""
+    """Returns a function from rows of specimen.csv to colours: mastic dark, air white, aggregates by size class, each a
+    little lighter or darker."""
     s = folder.specimen
     body = s["body"].to_numpy(int)
     colour = np.tile(to_rgb(look.MASTIC), (len(s), 1))
@@ -102,12 +102,12 @@ def _legend_words(folder: Folder) -> str:
 
 
 def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
-    """Returns the particle whose Laguerre cell contains each point (u, v) of a grid in a plane, one row per v: the particle
-    with the least power distance |x − c|² − r². centre: (n, 3), u, v and the distance from the plane; metres.
+    """Returns the particle whose Laguerre cell contains each point (u, v) of a grid in a plane, one row per v: the
+    particle with the least power distance |x − c|² − r². centre: (n, 3), u, v and the distance from the plane; metres.
 
-    A sphere's power distance is below a bound only within √(bound + r²) of its centre. So each sphere is compared only with
-    the points within that distance. If no sphere is below the bound at some point, everything is repeated with a bound four
-    times as large."""
+    A sphere's power distance is below a bound only within √(bound + r²) of its centre. So each sphere is compared only
+    with the points within that distance. If no sphere is below the bound at some point, everything is repeated with a
+    bound four times as large."""
     own = radius**2 - centre[:, 2] ** 2
     bound = 0.25 * float(np.median(radius)) ** 2
     while True:
@@ -128,8 +128,8 @@ def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarra
 
 
 def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Paint) -> np.ndarray:
-    """Returns the picture of the cells in the plane axis = value. Columns and rows are the two other axes in their order, from
-    low to high."""
+    """Returns the picture of the cells in the plane axis = value. Columns and rows are the two other axes in their
+    order, from low to high."""
     u, v = [k for k in range(3) if k != axis]
     step = box.max() / PIXELS
     nu, nv = max(1, round(box[u] / step)), max(1, round(box[v] / step))
@@ -146,8 +146,8 @@ def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pain
 
 
 def _section(folder: Folder, box: np.ndarray, paint: Paint, of_class: dict[str, str]) -> tuple[Any, str]:
-    """Draws the first cross section that the program wrote or, if it wrote none, one through the middle. Returns figure and
-    caption."""
+    """Draws the first cross section that the program wrote or, if it wrote none, one through the middle. Returns figure
+    and caption."""
     written = sorted(folder.path.glob("section_*.csv"))
     figure, axes = look.figure(look.THIRD, HEIGHT)
     axes.grid(False)
@@ -198,8 +198,8 @@ def _view() -> np.ndarray:
 
 
 def _block(folder: Folder, box: np.ndarray, paint: Paint) -> Any:
-    """Draws the block that is left after the fraction SAWN is removed from the three visible sides: three pictures of cells,
-    each sheared to the view, in the outline of the box."""
+    """Draws the block that is left after the fraction SAWN is removed from the three visible sides: three pictures of
+    cells, each sheared to the view, in the outline of the box."""
     turn = _view()
     corners = np.array(list(product(*([0, e] for e in box)))) @ turn.T
     low, high = corners.min(axis=0), corners.max(axis=0)

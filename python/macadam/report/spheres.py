@@ -13,8 +13,8 @@ from matplotlib.collections import EllipseCollection, LineCollection
 
 from macadam.report import look
 
-# A sphere is drawn as several circles, which together look round. Each has its radius and its shift towards the light, both
-# in radii of the sphere, and its brightness.
+# A sphere is drawn as several circles, which together look round. Each has its radius and its shift towards the light,
+# both in radii of the sphere, and its brightness.
 _SHADES = [(1.0, 0.0, 0.42), (0.955, 0.02, 0.72), (0.82, 0.10, 0.86), (0.62, 0.20, 0.97), (0.36, 0.30, 1.08)]
 _LIGHT = np.array([-0.6, 0.8])
 _MOST = 30_000  # largest number of spheres drawn; if there are more, only the largest spheres are drawn
@@ -23,8 +23,8 @@ _MOST = 30_000  # largest number of spheres drawn; if there are more, only the l
 def spheres(
     specimen: pd.DataFrame, box: np.ndarray, paint: Callable[[np.ndarray], np.ndarray], view: np.ndarray, height: float
 ) -> tuple[Any, str]:
-    """Returns the figure and its caption. view: rows right, up and towards the eye. Lengths are in metres, the `height` of the
-    picture in inches."""
+    """Returns the figure and its caption. view: rows right, up and towards the eye. Lengths are in metres, the `height`
+    of the picture in inches."""
     rows = np.flatnonzero((specimen["phase"] == "aggregate").to_numpy())
     words = "The aggregates in the box"
     words += "; the mastic between them is taken away." if (specimen["phase"] == "mastic").any() else "."
@@ -65,8 +65,8 @@ def spheres(
 
 
 def outline(axes: Any, corners: np.ndarray, colour: str, behind: bool | None = None) -> None:
-    """Draws edges of the box. corners: eight, as (right, up, towards the eye). behind: True for the edges at the back, False for
-    those in front, None for all."""
+    """Draws edges of the box. corners: eight, as (right, up, towards the eye). behind: True for the edges at the back,
+    False for those in front, None for all."""
     hidden = int(np.argmin(corners[:, 2]))
     edges = [(i, j) for i, j in product(range(8), repeat=2) if i < j and bin(i ^ j).count("1") == 1]
     chosen = [e for e in edges if behind is None or (hidden in e) == behind]

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies: computes a scene with many values of its keys (grids, Latin hypercubes, lists), on this machine or a cluster.
+"""Studies: computes a scene with many values of its keys (grids, Latin hypercubes, lists), on this machine or a
+cluster.
 
-The module itself can be called like its function `study`. Packages that only this function needs are imported when it is used,
-because workers need few of them."""
+The module itself can be called like its function `study`. Packages that only this function needs are imported when it
+is used, because workers need few of them."""
 
 from __future__ import annotations
 

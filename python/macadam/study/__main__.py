@@ -14,8 +14,8 @@ _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class _Stop:
-    """A signal handler that raises KeyboardInterrupt at the first signal. It ignores later signals, because tables and report
-    are being written then."""
+    """A signal handler that raises KeyboardInterrupt at the first signal. It ignores later signals, because tables and
+    report are being written then."""
 
     asked = False
 
@@ -153,8 +153,8 @@ def _print_study(found: Any, out: str) -> int:
 
 
 def end(code: int) -> None:
-    """Ends this process. After a stop (130) it does not wait for Parsl's threads, which may wait forever for processes that have
-    ended."""
+    """Ends this process. After a stop (130) it does not wait for Parsl's threads, which may wait forever for processes
+    that have ended."""
     if code == 130:
         sys.stdout.flush()
         sys.stderr.flush()

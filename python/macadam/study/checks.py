@@ -15,7 +15,8 @@ _OPTIONS = ("--backend", "--precision", "--method", "--linear", "--threads", "--
 
 
 def wrong_scenes(design: Design, program: str, workers: int) -> list[tuple[Job, str]]:
-    """Returns the jobs whose scene the program refuses, each with the program's message. workers: number of checks at a time."""
+    """Returns the jobs whose scene the program refuses, each with the program's message. workers: number of checks at a
+    time."""
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(workers) as pool:
 
         def message(job: Job) -> str:

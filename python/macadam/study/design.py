@@ -18,8 +18,8 @@ __all__ = ["Design", "Job", "number_and_unit", "read_design"]
 
 _KEYS = {"scene", "command", "arguments", "grid", "latin_hypercube", "list", "choice", "experiment", "run", "report"}
 _COMMANDS = ("run", "specimen")
-# columns of the table other than the factors, named as in summary.json: AT says at which point a result was found, MEASURED
-# are the results
+# columns of the table other than the factors, named as in summary.json: AT says at which point a result was found,
+# MEASURED are the results
 AT = ("temperature_c", "frequency_hz", "time_s")
 MEASURED = (
     "e_star_pa",
@@ -52,8 +52,8 @@ class Job:
 
 @dataclass
 class Design:
-    """The jobs of a study, its factors and options. `jobs` has a job for each point, also for a point that has the same scene
-    as another; `notes` names such points."""
+    """The jobs of a study, its factors and options. `jobs` has a job for each point, also for a point that has the same
+    scene as another; `notes` names such points."""
 
     folder: Path  # paths in the study are relative to it
     jobs: list[Job] = field(default_factory=list)
@@ -69,8 +69,10 @@ class Design:
 
 
 def read_design(source: str | Path | Table, version: str) -> Design:
-    """Reads the design of a study from a TOML file or from its content as a dictionary, in which paths are relative to the
-    current folder. version: of macadam; it is part of each result's key, because another version may give other results."""
+    """Reads the design of a study from a TOML file or from its content as a dictionary, in which paths are relative to
+    the
+    current folder. version: of macadam; it is part of each result's key, because another version may give other
+    results."""
     asked, folder = (source, Path.cwd()) if isinstance(source, dict) else (read_toml(Path(source)), Path(source).parent)
     _known(asked, _KEYS, "study")
     if not isinstance(asked.get("scene"), (str, dict)):
@@ -110,8 +112,8 @@ def read_design(source: str | Path | Table, version: str) -> Design:
 
 
 def _add(design: Design, job: Job, equal: list[Job]) -> None:
-    """Adds a job to the design. equal: earlier jobs with the same scene; the job then uses their result. A job with the same
-    values and experiment as one of these is not added."""
+    """Adds a job to the design. equal: earlier jobs with the same scene; the job then uses their result. A job with the
+    same values and experiment as one of these is not added."""
     if any(normal(job.values) == normal(o.values) and job.experiment == o.experiment for o in equal):
         design.notes.append(f"{job.label}: asked for more than once; it has one row")
         return
@@ -132,7 +134,8 @@ def _command(asked: Table) -> list[str]:
 
 
 def _experiments(asked: Table) -> dict[str, Changes]:
-    """Returns the changes of each experiment by its name; a single one without changes if the study has no experiments."""
+    """Returns the changes of each experiment by its name; a single one without changes if the study has no
+    experiments."""
     found = table_of(asked, "experiment")
     for name, keys in found.items():
         if not isinstance(keys, dict):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs a study from its file to its table. It computes only the results that its folder does not have yet, so a study that was
-interrupted in any way can be continued."""
+"""Runs a study from its file to its table. It computes only the results that its folder does not have yet, so a study
+that was interrupted in any way can be continued."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ DIED = "their workers died; the logs are in the folder parsl"
 
 @dataclass
 class Study:
-    """The results of a study. `table`: one row per frequency, temperature or time of each result, SI units; `failures`: key,
-    experiment, values and message of each failed result; `missing`: number of results that were not computed, and `reason`:
-    why not; `notes`: sentences about points that have the same scene as another point."""
+    """The results of a study. `table`: one row per frequency, temperature or time of each result, SI units; `failures`:
+    key, experiment, values and message of each failed result; `missing`: number of results that were not computed, and
+    `reason`: why not; `notes`: sentences about points that have the same scene as another point."""
 
     folder: Path
     table: pd.DataFrame
@@ -57,10 +57,10 @@ def study(
 
     source: STUDY.toml, or its content as a dictionary. out: the study's folder. executor: any executor of
     concurrent.futures; it replaces the one that [run] describes. on, workers: replace those of [run]. program: path of
-    macadam; by default it is searched for. retry_failed: compute failed results again. progress: called every few seconds
-    and after each result with the numbers of results that are done, failed and asked for. Raises StudyError if the input is
-    wrong or another study runs in the folder. After a KeyboardInterrupt, workers end within seconds, tables and report are
-    written, and the exception is raised again."""
+    macadam; by default it is searched for. retry_failed: compute failed results again. progress: called every few
+    seconds and after each result with the numbers of results that are done, failed and asked for. Raises StudyError if
+    the input is wrong or another study runs in the folder. After a KeyboardInterrupt, workers end within seconds,
+    tables and report are written, and the exception is raised again."""
     folder = Path(out).resolve()
     program = program or find_program()
     version = version_of(program)
@@ -100,7 +100,8 @@ def study(
 
 
 def _written(design: Design, folder: Path, reason: str) -> Study:
-    """Writes tables and report of the results that are in the folder, and returns the results. reason: why some are missing."""
+    """Writes tables and report of the results that are in the folder, and returns the results. reason: why some are
+    missing."""
     missing = sum(not _settled(folder, job) for job in design.results)
     found = Study(
         folder,
@@ -129,8 +130,8 @@ def _compute_all(
     given: concurrent.futures.Executor | None,
     progress: Callable[[int, int, int], None],
 ) -> str:
-    """Computes all results in rounds: jobs that a worker left unfinished when it died are given to new workers in the next
-    round. Returns why results are missing; empty if none are."""
+    """Computes all results in rounds: jobs that a worker left unfinished when it died are given to new workers in the
+    next round. Returns why results are missing; empty if none are."""
     idle = 0
     limits = None if given is not None or design.run.get("on") == "threads" else executors.patience(design.run)
     while idle < _IDLE_ROUNDS:
@@ -163,9 +164,9 @@ def _round(
     said: Callable[[], None],
     patience: tuple[float, float] | None,
 ) -> str:
-    """Submits the jobs and waits until all have ended, or until no worker has been working for longer than `patience` (seconds
-    before the first worker begins, and afterwards; None: waits forever). said: reports progress. Returns the last error of a
-    worker that died or did not start; errors of the program are in the study's folder."""
+    """Submits the jobs and waits until all have ended, or until no worker has been working for longer than `patience`
+    (seconds before the first worker begins, and afterwards; None: waits forever). said: reports progress. Returns the
+    last error of a worker that died or did not start; errors of the program are in the study's folder."""
     died = ""
     waiting = {pool.submit(compute, job) for job in jobs}
     locks = [Path(job["folder"]) / "running" / f"{job['key']}.lock" for job in jobs]

@@ -17,8 +17,9 @@ FEW = 8  # a factor with at most so many different values has levels; a numeric 
 
 @dataclass
 class Quantity:
-    """One number per job. `jobs`: one row per job, with the columns of the factors and `value`; `seeds`: names of the factors
-    that only choose another random specimen of the same mix; `factors`: the other factors whose values differ."""
+    """One number per job. `jobs`: one row per job, with the columns of the factors and `value`; `seeds`: names of the
+    factors that only choose another random specimen of the same mix; `factors`: the other factors whose values
+    differ."""
 
     name: str
     unit: str
@@ -41,7 +42,8 @@ class Quantity:
         return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].mean().reset_index()
 
 
-# column of the table, key of [report], default value, and unit of what a quantity is shown at; infinity: the largest value
+# column of the table, key of [report], default value, and unit of what a quantity is shown at; infinity: the largest
+# value
 _AT = (
     ("frequency_hz", "frequency", 10.0, "Hz"),
     ("temperature_c", "temperature", 20.0, "°C"),
@@ -58,8 +60,8 @@ _SHOWN = (
 
 
 def quantities(found: pd.DataFrame, design: Design) -> list[Quantity]:
-    """Returns the quantities that the report shows: |E*| and phase angle at the frequency (and temperature) of [report] or, by
-    default, at those nearest to 10 Hz (20 °C); for tests in time the moduli and compliances at the last time."""
+    """Returns the quantities that the report shows: |E*| and phase angle at the frequency (and temperature) of [report]
+    or, by default, at those nearest to 10 Hz (20 °C); for tests in time the moduli and compliances at the last time."""
     units = table.units(design)
     names = {column: f"{f} ({units[f]})" if units[f] else f for f, column in table.columns(design).items()}
     experiments = found["experiment"].unique() if "experiment" in found else [None]
@@ -109,8 +111,8 @@ def numeric(points: pd.DataFrame, factor: str) -> bool:
 
 @dataclass
 class Effect:
-    """The main effect of a factor on a quantity: its means at the factor's levels, averaged over the other factors. `share`: the
-    fraction of the variance between points that the factor explains (0 to 1)."""
+    """The main effect of a factor on a quantity: its means at the factor's levels, averaged over the other factors.
+    `share`: the fraction of the variance between points that the factor explains (0 to 1)."""
 
     factor: str
     levels: list[Any]  # values of the factor; of a continuous one the lowest and the highest
@@ -138,9 +140,9 @@ def continuous(points: pd.DataFrame, factor: str) -> bool:
 
 
 def _lines(points: pd.DataFrame, factors: list[str]) -> dict[str, tuple[float, float]]:
-    """Returns the slope of each continuous factor, and the standard error that the slope would have if the points had a standard
-    deviation of 1. All factors are fitted together by least squares, factors with levels as 0/1 columns: the values of a
-    hypercube are not quite independent, and the effect of one factor must not be attributed to another."""
+    """Returns the slope of each continuous factor, and the standard error that the slope would have if the points had a
+    standard deviation of 1. All factors are fitted together by least squares, factors with levels as 0/1 columns: the
+    values of a hypercube are not quite independent, and the effect of one factor must not be attributed to another."""
     smooth = [f for f in factors if continuous(points, f)]
     if not smooth:
         return {}
@@ -157,8 +159,8 @@ def _lines(points: pd.DataFrame, factors: list[str]) -> dict[str, tuple[float, f
 
 
 def effects(quantity: Quantity) -> list[Effect]:
-    """Returns one effect per factor, the largest share of the variance first. A continuous factor has two levels, the ends of its
-    fitted line."""
+    """Returns one effect per factor, the largest share of the variance first. A continuous factor has two levels, the
+    ends of its fitted line."""
     points, out = quantity.points, []
     total = float(((points["value"] - points["value"].mean()) ** 2).sum())
     lines, chance = _lines(points, quantity.factors), scatter(quantity)
@@ -215,8 +217,8 @@ def scatter(quantity: Quantity) -> Scatter | None:
 
 
 def student_95(freedom: int) -> float:
-    """Returns Student's t for a two-sided 95 % interval: 95 % of random differences are within this number of standard errors.
-    Correct to three digits."""
+    """Returns Student's t for a two-sided 95 % interval: 95 % of random differences are within this number of standard
+    errors. Correct to three digits."""
     few = (12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228)
     if freedom <= len(few):
         return few[freedom - 1]

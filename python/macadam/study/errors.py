@@ -3,4 +3,5 @@
 
 
 class StudyError(ValueError):
-    """The study, its scene or its folder is wrong. The message names the wrong part, what was found and what was expected."""
+    """The study, its scene or its folder is wrong. The message names the wrong part, what was found and what was
+    expected."""

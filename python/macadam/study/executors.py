@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks the section `[run]` of a study and makes the executor for its jobs: this machine or a Slurm cluster, both by
-Parsl, or threads of this process."""
+"""Reads and checks the section `[run]` of a study and makes the executor for its jobs: this machine or a Slurm cluster,
+both by Parsl, or threads of this process."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ _KINDS = {str: "text", int: "a whole number above 0", bool: "true or false"}
 
 @contextlib.contextmanager
 def executor(run: dict[str, Any], folder: Path) -> Iterator[tuple[concurrent.futures.Executor, Callable[[], Trouble]]]:
-    """A context with the executor that `[run]` of a study describes, and a function that returns why its workers could not
-    start. After an interrupt the executor ends within seconds."""
+    """A context with the executor that `[run]` of a study describes, and a function that returns why its workers could
+    not start. After an interrupt the executor ends within seconds."""
     place = run.get("on", "local")
     if place == "threads":
         with _threads(workers(run), folder) as pool:
@@ -68,9 +68,9 @@ def _threads(number: int, folder: Path) -> Iterator[concurrent.futures.Executor]
 
 
 def patience(run: dict[str, Any]) -> tuple[float, float]:
-    """Returns the longest time [s] for which no worker may be working although there are jobs: until the first worker begins,
-    and afterwards. After that time all workers are replaced. This is needed because a Parsl worker that is killed while it
-    waits for a job can block the queue for all others."""
+    """Returns the longest time [s] for which no worker may be working although there are jobs: until the first worker
+    begins, and afterwards. After that time all workers are replaced. This is needed because a Parsl worker that is
+    killed while it waits for a job can block the queue for all others."""
     slurm = run.get("on", "local") == "slurm"
     later = float(run.get("patience", 600 if slurm else 60))
     return (float("inf") if slurm else 5 * later), later  # jobs may wait for days before a cluster starts them
@@ -82,8 +82,8 @@ def threads(run: dict[str, Any]) -> int:
 
 
 def workers(run: dict[str, Any]) -> int:
-    """Returns the number of programs that run at a time on a machine. By default it is one per GPU or, without GPUs, the number
-    of cores divided by the threads of each program."""
+    """Returns the number of programs that run at a time on a machine. By default it is one per GPU or, without GPUs,
+    the number of cores divided by the threads of each program."""
     asked = run.get("workers")
     return int(asked) if asked else _gpus(run) or max(1, len(os.sched_getaffinity(0)) // threads(run))
 
@@ -126,7 +126,8 @@ def check_programs(run: dict[str, Any]) -> None:
 
 
 def _gpus(run: dict[str, Any]) -> int:
-    """Returns the number of GPUs on a machine: the given number or, for "all", the number that nvidia-smi lists here."""
+    """Returns the number of GPUs on a machine: the given number or, for "all", the number that nvidia-smi lists
+    here."""
     asked = run.get("gpus", 0)
     if asked != "all":
         return int(asked)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Computes one result, in a worker. The program runs in the folder `running/KEY`, which is renamed to `results/KEY` when the
-program has succeeded.
+"""Computes one result, in a worker. The program runs in the folder `running/KEY`, which is renamed to `results/KEY`
+when the program has succeeded.
 
-So a result exists if and only if `results/KEY` exists, and there is no other record of progress. A worker may be killed at any
-moment. Then only `running/KEY` is left, and a stepped run continues from the checkpoint in it. The program is killed together
-with its worker."""
+So a result exists if and only if `results/KEY` exists, and there is no other record of progress. A worker may be killed
+at any moment. Then only `running/KEY` is left, and a stepped run continues from the checkpoint in it. The program is
+killed together with its worker."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ _LIBC = ctypes.CDLL(None)  # loaded here, because loading is not safe between fo
 
 def compute(job: dict[str, Any]) -> dict[str, Any]:
     """Computes the result of a job, unless the study's folder has it. job: key, scene (TOML), command, threads, values,
-    experiment, program, folder (of the study). Returns the key and the status: done, failed or stopped. A failure of the
-    program does not raise an exception; it is recorded in `failures/KEY.json`."""
+    experiment, program, folder (of the study). Returns the key and the status: done, failed or stopped. A failure of
+    the program does not raise an exception; it is recorded in `failures/KEY.json`."""
     folder, key = Path(job["folder"]), job["key"]
     done, failed, work = (folder / name / key for name in ("results", "failures", "running"))
     failed = failed.with_suffix(".json")
@@ -64,15 +64,15 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
 
 
 def _processor_time() -> float:
-    """Returns the processor time [s] of all programs that this process has run. If the workers are threads of one process, it
-    includes the programs of all of them."""
+    """Returns the processor time [s] of all programs that this process has run. If the workers are threads of one
+    process, it includes the programs of all of them."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
-    """Runs the program in `work`, from its checkpoint if there is one. Returns its exit code (below 0: a signal) and its
-    messages."""
+    """Runs the program in `work`, from its checkpoint if there is one. Returns its exit code (below 0: a signal) and
+    its messages."""
     command, *arguments = job["command"]
     resume = ["--resume"] if command == "run" and (work / "checkpoint.h5").is_file() else []
     if not resume:
@@ -81,8 +81,8 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
         (work / "scene.toml").write_text(job["scene"], encoding="utf-8")
     line = [job["program"], command, str(work / "scene.toml"), "--out", str(work), *arguments, *resume]
     try:
-        # The variables limit threads that the option --threads does not: waiting for a core that another program uses costs
-        # more time than an additional thread saves.
+        # The variables limit threads that the option --threads does not: waiting for a core that another program uses
+        # costs more time than an additional thread saves.
         environment = {"OMP_NUM_THREADS": str(job["threads"]), "OMP_WAIT_POLICY": "passive", **os.environ}
         code, said = programs.run(
             job["folder"],
@@ -101,8 +101,8 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
 
 
 def _die_with_parent() -> None:
-    """Runs in the child process. Asks the kernel to kill the child when its worker ends in any way, so that two programs never
-    compute the same result."""
+    """Runs in the child process. Asks the kernel to kill the child when its worker ends in any way, so that two
+    programs never compute the same result."""
     _LIBC.prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
@@ -117,7 +117,8 @@ def _message(code: int, said: str) -> str:
 
 
 def machine() -> dict[str, Any]:
-    """Returns name, processor and cores of this machine, and the GPUs and the Slurm job if the environment names them."""
+    """Returns name, processor and cores of this machine, and the GPUs and the Slurm job if the environment names
+    them."""
     model = platform.processor() or platform.machine()
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as lines:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File locks that are released when their process ends, in whatever way. They are POSIX locks, which child processes do not
-inherit and which work on shared file systems."""
+"""File locks that are released when their process ends, in whatever way. They are POSIX locks, which child processes do
+not inherit and which work on shared file systems."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Taken(Exception):
 
 @contextlib.contextmanager
 def locked(file: Path, wait: bool) -> Iterator[None]:
-    """Holds the lock of this file while the block runs. wait: if the lock is held elsewhere, wait for it; otherwise raise
-    Taken."""
+    """Holds the lock of this file while the block runs. wait: if the lock is held elsewhere, wait for it; otherwise
+    raise Taken."""
     name = str(file.resolve())
     with _change:
         while name in _own:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Starts Parsl's manager of workers on this machine, and kills it if it does not end after its study has ended.
 
-`python -m macadam.study.manager STUDY SECONDS COMMAND ...` forks a process that watches, and then becomes COMMAND, the manager.
-STUDY is the process number of the study. The watcher is needed because a worker that is killed while it holds the lock of the
-results' queue makes the manager wait forever for that queue, even after the manager has noticed that the study is gone. So the
-manager is killed SECONDS after the study has ended.
+`python -m macadam.study.manager STUDY SECONDS COMMAND ...` forks a process that watches, and then becomes COMMAND, the
+manager. STUDY is the process number of the study. The watcher is needed because a worker that is killed while it holds
+the lock of the results' queue makes the manager wait forever for that queue, even after the manager has noticed that
+the study is gone. So the manager is killed SECONDS after the study has ended.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from pathlib import Path
 
 
 def begun(process: int) -> str | None:
-    """Returns the start time of a process, which distinguishes it from a later process with the same number; None if the process
-    has ended."""
+    """Returns the start time of a process, which distinguishes it from a later process with the same number; None if
+    the process has ended."""
     try:
         state, *fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
     except OSError:
@@ -27,8 +27,8 @@ def begun(process: int) -> str | None:
 
 
 def watch(study: int, manager: int, seconds: float) -> None:
-    """Returns when the manager, whose child this process is, has ended. Kills the manager if it still runs `seconds` after the
-    study has ended."""
+    """Returns when the manager, whose child this process is, has ended. Kills the manager if it still runs `seconds`
+    after the study has ended."""
     since, gone = begun(study), None
     while os.getppid() == manager:
         time.sleep(1)

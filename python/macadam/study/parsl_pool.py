@@ -19,14 +19,14 @@ from typing import Any
 
 from macadam.study.errors import StudyError
 
-# Parsl's shutdown waits without a limit for answers of its interchange (the process between the study and the workers), which
-# may have died. So the shutdown gets this many seconds; then Parsl's processes are killed.
+# Parsl's shutdown waits without a limit for answers of its interchange (the process between the study and the workers),
+# which may have died. So the shutdown gets this many seconds; then Parsl's processes are killed.
 AFTER_INTERRUPT = 2.0
 AT_THE_END = 30.0  # longer, because scancel may be slow
 _BEAT = 5  # seconds between heartbeats of workers; a worker is lost after six missing heartbeats
-# Starts the interchange in its own session, so that a signal to the study's process group does not reach it. The kernel kills
-# it when the study ends in any way (prctl 1 is PR_SET_PDEATHSIG, 9 is SIGKILL). Otherwise it would wait forever for a study
-# that was killed, and its workers would wait for it.
+# Starts the interchange in its own session, so that a signal to the study's process group does not reach it. The kernel
+# kills it when the study ends in any way (prctl 1 is PR_SET_PDEATHSIG, 9 is SIGKILL). Otherwise it would wait forever
+# for a study that was killed, and its workers would wait for it.
 _INTERCHANGE = (
     "import ctypes, os, sys; os.setsid(); ctypes.CDLL(None).prctl(1, 9); os.execvp(sys.argv[1], sys.argv[1:])"
 )
@@ -34,8 +34,8 @@ _INTERCHANGE = (
 
 @dataclass
 class Trouble:
-    """The reason in words why workers could not start; empty if they could. `refused`: the request itself was refused, so another
-    attempt is useless."""
+    """The reason in words why workers could not start; empty if they could. `refused`: the request itself was refused,
+    so another attempt is useless."""
 
     words: str = ""
     refused: bool = False
@@ -47,7 +47,8 @@ def parsl_pool(
 ) -> Iterator[tuple[Any, Callable[[], Trouble]]]:
     """A context with the pool of workers, and a function that returns why workers could not start.
 
-    place: "local" or "slurm". slurm: options of Parsl's SlurmProvider. workers: number of workers per machine; None: as many as
+    place: "local" or "slurm". slurm: options of Parsl's SlurmProvider. workers: number of workers per machine; None: as
+    many as
     its cores allow. threads: CPU threads of each worker. gpus: number of GPUs per machine. Parsl's logs go into
     `folder`/parsl."""
     try:
@@ -182,7 +183,8 @@ def _kill(groups: set[int], interchange: Any) -> None:
 
 
 def _forget(config: Any) -> None:
-    """Removes Parsl's state in this process after a shutdown that did not finish, so that Parsl can be started again."""
+    """Removes Parsl's state in this process after a shutdown that did not finish, so that Parsl can be started
+    again."""
     import parsl
     from parsl.errors import NoDataFlowKernelError
 

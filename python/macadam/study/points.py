@@ -47,7 +47,8 @@ def _text(value: Any) -> str:
 
 
 def samples(asked: Table) -> list[dict[str, Any]]:
-    """Returns the points of all hypercubes and lists. Raises StudyError if a point has no value for a key of the others."""
+    """Returns the points of all hypercubes and lists. Raises StudyError if a point has no value for a key of the
+    others."""
     out: list[dict[str, Any]] = []
     places: list[str] = []
     for name, points in (("latin_hypercube", _hypercube), ("list", lambda block: [_flat(block)])):
@@ -74,7 +75,8 @@ def choices(asked: Table) -> dict[str, dict[str, Table]]:
 
 
 def crossed(sampled: list[dict[str, Any]], axes: dict[str, list[Any]]) -> list[dict[str, Any]]:
-    """Returns the values of all factors at each point: every sample combined with every combination of the axes' values."""
+    """Returns the values of all factors at each point: every sample combined with every combination of the axes'
+    values."""
     number = max(1, len(sampled)) * math.prod(len(values) for values in axes.values())
     if number > MOST:
         raise StudyError(f"points: found {number:,}, expected at most {MOST:,}")
@@ -83,8 +85,8 @@ def crossed(sampled: list[dict[str, Any]], axes: dict[str, list[Any]]) -> list[d
 
 
 def _flat(table: Table, leaf: Any = lambda value: False, before: str = "") -> Table:
-    """Returns a table without nested tables, as one dotted key per value: TOML reads a dotted key as tables in tables. leaf: says
-    whether a table is itself a value."""
+    """Returns a table without nested tables, as one dotted key per value: TOML reads a dotted key as tables in tables.
+    leaf: says whether a table is itself a value."""
     out: Table = {}
     for key, value in table.items():
         if isinstance(value, dict) and not leaf(value):
@@ -103,8 +105,8 @@ def _list(asked: Table, name: str) -> list[Table]:
 
 
 def _hypercube(block: Table) -> list[dict[str, Any]]:
-    """Returns the points of a Latin hypercube: each range is divided into as many equal parts as there are points, and each part
-    contains one point."""
+    """Returns the points of a Latin hypercube: each range is divided into as many equal parts as there are points, and
+    each part contains one point."""
     block = _flat(block, lambda value: "low" in value or "high" in value)
     number, seed = block.pop("points", None), block.pop("seed", 1)
     if not isinstance(number, int) or not 1 <= number <= MOST:
@@ -116,7 +118,8 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     except ImportError:
         raise StudyError("latin_hypercube: it takes the Python package SciPy, which is not installed") from None
     ranges = {key: _range(key, value) for key, value in block.items()}
-    # random-cd: values are exchanged between points to lower the discrepancy, so that factors are hardly correlated by chance
+    # random-cd: values are exchanged between points to lower the discrepancy, so that factors are hardly correlated by
+    # chance
     asked = {"d": len(ranges), "optimization": "random-cd"}
     try:
         sampler = qmc.LatinHypercube(**asked, rng=seed)

@@ -15,8 +15,9 @@ _BUILDS = ("local", "cuda-release", "cpu-release", "release")
 
 
 def find_program() -> str:
-    """Returns the program's path: MACADAM_PROGRAM if it is set, else the program that came with this package, else macadam in the
-    search path, else a build of the source tree around this package. Raises StudyError if there is none."""
+    """Returns the program's path: MACADAM_PROGRAM if it is set, else the program that came with this package, else
+    macadam in the search path, else a build of the source tree around this package. Raises StudyError if there is
+    none."""
     asked = os.environ.get("MACADAM_PROGRAM")
     if asked:
         if not os.access(asked, os.X_OK) or Path(asked).is_dir():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs programs from threads of this process and keeps a list of them, so that they can be ended when the study is stopped."""
+"""Runs programs from threads of this process and keeps a list of them, so that they can be ended when the study is
+stopped."""
 
 from __future__ import annotations
 

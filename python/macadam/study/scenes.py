@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the scenes of a study's points: sets values at dotted keys, resolves paths of files, and computes the key of a result."""
+"""Makes the scenes of a study's points: sets values at dotted keys, resolves paths of files, and computes the key of a
+result."""
 
 from __future__ import annotations
 
@@ -33,8 +34,9 @@ def read_toml(file: Path) -> Table:
 
 
 def with_value(scene: Table, key: str, value: Any) -> Table:
-    """Returns a copy of the scene with a value at a dotted key. A table replaces the whole section. `contacts.M-A.delta` means
-    the entry of that pair, `specimen.aggregate.0.volume_fraction` the first class. Missing sections are made."""
+    """Returns a copy of the scene with a value at a dotted key. A table replaces the whole section.
+    `contacts.M-A.delta` means the entry of that pair, `specimen.aggregate.0.volume_fraction` the first class. Missing
+    sections are made."""
     changed = copy.deepcopy(scene)
     parts, at = key.split("."), changed
     if not all(parts):
@@ -69,9 +71,9 @@ def _index(entries: list[Any], part: str, key: str) -> int:
 
 
 def merged(scene: Table, more: Table) -> Table:
-    """Returns a copy of the scene with the sections of another file, such as a law of `macadam fit`. An entry of contacts
-    replaces the whole entry of the same pair, at the same position in the list; in other sections single keys are
-    replaced."""
+    """Returns a copy of the scene with the sections of another file, such as a law of `macadam fit`. An entry of
+    contacts replaces the whole entry of the same pair, at the same position in the list; in other sections single keys
+    are replaced."""
     out = copy.deepcopy(scene)
     for key, value in more.items():
         if key == "contacts" and isinstance(value, list):
@@ -97,8 +99,8 @@ def _contacts(there: Any, new: list[Any]) -> list[Any]:
 
 
 def located(scene: Table, folder: Path) -> tuple[Table, dict[str, str]]:
-    """Returns a copy of the scene with absolute paths in place of paths relative to `folder`, and a digest of every file that the
-    scene names, by dotted key."""
+    """Returns a copy of the scene with absolute paths in place of paths relative to `folder`, and a digest of every
+    file that the scene names, by dotted key."""
     scene, digests = copy.deepcopy(scene), {}
     for keys, names in _FILES.items():
         at: Any = scene
@@ -133,8 +135,8 @@ def normal(value: Any) -> Any:
 
 
 def key_of(scene: Table, digests: dict[str, str], command: list[str], version: str) -> str:
-    """Returns the key of a result, which is its folder's name. It is the same for the same scene, content of the scene's files,
-    command and version of macadam."""
+    """Returns the key of a result, which is its folder's name. It is the same for the same scene, content of the
+    scene's files, command and version of macadam."""
     plain = copy.deepcopy(scene)
     for dotted, digest in digests.items():
         plain = with_value(plain, dotted, f"sha256:{digest}")

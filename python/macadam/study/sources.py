@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The places of a study that set keys of the scene (grid, hypercubes, lists, choices, experiments), and the order in which they
-are applied.
+"""The places of a study that set keys of the scene (grid, hypercubes, lists, choices, experiments), and the order in
+which they are applied.
 
-The files of choices are applied first, then single keys: those of choices, of the grid, hypercubes and lists, and of the
-experiment. Two places may not set the same key, so the order of single keys does not matter. A file replaces the whole entry of
-a pair of contacts; another place may set a key of that entry which the file does not set."""
+The files of choices are applied first, then single keys: those of choices, of the grid, hypercubes and lists, and of
+the experiment. Two places may not set the same key, so the order of single keys does not matter. A file replaces the
+whole entry of a pair of contacts; another place may set a key of that entry which the file does not set."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ Parts = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Setting:
-    """A key of the scene that one place of the study sets. `replaces`: it is the entry of a pair, which a file replaces."""
+    """A key of the scene that one place of the study sets. `replaces`: it is the entry of a pair, which a file
+    replaces."""
 
     place: str  # such as "grid" or "choice.binder.a"
     key: str
@@ -56,7 +57,8 @@ class Changes:
     sections: Table = field(default_factory=dict)  # of the file
 
     def settings(self, base: Table) -> list[Setting]:
-        """Returns all keys that these changes set. base: the scene of the study, from which numbered contacts get their pairs."""
+        """Returns all keys that these changes set. base: the scene of the study, from which numbered contacts get their
+        pairs."""
         out = [Setting(self.place, key, path_of(key, base)) for key in self.keys]
         where = f"{self.place} (file {self.file})"
         for path, replaces in _paths_of_file(self.sections):
@@ -108,8 +110,8 @@ def applied(base: Table, changes: list[Changes]) -> Table:
 
 
 def path_of(key: str, scene: Table) -> Parts:
-    """Returns the parts of a dotted key. A numbered entry of a list is named by its pair if it has one, so that every entry has
-    only one name."""
+    """Returns the parts of a dotted key. A numbered entry of a list is named by its pair if it has one, so that every
+    entry has only one name."""
     path: list[str] = []
     at: Any = scene
     for part in key.split("."):
@@ -128,7 +130,8 @@ def path_of(key: str, scene: Table) -> Parts:
 
 
 def _paths_of_file(table: Table, before: Parts = ()) -> Iterator[tuple[Parts, bool]]:
-    """Yields the path of every key that a file sets (with False), and of every entry of a pair that it replaces (with True)."""
+    """Yields the path of every key that a file sets (with False), and of every entry of a pair that it replaces (with
+    True)."""
     for key, value in table.items():
         if key == "contacts" and isinstance(value, list) and all(isinstance(e, dict) for e in value):
             for entry in value:

@@ -88,7 +88,8 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
 
 
 def _strongest(q: Quantity) -> str:
-    """Returns the end of a sentence that names the factor with the largest effect on a quantity; empty if no factor differs."""
+    """Returns the end of a sentence that names the factor with the largest effect on a quantity; empty if no factor
+    differs."""
     found = effects(q)
     if not found:
         return ""
@@ -162,8 +163,8 @@ def _main_effects(page: Page, q: Quantity) -> None:
 
 
 def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
-    """Adds the table of effects, with the scatter of seeds if it is known, and with shares of the variance if there are several
-    factors."""
+    """Adds the table of effects, with the scatter of seeds if it is known, and with shares of the variance if there are
+    several factors."""
     heads, notes = ["factor", "from … to", f"change of {q.name}"], []
     rows = [[e.factor, f"{_level(e.levels[0])} … {_level(e.levels[-1])}", _change(q, e)] for e in found]
     if any(e.scatter is not None for e in found):
@@ -190,7 +191,8 @@ def _level(value: Any) -> str:
 
 
 def _change(q: Quantity, effect: Effect) -> str:
-    """Returns the change from one end to the other as text: of angles in degrees, otherwise in per cent of the first."""
+    """Returns the change from one end to the other as text: of angles in degrees, otherwise in per cent of the
+    first."""
     first, last = effect.ends
     text = f"{last - first:+.2g}°" if q.unit == "°" else f"{100 * (last / first - 1):+.3g} %" if first else "–"
     return text.replace("-", "−")
@@ -223,8 +225,8 @@ def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
 
 
 def design_map(q: Quantity) -> tuple[Any, str] | None:
-    """Draws a quantity over the two numeric factors with the largest effects, averaged over the other factors. Returns figure and
-    caption; None if there are fewer than two numeric factors."""
+    """Draws a quantity over the two numeric factors with the largest effects, averaged over the other factors. Returns
+    figure and caption; None if there are fewer than two numeric factors."""
     points = q.points
     two = sorted([e.factor for e in effects(q) if numeric(points, e.factor)][:2])
     if len(two) < 2:

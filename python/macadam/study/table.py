@@ -56,8 +56,8 @@ def _cell(value: Any, unit: str) -> Any:
 
 
 def read(design: Design, folder: Path) -> pd.DataFrame:
-    """Returns one row for every frequency, temperature or time of every existing result of the study. Units are SI, but a factor
-    has the unit of its values in the study."""
+    """Returns one row for every frequency, temperature or time of every existing result of the study. Units are SI, but
+    a factor has the unit of its values in the study."""
     names, of = columns(design), units(design)
     rows = []
     for job in design.jobs:
@@ -98,8 +98,8 @@ def failures(design: Design, folder: Path) -> list[dict[str, Any]]:
 
 
 def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> None:
-    """Writes table.csv, table.parquet if pyarrow is installed, and failures.csv if there are failures. An error leaves no
-    incomplete file."""
+    """Writes table.csv, table.parquet if pyarrow is installed, and failures.csv if there are failures. An error leaves
+    no incomplete file."""
     _whole(folder / "table.csv", lambda file: found.to_csv(file, index=False, encoding="utf-8"))
     try:
         import pyarrow  # noqa: F401
