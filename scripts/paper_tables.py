@@ -8,7 +8,7 @@ BOX = 0.05 * 0.05 * 0.08  # m3
 CLASSES = ["12.5–19", "9.5–12.5", "4.75–9.5", "2.0–4.75", "mastic"]
 FREQUENCIES = [2, 5, 10, 20]
 PAIRS = ["A-A", "M-A", "M-M"]
-FINE, COARSE, MASTIC = (0.75e-3, 1.00e-3), (1.00e-3, 2.00e-3), (0.75e-3, 1.00e-3)  # radii, m
+FINE, COARSE, MASTIC = (0.75e-3, 1.00e-3), (1.00e-3, 2.00e-3), (0.75e-3, 1.00e-3)  # radii of the spheres [m]
 DESIGN = ("ac14_ms_design", [14.0, 11.0, 20.7, 13.6, 40.7])  # % of the solid volume, by class
 
 
@@ -28,7 +28,7 @@ class Specimen:
     spheres: list
     size: list
     share: list
-    contacts: list  # A-A, M-A, M-M, total
+    contacts: list  # numbers of contacts A-A, M-A, M-M, total
     coordination: float
 
     @property
@@ -79,7 +79,7 @@ CLUSTERS = list(PAPER)[1:]
 # Fig. 11, numbers from the paper's text: mean deviation from SS over the frequencies, of |E*| and of phi in %
 DEVIATION = {"MS-Poly-coarse": (19, -18), "MS-Poly-fine": (33, -31),
              "MS-Ico-coarse": (19, -18), "MS-Ico-fine": (34, -29)}
-# Section 4.4
+# Section 4.4: delta of M-M contacts, the rock, and moduli of contacts inside aggregates
 DELTA_MM = {"AM1": 1.88, "AM2": 1.90}
 ROCK = {"E": 60.0, "nu": 0.28}  # GPa
 INNER_GPA = {"fine": 112.5, "coarse": 111.6}

@@ -78,8 +78,7 @@ class Result:
     @cached_property
     def table(self) -> pandas.DataFrame:
         """For a cyclic test or a sweep one row per frequency: frequency_hz, e_star_pa [Pa], phase_deg and so on. For
-        the
-        other tests one row per time: time_s and the measured quantities."""
+        the other tests one row per time: time_s and the measured quantities."""
         import pandas
         rows = self.summary["results"]
         if rows and "points" in rows[0]:

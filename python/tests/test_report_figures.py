@@ -81,7 +81,7 @@ def test_mastic_is_taken_away_only_where_there_is_some(tmp_path: Path) -> None:
 def test_a_report_has_the_name_of_its_scene(tmp_path: Path) -> None:
     shutil.copytree(make("harmonic"), tmp_path / "res")
     folder = read(tmp_path / "res")
-    assert document._title([folder]) == "harmonic"  # harmonic.toml
+    assert document._title([folder]) == "harmonic"  # the scene is harmonic.toml
     folder.summary["scene"] = "examples/demo/scene.toml"
     assert document._title([folder]) == "demo"
     del folder.summary["scene"]

@@ -109,7 +109,7 @@ def test_the_key_is_of_scene_files_and_version(program: Path, tmp_path: Path) ->
 
     assert key() == key() and key("2") != key() and key(**{"loading.frequencies": [[3]]}) != key()
     particles = (ROOT / "tests/data/t8.csv").read_bytes()
-    for folder in "ab":  # the same content elsewhere is the same specimen
+    for folder in "ab":  # a file with the same content in another folder gives the same key
         (tmp_path / folder).mkdir()
         (tmp_path / folder / "t8.csv").write_bytes(particles)
     here, there = (key(**{"specimen.file": [f"{folder}/t8.csv"]}) for folder in "ab")

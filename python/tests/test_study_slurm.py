@@ -51,7 +51,7 @@ def test_the_same_file_runs_on_slurm(tmp_path: Path) -> None:
             text=True,
             timeout=280,
         )
-    assert done.returncode == 1, done.stderr  # 13 fails
+    assert done.returncode == 1, done.stderr  # the stand-in fails for 13
     assert "expected better luck" in done.stderr and "5 results, 1 failed" in done.stdout
     assert sorted(lines(log, "begin")) == [11.0, 12.0, 13.0, 14.0, 15.0, 16.0]
     records = [json.loads(f.read_text()) for f in (out / "results").glob("*/study.json")]

@@ -111,9 +111,9 @@ def figure(
 
     names: name of the array; if several are given, the first that the file has. Vectors are shown by their length.
     factor: multiplies the numbers, 1e6 for micrometres. frame: number of the frame in a file with time, from 0, or
-    negative from the
-    end. half: leave out everything in front of the middle of the box. least: leave out everything with a smaller value.
-    strongest: draw only this fraction, that with the largest values. limits: range of the colours. size: [inches]."""
+    negative from the end. half: leave out everything in front of the middle of the box. least: leave out everything
+    with a smaller value. strongest: draw only this fraction, that with the largest values. limits: range of the
+    colours. size: [inches]."""
     data = _read(Path(file), frame)
     name, of_points = _array(data, Path(file), (names,) if isinstance(names, str) else names)
     values = (data.point_data if of_points else data.cell_data)[name]

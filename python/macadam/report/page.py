@@ -42,8 +42,7 @@ class Page:
 
     def figure(self, made: Any, caption: str, alt: str, third: bool = False, raster: bool = False) -> None:
         """Adds a matplotlib figure with a numbered caption. third: a third of the width, so that three consecutive
-        figures stand
-        side by side. raster: embed as PNG."""
+        figures stand side by side. raster: embed as PNG."""
         width, height = made.get_size_inches()
         share = 100 if third else round(100 * width / look.WIDE)
         self._picture(

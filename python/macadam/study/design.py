@@ -70,8 +70,7 @@ class Design:
 
 def read_design(source: str | Path | Table, version: str) -> Design:
     """Reads the design of a study from a TOML file or from its content as a dictionary, in which paths are relative to
-    the
-    current folder. version: of macadam; it is part of each result's key, because another version may give other
+    the current folder. version: of macadam; it is part of each result's key, because another version may give other
     results."""
     asked, folder = (source, Path.cwd()) if isinstance(source, dict) else (read_toml(Path(source)), Path(source).parent)
     _known(asked, _KEYS, "study")

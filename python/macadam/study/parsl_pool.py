@@ -48,8 +48,7 @@ def parsl_pool(
     """A context with the pool of workers, and a function that returns why workers could not start.
 
     place: "local" or "slurm". slurm: options of Parsl's SlurmProvider. workers: number of workers per machine; None: as
-    many as
-    its cores allow. threads: CPU threads of each worker. gpus: number of GPUs per machine. Parsl's logs go into
+    many as its cores allow. threads: CPU threads of each worker. gpus: number of GPUs per machine. Parsl's logs go into
     `folder`/parsl."""
     try:
         from parsl.concurrent import ParslPoolExecutor

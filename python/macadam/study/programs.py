@@ -44,13 +44,13 @@ def stop(folder: str) -> None:
 
 
 def _signal(program: subprocess.Popen, number: int) -> None:
-    """Signals a program and its children; does nothing if they have ended."""
+    """Sends a signal to a program and its children; does nothing if they have ended."""
     with contextlib.suppress(ProcessLookupError):
         os.killpg(program.pid, number)
 
 
 def run(folder: str, line: list[str], **how: Any) -> tuple[int, str]:
-    """Runs a program of a study. Returns its exit code (below 0: a signal) and its standard error."""
+    """Runs a program for the study in `folder`. Returns its exit code (below 0: a signal) and its standard error."""
     with _change:
         if folder in _stopped:
             return -signal.SIGTERM, ""

@@ -54,7 +54,7 @@ class Changes:
     place: str
     keys: Table = field(default_factory=dict)
     file: str = ""
-    sections: Table = field(default_factory=dict)  # of the file
+    sections: Table = field(default_factory=dict)  # sections of the file
 
     def settings(self, base: Table) -> list[Setting]:
         """Returns all keys that these changes set. base: the scene of the study, from which numbered contacts get their
