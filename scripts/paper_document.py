@@ -16,6 +16,8 @@ class Cells:
     def __init__(self, reasons):
         self.reasons, self.used, self.unexplained = reasons, [], []
 
+    # Returns our value with the paper's in brackets. If they differ by more than 10 %, the cell is bold and has the
+    # letter of its reason; key: name of the cell, which the patterns of the reasons match.
     def beside(self, key, ours, paper, digits, spread=None, percent=False):
         sign = "+" if percent else ""
         text = f"{ours:{sign},.{digits}f}" + ("" if spread is None else f" ± {spread:,.{digits}f}")
@@ -31,6 +33,7 @@ class Cells:
         self.unexplained.append(key)
         return f"**{minus(text)}**"
 
+    # Exits with a list of the bold cells that have no reason.
     def check(self):
         if self.unexplained:
             raise SystemExit("more than 10 % off the paper and no reason in scripts/paper_reasons.py:\n  "

@@ -67,6 +67,7 @@ def processor():
     return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown processor")
 
 
+# Returns the output of a command; empty if it fails.
 def said(*command):
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout
@@ -84,6 +85,7 @@ def device(macadam):
     return found[1] if found else ""
 
 
+# Returns the status of the run in a folder; None if there is no summary.
 def status(folder):
     file = folder / "summary.json"
     return json.loads(file.read_text())["status"] if file.is_file() else None

@@ -94,11 +94,13 @@ def of_pair(text, pair, keys, factor):
     return text[:start] + re.sub(rf"^((?:{keys}) = )(.*)$", times, text[start:end], flags=re.M) + text[end:]
 
 
+# Returns the scene with these volume fractions of its size classes.
 def with_fractions(text, fractions):
     fraction = iter(fractions)
     return re.sub(r"^volume_fraction = .*", lambda _: f"volume_fraction = {next(fraction):.4f}", text, flags=re.M)
 
 
+# Returns the void inside the clusters for a choice: its multiple of the void that the specimen's volumes imply.
 def porosity(name, choice):
     return round(choice.voids * PAPER[name].void_of_mastic, 2) if choice.voids else 0
 

@@ -69,6 +69,7 @@ class Fit:
         """Everything about the fit: parameters with deviations, covariance, candidates, errors."""
         return json.loads(self.files["fit.json"])
 
+    # Reads one of the CSV files by its name.
     def _csv(self, name: str) -> pandas.DataFrame:
         import pandas
         return pandas.read_csv(io.StringIO(self.files[name]), comment="#")

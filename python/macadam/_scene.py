@@ -55,6 +55,7 @@ def set_key(table: dict[str, Any], key: str, value: Any) -> None:
         at[names[-1]] = copy.deepcopy(value)
 
 
+# Returns the tables of a scene's text. file: the scene's name, for messages.
 def _tables_of(text: str, file: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)

@@ -40,6 +40,7 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
     return _core.prepare_into(given, fspath(out), list(sections), progress)
 
 
+# Makes a specimen from the caller's particles. Raises InputError for an unknown or missing array.
 def _of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str],
                   particles: Mapping[str, ArrayLike]) -> _core.Specimen:
     wrong = [name for name in particles if name not in _ARRAYS] or [name for name in _NEEDED if name not in particles]

@@ -16,6 +16,7 @@ def _key(name: object) -> str:
     return text if bare else json.dumps(text)
 
 
+# Returns a float as TOML, which needs a point or an exponent.
 def _number(value: float) -> str:
     if math.isnan(value):
         return "nan"

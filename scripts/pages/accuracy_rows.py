@@ -9,6 +9,7 @@ E, PHI = "own_error_e_star", "own_error_phase_deg"  # errors relative to the har
 TRUE_E, TRUE_PHI = "error_e_star", "error_phase_deg"  # errors relative to that with true mass
 
 
+# Returns all rows of both files.
 def every():
     return [r for file in FILES for r in rows(file)]
 
@@ -38,6 +39,7 @@ def done(found):
     return [r for r in found if r["status"] == "done"]
 
 
+# Returns the name of a row's scene, with its mix if that is not AM1.
 def scene(row):
     return row["scene"] + ("" if row["mix"] == "AM1" else f" with {row['mix']}")
 
@@ -52,6 +54,7 @@ def within(found, key):
     return minus(power(bound)) if bound < 0.001 else f"{bound:g}"
 
 
+# Returns upper bounds of the errors of |E*| and phase as text.
 def both(found, keys=(E, PHI)):
     return f"{within(found, keys[0])} and {within(found, keys[1])}°"
 

@@ -61,6 +61,7 @@ def two_thread_shares():
     return span([r["share"] for r in cpu_rows() if r["threads"] == "2"], "{:.1f}", " to ")
 
 
+# Yields (condensed, points) of rows with the same settings.
 def pairs(threads=None):
     for r in cpu_rows():
         if r["form"] == "condensed" and threads in (None, r["threads"]):

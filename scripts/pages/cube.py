@@ -8,6 +8,7 @@ TARGET, WALL = 60.0, 115.1  # moduli of the rock and of the paper's walls [GPa]
 GROUPS = [(s, f) for s in ("fine", "coarse") for f in ("shape", "recipe")]
 
 
+# Returns the rows of cubes with these properties; edge in mm, wall in GPa.
 def cubes(spheres, filling, seeds=3, porosity=0.0, edge=20.0, wall=WALL, sides="free"):
     return where(rows("aggregate-cube.csv"), spheres=spheres, filling=filling, porosity=porosity, edge_mm=edge,
                  wall_gpa=wall, sides=sides, seed=lambda s: s <= seeds)

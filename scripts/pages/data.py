@@ -35,6 +35,7 @@ def rows(name):
     return [{key: converted(value) for key, value in row.items()} for row in table]
 
 
+# Returns a cell as a number if it is one, otherwise as text; None if it is empty.
 def converted(value):
     if value is None or value == "":
         return None
@@ -68,6 +69,7 @@ def listed(words):
     return f"{', '.join(first)} and {last}" if first else last
 
 
+# Returns the only row with these values. Raises LookupError if there is not exactly one.
 def one(table, **wanted):
     found = where(table, **wanted)
     if len(found) != 1:

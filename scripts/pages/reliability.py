@@ -120,10 +120,12 @@ def mutation():
     return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
 
 
+# Returns how many deliberate mistakes have each verdict: killed (a test noticed it), survived, and others.
 def verdicts(name):
     return collections.Counter(r["verdict"] for r in rows(f"{name}.csv"))
 
 
+# Returns how many of the mistakes that no test noticed were found to be of each kind.
 def looked_at(name):
     return collections.Counter(r["looked_at"] for r in rows(f"{name}-survivors.csv"))
 

@@ -121,6 +121,7 @@ def copied(name, lines, written):
     return wrong
 
 
+# Returns messages for marks in a document that has no module.
 def without_module(name, lines):
     return [f"{name}:{k + 1}: a mark, but scripts/pages/ has no module of this document: '{line.strip()}'"
             for k, line in enumerate(lines) if ANY.search(line) and not BY_HAND.match(line)]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["ReportError", "report"]
 
 
+# The module's type. It makes `macadam.report(...)` callable, and imports the other names when they are first used.
 class _Callable(types.ModuleType):
     def __call__(self, dirs: str | Path | Iterable[str | Path], out: str | Path, title: str | None = None) -> Path:
         from macadam.report.document import report

@@ -23,6 +23,7 @@ NAMES = {
 MOST = 10  # largest number of parameters in the picture of sensitivities
 
 
+# Adds the sections on contacts and sensitivities for the folders that are runs.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run" and f.summary.get("contacts")]
     if runs:
@@ -51,6 +52,7 @@ def add(page: Page, folders: list[Folder]) -> None:
         _sensitivities(page, folder)
 
 
+# Draws the number of contacts of each type.
 def _numbers(folders: list[Folder]) -> Any:
     pairs = [p for p in NAMES if any(f.summary["contacts"].get(p) for f in folders)]
     figure, axes = look.figure(look.WIDE, 0.6 + 0.2 * len(pairs) * (1 + 0.5 * len(folders)))
@@ -93,6 +95,7 @@ def _numbers_caption(folders: list[Folder]) -> str:
     return " ".join(words)
 
 
+# Adds a table of the facets' areas by type of contact.
 def _areas(page: Page, folder: Folder) -> None:
     table = folder.table("contacts.csv", ["pair", "area", "distance"])
     rows = []
@@ -116,6 +119,7 @@ def _areas(page: Page, folder: Folder) -> None:
     )
 
 
+# Adds a picture of the share of E* that each type of contact carries, for at most 12 frequencies.
 def _shares(page: Page, folder: Folder) -> None:
     rows = _at_first_temperature([r for r in folder.by_frequency if r.get("shares")])[:12]
     if not rows:
@@ -141,6 +145,8 @@ def _shares(page: Page, folder: Folder) -> None:
     )
 
 
+# Adds a picture of the change of |E*| and phase angle by 10 % of each parameter, at the lowest and the highest
+# frequency.
 def _sensitivities(page: Page, folder: Folder) -> None:
     rows = _at_first_temperature([r for r in folder.by_frequency if r.get("sensitivities")])
     ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
@@ -189,6 +195,7 @@ def _at_first_temperature(results: list[dict[str, Any]]) -> list[dict[str, Any]]
     )
 
 
+# Returns frequency and temperature of a result as text.
 def _at(result: dict[str, Any]) -> str:
     t = result.get("temperature_c")
     return look.hertz(result["frequency_hz"]) + ("" if t is None else f", {t:g} °C")

@@ -25,6 +25,7 @@ _TIMES = {
 }
 
 
+# Adds the section on decisions and skips.
 def add_decisions(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     page.section("What was decided and left out, and why")
@@ -60,6 +61,7 @@ def _skips(folder: Folder) -> str:
     )
 
 
+# Adds the section on method, wall times, version and machine.
 def add_run(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     if not runs:
@@ -80,11 +82,13 @@ def add_run(page: Page, folders: list[Folder]) -> None:
         )
 
 
+# Returns the wall time of a stage as text; a dash if the run did not record it.
 def _time(folder: Folder, name: str) -> str:
     value = (folder.summary.get("timing_s") or {}).get(name)
     return "–" if value is None else look.seconds(value)
 
 
+# Returns names and values of the facts about a run.
 def _facts(folder: Folder) -> list[tuple[str, Any]]:
     s = folder.summary
     solver, machine = s.get("solver") or {}, s.get("machine") or folder.of_study.get("machine")

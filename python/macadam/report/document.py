@@ -37,6 +37,7 @@ def report(dirs: str | Path | Iterable[str | Path], out: str | Path, title: str 
     return write(page, out, title or _title(folders), _subtitle(folders))
 
 
+# Returns the page with the sections of all modules. A section without content is not shown.
 def _page(folders: list[Folder]) -> Page:
     page = Page(len(folders) > 1)
     _overview(page, folders)
@@ -106,6 +107,7 @@ def _subtitle(folders: list[Folder]) -> str:
     )
 
 
+# Adds warnings, and sentences about a single folder or a table of several.
 def _overview(page: Page, folders: list[Folder]) -> None:
     page.section("In short")
     decisions.add_warnings(page, folders)
@@ -153,6 +155,7 @@ def _found(f: Folder) -> str:
     return "–"
 
 
+# Returns |E*| and phase angle at one frequency as text.
 def _point(r: dict[str, Any]) -> str:
     t = r.get("temperature_c")
     return (

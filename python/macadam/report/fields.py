@@ -139,6 +139,7 @@ def figure(
     return made, f"{text[:1].upper()}{text[1:]}."
 
 
+# Reads one frame of a field file as a PyVista mesh. Raises ReportError if that is impossible.
 def _read(file: Path, frame: int) -> Any:
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
@@ -168,6 +169,7 @@ def _frames(reader: Any) -> int:
     return max(1, vtk.GetNumberOfSteps())
 
 
+# Returns the name of the first array that the mesh has, and whether it belongs to points (otherwise to cells).
 def _array(data: Any, file: Path, names: tuple[str, ...]) -> tuple[str, bool]:
     for name in names:
         if name in data.point_data or name in data.cell_data:

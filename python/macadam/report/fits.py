@@ -15,6 +15,7 @@ from macadam.report.modulus import decades
 from macadam.report.page import Page
 
 
+# Adds a section for each folder that is a calibration or a fit.
 def add(page: Page, folders: list[Folder]) -> None:
     for f in folders:
         if f.kind == "calibration":
@@ -43,6 +44,7 @@ def found(f: Folder) -> str:
     return ""
 
 
+# Returns the table of measured and fitted moduli of a fit.
 def _fitted(f: Folder) -> pd.DataFrame:
     return f.table("fit.csv", ["frequency_hz", "e_star_pa", "phase_deg", "fitted_e_star_pa", "fitted_phase_deg"])
 
@@ -118,6 +120,8 @@ def _fit(page: Page, f: Folder) -> None:
     )
 
 
+# Draws measured and predicted |E*| and phase over frequency, one colour per temperature. scatter: columns with the
+# standard deviations between seeds, drawn as bands.
 def _measured(table: pd.DataFrame, e_star: str, phase: str, scatter: str = "", phase_scatter: str = "") -> Any:
     figure, (left, right) = look.figure(look.WIDE, 2.8, 1, 2)
     if "temperature_c" not in table.columns:

@@ -145,6 +145,7 @@ def read_all(paths: list[str | Path]) -> list[Folder]:
     return folders
 
 
+# Reads a JSON file that holds an object. Raises ReportError for anything else.
 def _json(file: Path) -> dict[str, Any]:
     try:
         value = json.loads(file.read_text(encoding="utf-8"))

@@ -15,6 +15,7 @@ from macadam.report.modulus import decades
 from macadam.report.page import Page
 
 
+# Adds a section for each kind of test in time, and one for Prony series.
 def add(page: Page, folders: list[Folder]) -> None:
     for kind, title, draw in (
         ("relaxation", "Relaxation", _relaxation),
@@ -105,6 +106,7 @@ def _finish(figure: Any, first: Any, found: list[Folder], along: list[Any], up: 
         figure.legend(*first.get_legend_handles_labels(), loc="outside lower center", ncols=min(4, len(found)))
 
 
+# Draws relaxation modulus and stress over time. Returns figure and caption.
 def _relaxation(found: list[Folder]) -> tuple[Any, str]:
     figure, (left, right) = _axes(found)
     factor, unit = look.modulus_unit(p["modulus_pa"] for f in found for p in f.in_time["points"])
@@ -128,6 +130,7 @@ def _relaxation(found: list[Folder]) -> tuple[Any, str]:
     )
 
 
+# Draws strain and creep compliance over time. Returns figure and caption.
 def _creep(found: list[Folder]) -> tuple[Any, str]:
     figure, (left, right) = _axes(found)
     words = []
@@ -155,6 +158,7 @@ def _creep(found: list[Folder]) -> tuple[Any, str]:
     )
 
 
+# Draws stress over strain, and the secant modulus over time. Returns figure and caption.
 def _monotonic(found: list[Folder]) -> tuple[Any, str]:
     figure, (left, right) = _axes(found)
     factor, unit = look.modulus_unit(p["secant_pa"] for f in found for p in f.in_time["points"])
@@ -191,6 +195,7 @@ def _monotonic(found: list[Folder]) -> tuple[Any, str]:
     )
 
 
+# Draws the moduli of the units of Prony series over their relaxation times.
 def _spectrum(found: list[Folder]) -> Any:
     figure, axes = look.figure(look.WIDE, 2.3)
     for f in found:

@@ -15,6 +15,7 @@ from macadam.report.page import Page
 MOST = 6  # largest number of loops drawn of one folder
 
 
+# Adds the loops of all runs over frequencies, then their master curves.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run" and f.by_frequency]
     for folder in runs:
@@ -86,6 +87,7 @@ def _choice(groups: list[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
     return [groups[round(k)] for k in np.linspace(0, len(groups) - 1, MOST)]
 
 
+# Adds the master curve of a run at several temperatures, or the reason why there is none.
 def _master(page: Page, folder: Folder) -> None:
     rows = folder.by_frequency
     temperatures = sorted({r["temperature_c"] for r in rows if r.get("temperature_c") is not None})

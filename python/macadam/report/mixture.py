@@ -17,6 +17,7 @@ ABREAST = 4  # largest number of folders that one table shows as columns
 SIZES = re.compile(r"([\d.]+)-([\d.]+) mm$")  # name of a size class that the scene gives no other name
 
 
+# Adds the section on the mix of all runs.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     if not runs:
@@ -71,6 +72,7 @@ def _facts(folder: Folder) -> list[tuple[str, Any]]:
     return rows
 
 
+# Adds tables of the size classes: one table for at most ABREAST folders, otherwise one per folder.
 def _composition(page: Page, folders: list[Folder]) -> None:
     with_classes = [f for f in folders if f.summary.get("composition")]
     for folder in (f for f in folders if f not in with_classes):
@@ -125,6 +127,7 @@ def _class(name: str) -> str:
     return name.replace("-", "–")
 
 
+# Draws the gradation curve of a mix design, the curve reached and the envelope.
 def _gradation(folder: Folder) -> Any:
     recipe = folder.summary["recipe"]
     rows, cut = recipe["gradation"], recipe["cut_m"]
@@ -181,6 +184,7 @@ def _gradation_caption(folder: Folder) -> str:
     return words
 
 
+# Draws the size distribution by volume, for specimens without a mix design.
 def _sizes(folders: list[Folder]) -> Any:
     figure, axes = look.figure(look.WIDE, 2.3)
     for f in folders:

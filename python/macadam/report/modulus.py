@@ -35,6 +35,7 @@ class Curve:
     label: str = ""
 
 
+# Adds the section on |E*| and phase angle, and notes the runs that have none.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     for f in runs:
@@ -113,6 +114,7 @@ def decades(axis: Any, most: int = 9) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
+# Draws |E*| and phase angle over frequency, with error bars and the means over seeds.
 def _over_frequency(found: list[Curve]) -> Any:
     factor, unit = look.modulus_unit(e for c in found for e in c.e_star)
     figure, (left, right) = look.figure(look.WIDE, 2.7, 1, 2)
@@ -180,6 +182,7 @@ def _caption(found: list[Curve]) -> str:
     return " ".join(words)
 
 
+# Returns storage and loss modulus, E′ and E″ [Pa].
 def _parts(c: Curve) -> tuple[np.ndarray, np.ndarray]:
     return c.e_star * np.cos(np.radians(c.phase)), c.e_star * np.sin(np.radians(c.phase))
 

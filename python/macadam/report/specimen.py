@@ -25,6 +25,7 @@ PIXELS = 420  # pixels along the longest edge of the box
 Paint = Callable[[np.ndarray], np.ndarray]  # returns the colours of rows of specimen.csv
 
 
+# Adds block, section and aggregates of each specimen.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind in ("run", "twin")]
     drawn = []
@@ -57,6 +58,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             page.figure(grains, words, "the aggregates in the specimen", third=True, raster=True)
 
 
+# Returns the edges of the box [m]; without a summary, those of the volume that the spheres fill.
 def _box(folder: Folder) -> np.ndarray:
     edges = folder.summary.get("box_m")
     s = folder.specimen

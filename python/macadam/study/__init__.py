@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["Study", "StudyError", "study"]
 
 
+# The module's type. It makes `macadam.study(...)` callable, and imports the other names when they are first used.
 class _Callable(types.ModuleType):
     def __call__(self, *arguments: Any, **more: Any) -> Study:
         from macadam.study.driver import study

@@ -47,6 +47,7 @@ def main(arguments: list[str] | None = None) -> int:
             signal.signal(number, handler)
 
 
+# Parses the command line.
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="macadam study",
@@ -72,6 +73,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
+# Runs, lists or checks a study, as the options say. Returns the exit code.
 def _command(options: argparse.Namespace, stop: _Stop) -> int:
     from macadam.study import StudyError, study
     from macadam.study.design import read_design

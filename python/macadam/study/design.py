@@ -123,6 +123,7 @@ def _add(design: Design, job: Job, equal: list[Job]) -> None:
     design.jobs.append(job)
 
 
+# Returns the command and arguments of macadam that the study asks for.
 def _command(asked: Table) -> list[str]:
     command = asked.get("command", "run")
     if command not in _COMMANDS:
@@ -142,6 +143,7 @@ def _experiments(asked: Table) -> dict[str, Changes]:
     return {name: Changes(f"experiment.{name}", keys) for name, keys in found.items()} or {"": Changes("experiment")}
 
 
+# Raises StudyError if a choice has the name of a factor or of a column of the table.
 def _refuse_names(options: dict[str, Any], keys: list[str]) -> None:
     for name in options:
         if name in keys:
@@ -150,6 +152,7 @@ def _refuse_names(options: dict[str, Any], keys: list[str]) -> None:
             raise StudyError(f"choice.{name}: found the name of a column of the table, expected another name")
 
 
+# Raises StudyError for an unknown key and suggests a similar known one.
 def _known(table: Table, names: set[str], where: str) -> None:
     for key in table:
         if key not in names:

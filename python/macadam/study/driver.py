@@ -154,6 +154,7 @@ def _compute_all(
     return f"{DIED}{f' ({trouble.words or died})' if trouble.words or died else ''}"
 
 
+# A context with the caller's executor if there is one, otherwise with the executor that [run] describes.
 def _pool(given: concurrent.futures.Executor | None, run: dict[str, Any], folder: Path) -> Any:
     return contextlib.nullcontext((given, Trouble)) if given is not None else executors.executor(run, folder)
 

@@ -135,6 +135,7 @@ class Effect:
         return self.scatter is not None and abs(last - first) <= self.scatter
 
 
+# Whether a factor is numeric and has more than FEW different values.
 def continuous(points: pd.DataFrame, factor: str) -> bool:
     return numeric(points, factor) and points[factor].nunique() > FEW
 

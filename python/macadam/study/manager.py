@@ -39,6 +39,7 @@ def watch(study: int, manager: int, seconds: float) -> None:
             os.kill(manager, signal.SIGKILL)
 
 
+# Forks the watcher and becomes the manager.
 def main() -> None:
     study, seconds, command = int(sys.argv[1]), float(sys.argv[2]), sys.argv[3:]
     manager = os.getpid()

@@ -71,6 +71,7 @@ def parsl_pool(
             _end(pool, executor, config, seconds)
 
 
+# Returns Parsl's executor for the given place, with its provider of workers.
 def _executor(place: str, slurm: dict[str, Any], workers: int | None, threads: int, gpus: int) -> Any:
     from parsl.executors import HighThroughputExecutor
     from parsl.executors.high_throughput.executor import DEFAULT_LAUNCH_CMD
@@ -172,6 +173,7 @@ def _cancel(provider: Any) -> None:
             )
 
 
+# Kills the process groups of the workers, and the interchange.
 def _kill(groups: set[int], interchange: Any) -> None:
     for group in groups:
         with contextlib.suppress(ProcessLookupError):

@@ -96,6 +96,7 @@ def _flat(table: Table, leaf: Any = lambda value: False, before: str = "") -> Ta
     return out
 
 
+# Returns the tables of an array of tables of the study; also accepts a single table.
 def _list(asked: Table, name: str) -> list[Table]:
     value = asked.get(name, [])
     value = [value] if isinstance(value, dict) else value

@@ -50,6 +50,7 @@ def with_value(scene: Table, key: str, value: Any) -> Table:
     return changed
 
 
+# Returns the section or entry that one part of a dotted key names; makes a missing section.
 def _step(at: Any, part: str, key: str) -> Any:
     if isinstance(at, list):
         return at[_index(at, part, key)]
@@ -59,6 +60,7 @@ def _step(at: Any, part: str, key: str) -> Any:
     return following
 
 
+# Returns the index of an entry in an array of tables, by its pair or its number.
 def _index(entries: list[Any], part: str, key: str) -> int:
     pairs = [e.get("pair") if isinstance(e, dict) else None for e in entries]
     if part in pairs:
@@ -85,6 +87,7 @@ def merged(scene: Table, more: Table) -> Table:
     return out
 
 
+# Returns the contacts with the new entries in place of those of the same pairs; entries of other pairs are appended.
 def _contacts(there: Any, new: list[Any]) -> list[Any]:
     for contacts in (new, there):
         if not isinstance(contacts, list) or not all(isinstance(c, dict) for c in contacts):
@@ -116,6 +119,7 @@ def located(scene: Table, folder: Path) -> tuple[Table, dict[str, str]]:
     return scene, digests
 
 
+# Returns the SHA-256 digest of a file, or of the names and contents of all files in a folder.
 def _digest(path: Path) -> str:
     sha = hashlib.sha256()
     for file in sorted(path.rglob("*")) if path.is_dir() else [path]:

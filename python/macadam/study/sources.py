@@ -91,6 +91,7 @@ def refuse_clashes(groups: list[list[Changes]], base: Table) -> None:
         _refuse(itertools.product(first, second))
 
 
+# Raises StudyError for the first pair of settings that clash.
 def _refuse(pairs: Any) -> None:
     for one, other in pairs:
         if why := one.clash(other):

@@ -38,6 +38,7 @@ def write_report(design: Design, study: Study, folder: Path) -> Path:
     )
 
 
+# Adds all sections of the report to the page.
 def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
     found, failed, missing = study.table, study.failures, study.missing
     done = found["key"].nunique() if len(found) else 0
@@ -103,6 +104,7 @@ def _strongest(q: Quantity) -> str:
     return f"; it depends most on {name} ({change}), {look.percent(first.share, 2)} of the variance between points"
 
 
+# Returns the number of points, seeds and experiments in words.
 def _count(design: Design) -> str:
     seeds: dict[str, set[str]] = {}
     for job in design.jobs:
@@ -136,6 +138,7 @@ def _factors(design: Design) -> list[list[Any]]:
     return rows
 
 
+# Adds pictures and the table of the main effects on a quantity.
 def _main_effects(page: Page, q: Quantity) -> None:
     found = effects(q)
     if not found:
@@ -206,6 +209,7 @@ def _chance(q: Quantity, effect: Effect) -> str:
     return f"±{effect.scatter:.2g}°" if q.unit == "°" else f"±{100 * effect.scatter / first:.2g} %" if first else "–"
 
 
+# Draws one factor's effect: all points in grey, and the means or the fitted line.
 def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
     axis.set_xlabel(short(effect.factor))
     x, y = points[effect.factor], points["value"]

@@ -122,6 +122,7 @@ def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> No
     _whole(folder / "failures.csv", rows)
 
 
+# Writes a file under a temporary name and renames it, so that it is never incomplete. fill: writes to the given path.
 def _whole(file: Path, fill: Any) -> None:
     part = file.with_name(f".{file.name}.{os.getpid()}.part")
     try:
