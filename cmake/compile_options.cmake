@@ -21,7 +21,8 @@ target_compile_options(macadam_options INTERFACE $<$<AND:$<COMPILE_LANGUAGE:CXX>
 # Clang 14 and 16 miscompile libstdc++'s packets (std::experimental::simd) for AVX-512: assignments to lanes that a mask
 # of doubles selects are lost, so that bonds would not break.
 set(MACADAM_PACKETS $<$<CXX_COMPILER_ID:Clang>:-mno-avx512f>)
-set(MACADAM_STEP_OPTIONS -Wno-psabi)  # the warning is about passing packets between libraries, but they are used only within one file
+# the warning is about passing packets between libraries, but they are used only within one file
+set(MACADAM_STEP_OPTIONS -Wno-psabi)
 if(MACADAM_NATIVE)
   list(APPEND MACADAM_STEP_OPTIONS -march=native ${MACADAM_PACKETS})
 endif()

@@ -13,8 +13,10 @@ find_package(tomlplusplus 3.2 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C CXX)
-target_link_libraries(hdf5::hdf5_cpp INTERFACE hdf5::hdf5)  # CMake omits this dependency, which matters for the link order of static libraries
-target_compile_definitions(hdf5::hdf5_cpp INTERFACE H5_USE_110_API)  # later HDF5 versions change the arguments of some functions
+# CMake omits this dependency, which matters for the link order of static libraries
+target_link_libraries(hdf5::hdf5_cpp INTERFACE hdf5::hdf5)
+# later HDF5 versions change the arguments of some functions
+target_compile_definitions(hdf5::hdf5_cpp INTERFACE H5_USE_110_API)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)  # CGAL searches for Boost in a way about which CMake 3.30 and later warn
 find_package(CGAL 5.5 REQUIRED)
@@ -92,7 +94,8 @@ if(NOT MACADAM_CUDA STREQUAL "OFF")
     elseif(NOT CMAKE_CUDA_ARCHITECTURES AND DEFINED ENV{CUDAARCHS})  # CMake reads it only at the first configuration
       set(CMAKE_CUDA_ARCHITECTURES "$ENV{CUDAARCHS}")
     elseif(NOT CMAKE_CUDA_ARCHITECTURES)
-      set(CMAKE_CUDA_ARCHITECTURES "75-virtual;90-real")  # machine code for sm_90; for other devices from 7.5 on the driver compiles PTX
+      # machine code for sm_90; for other devices from 7.5 on the driver compiles PTX
+      set(CMAKE_CUDA_ARCHITECTURES "75-virtual;90-real")
     endif()
     enable_language(CUDA)
     if(NOT DEFINED CMAKE_CUDA20_STANDARD_COMPILE_OPTION)  # CMake 3.25 of Debian 12 does not know the option for C++20

@@ -9,7 +9,8 @@ function(macadam_add_processors library sources)
     set(part macadam_code_${level})
     add_library(${part} OBJECT ${sources})
     target_link_libraries(${part} PRIVATE macadam_options OpenMP::OpenMP_CXX fmt::fmt Eigen3::Eigen)
-    target_compile_options(${part} PRIVATE -Wno-psabi -march=x86-64-${level} ${MACADAM_PACKETS} -fno-gnu-unique)  # unique symbols cannot be made local
+    # unique symbols cannot be made local
+    target_compile_options(${part} PRIVATE -Wno-psabi -march=x86-64-${level} ${MACADAM_PACKETS} -fno-gnu-unique)
     target_compile_definitions(${part} PRIVATE MACADAM_CODE=${part} MACADAM_CODE_NAME="x86-64-${level}")
     set(joined ${CMAKE_CURRENT_BINARY_DIR}/${part}.o)
     add_custom_command(OUTPUT ${joined}

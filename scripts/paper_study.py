@@ -111,7 +111,8 @@ def making_scene(text, name, choice):
     text = re.sub(r"^frequencies = .*", f"frequencies = {[float(f) for f in SHORT]}", text, flags=re.M)
     if choice.spacing_mm:
         text = after(text, "specimen", f'spacing = "{choice.spacing_mm:g} mm"')
-    if void := porosity(name, choice):  # the volumes of the spheres stay the same, so the shapes of clusters become larger
+    # the volumes of the spheres stay the same, so the shapes of clusters become larger
+    if void := porosity(name, choice):
         clustered = PAPER[name].clustered
         volume = [s / 100 / (1 - void if k in clustered else 1) for k, s in enumerate(PAPER[name].share)]
         text = with_fractions(text, [v / sum(volume) for v in volume])

@@ -12,7 +12,8 @@ from ._result import result_folder as result_folder
 from ._scene import Scene
 
 SceneLike = _core.Scene | _core.Specimen | Mapping[str, Any] | str | PathLike[str]
-SpecimenLike = _core.Specimen | Mapping[str, Any]  # a specimen made before, or changed keys of the scene's section `specimen`
+# a specimen made before, or changed keys of the scene's section `specimen`
+SpecimenLike = _core.Specimen | Mapping[str, Any]
 Number = float | int | str  # a value of a scene: in SI units, or text with its unit
 
 #: Keys of [solver] that belong to the scene's own test and are removed when another test replaces it.
@@ -80,7 +81,8 @@ def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, An
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}
     solver = {k: v for k, v in tables.get("solver", {}).items() if k not in _OF_THE_TEST}
     if method != "harmonic":
-        solver.pop("tolerance", None)  # the scene's tolerance would be refused: no error is predicted for this stepped test
+        # the scene's tolerance would be refused: no error is predicted for this stepped test
+        solver.pop("tolerance", None)
     tables["solver"] = {**solver, "method": method}
     options = {**given.options, "method": None}
     call |= {name: overrides[name] for name in _OF_RUN if name in overrides}

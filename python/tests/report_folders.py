@@ -169,7 +169,8 @@ def run(*arguments: str | Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
-_kept = tempfile.TemporaryDirectory(prefix="macadam-results-")  # shared by all test modules; removed at the end of the process
+# shared by all test modules; removed at the end of the process
+_kept = tempfile.TemporaryDirectory(prefix="macadam-results-")
 
 
 def make(kind: str, seed: int = 1) -> Path:

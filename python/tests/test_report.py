@@ -76,7 +76,8 @@ def test_every_kind_of_folder(kind: str, tmp_path: Path, monkeypatch: pytest.Mon
     plain = re.sub(r"data:[^\"]*", "", page)
     for words in CASES[kind]:
         assert words in re.sub(r"<[^>]*>", "", plain) or words in plain, words
-    assert "<script" not in plain and "http" not in plain.replace("http-equiv", "")  # the page loads nothing and runs no script
+    # the page loads nothing and runs no script
+    assert "<script" not in plain and "http" not in plain.replace("http-equiv", "")
     assert not re.search(r">[^<]*\b(nan|None|inf)\b", plain), "a value that is none shows as one"
     assert list(tmp_path.iterdir()) == [out]
 
@@ -221,7 +222,8 @@ def test_other_wrong_requests(tmp_path: Path, capsys) -> None:
     with pytest.raises(ReportError, match="found a folder"):
         report(folder, tmp_path)
     (tmp_path / "file").write_text("")
-    assert command.main([str(folder), "--out", str(tmp_path / "file/r.html")]) == 1  # exit code 1: the file cannot be written
+    # exit code 1: the file cannot be written
+    assert command.main([str(folder), "--out", str(tmp_path / "file/r.html")]) == 1
     assert "file" in capsys.readouterr().err
 
 

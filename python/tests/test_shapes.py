@@ -75,7 +75,8 @@ def test_tables_are_those_of_the_command(cube, tmp_path, program):
     table = mc.shapes.table([mc.shapes.read(tmp_path / "cube.off", scale=1e-3)])
     assert len(written) == len(table) == 1
     assert table.volume[0] == pytest.approx(1e-6, rel=1e-12)
-    assert mc.shapes.measure(mc.shapes.read(tmp_path / "cube.stl", 1e-3)).volume == pytest.approx(1e-6, rel=1e-5)  # STL has single precision
+    # STL has single precision
+    assert mc.shapes.measure(mc.shapes.read(tmp_path / "cube.stl", 1e-3)).volume == pytest.approx(1e-6, rel=1e-5)
     with pytest.raises(mc.InputError, match="none.off"):
         mc.shapes.read(tmp_path / "none.off")
 
@@ -117,7 +118,8 @@ def test_a_faulty_surface_is_repaired_for_a_table(cube):
     holed = mc.shapes.Surface(cube.points, cube.facets[:-1], "holed")
     with pytest.raises(mc.Error):
         mc.shapes.table([holed])
-    assert mc.shapes.table([holed], repair=True).volume[0] == pytest.approx(1e-6, rel=1e-3)  # repair closes the hole with triangles
+    # repair closes the hole with triangles
+    assert mc.shapes.table([holed], repair=True).volume[0] == pytest.approx(1e-6, rel=1e-3)
 
 
 def test_the_library(tmp_path):

@@ -94,7 +94,8 @@ def test_the_scatter_of_a_line() -> None:
     )
     design = asked(grid={"a": list(x), "seed": [1, 2]})
     (effect,) = effects(quantities(rows, design)[0])
-    error = 2**0.5 / 2**0.5 / ((x - x.mean()) ** 2).sum() ** 0.5  # error of the slope; seeds deviate by sqrt(2), two per point
+    # error of the slope; seeds deviate by sqrt(2), two per point
+    error = 2**0.5 / 2**0.5 / ((x - x.mean()) ** 2).sum() ** 0.5
     assert np.isclose(effect.scatter, student_95(10) * 9 * error)
 
 

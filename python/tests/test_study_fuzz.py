@@ -91,7 +91,8 @@ def test_damaged_studies_and_scenes_are_read_or_refused(tmp_path: Path) -> None:
         except Exception as error:
             text = (scene if of_scene else study).read_text(errors="replace")
             raise AssertionError(f"case {case}: {text[:1000]!r}") from error
-        assert time.process_time() - begin < 60, f"case {case}"  # far more than a slow processor needs, so it means an endless loop
+        # far more than a slow processor needs, so it means an endless loop
+        assert time.process_time() - begin < 60, f"case {case}"
 
 
 def test_more_points_than_anyone_computes_are_refused_before_they_are_made(tmp_path: Path) -> None:

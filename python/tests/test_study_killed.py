@@ -84,7 +84,8 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
     (tmp_path / "study.toml").write_text(STUDY.replace("VALUES", str(values)).replace("WORKERS", str(WORKERS)))
     out = tmp_path / "out"
     chance = random.Random(7)
-    moments = sorted(chance.sample(range(2, points - 5), kills))  # numbers of results after which a driver or worker is killed
+    # numbers of results after which a driver or worker is killed
+    moments = sorted(chance.sample(range(2, points - 5), kills))
     line = [sys.executable, "-m", "macadam.study", "study.toml", "--out", str(out)]
     environment = {**ENVIRONMENT, "MACADAM_PROGRAM": program}
     kept: dict[str, tuple[int, int]] = {}

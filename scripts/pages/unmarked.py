@@ -17,7 +17,8 @@ kg least less many MB MiB m minute minutes mm more most MPa ms ns µs of or over
 several spheres step steps TB than the times to up within x e""".split())
 CLAIM = re.compile(r"\b(?:no chance|by chance alone|negligib\w+|insignificant)\b|\bis (?:low|high)\b(?! enough)")
 DEFINES = ("default", "key")  # heads of columns with definitions instead of measured numbers
-STRICT = ("README.md", "bench/README.md", "docs/accuracy.md", "docs/skips.md")  # documents whose sentences are checked too
+# documents whose sentences are checked too
+STRICT = ("README.md", "bench/README.md", "docs/accuracy.md", "docs/skips.md")
 MEASURED = re.compile(r"(?<![\w.])\d[\d.,]*(?:e[+\-−]?\d+|[  ]?(?:%|°|s\b|ms\b|µs\b|GB\b))")
 
 

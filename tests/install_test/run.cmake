@@ -23,7 +23,8 @@ run(${CMAKE_COMMAND} -S ${examples}/tutorial -B ${WORK}/tutorial -G Ninja ${abse
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/tutorial)
 execute_process(COMMAND ${WORK}/tutorial/tutorial ${examples}/demo/scene.toml ${WORK}/tutorial/results
-                OUTPUT_VARIABLE said COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)  # the tutorial fails if the two |E*| differ
+                # the tutorial fails if the two |E*| differ
+                OUTPUT_VARIABLE said COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE "\n" "\n    " said "    ${said}")
 string(STRIP "${said}" said)
 file(READ ${examples}/tutorial/README.md page)

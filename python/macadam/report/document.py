@@ -203,7 +203,8 @@ def _words(f: Folder) -> list[str]:
         words.append(f"Its |E*| and phase angle are {' and '.join(_point(r) for r in ends)}.")
     elif f.in_time:
         words.append(f"Test: {f.in_time['kind']}. Found: {_found(f)}.")
-        rupture = f.in_time.get("rupture") if f.in_time["kind"] == "monotonic" else None  # other tests report it as a warning
+        # other tests report it as a warning
+        rupture = f.in_time.get("rupture") if f.in_time["kind"] == "monotonic" else None
         words += [w for w in ((rupture or {}).get("words"), _broken(f)) if w]
     elif f.kind == "run":
         words.append("The folder holds the specimen and its contacts; no test was run in it.")

@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 
 COLOURS = ["#1f5a8a", "#c4532f", "#3c8558", "#80569b", "#b98a1d", "#2f979e", "#a83f70", "#6b6f76"]  # colours of folders
 MASTIC, VOID, INK = "#33363d", "#ffffff", "#22252b"
-CLASSES = ["#d9c7a0", "#a9b0b8", "#c49558", "#a9654b", "#8da787", "#7390ae", "#b498ad", "#e0b79b"]  # colours of size classes
+# colours of size classes
+CLASSES = ["#d9c7a0", "#a9b0b8", "#c49558", "#a9654b", "#8da787", "#7390ae", "#b498ad", "#e0b79b"]
 PAIRS = {"M-M": "#33363d", "M-A": "#1f5a8a", "A-A": "#c4532f", "inner": "#b98a1d", "A-W": "#8f959d", "M-W": "#c3c7cc"}
 _WARMTH = LinearSegmentedColormap.from_list("warmth", ["#1d4f91", "#3f8fb0", "#9a76b0", "#d1673f", "#a31621"])
 WIDE, THIRD = 7.0, 2.27  # [inches] width of the text, and of one of three pictures side by side

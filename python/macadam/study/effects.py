@@ -119,7 +119,8 @@ class Effect:
     means: list[float]  # mean of the quantity at each level
     share: float
     errors: list[float] | None = None  # standard errors of the means, from the scatter of seeds; None: it is unknown
-    scatter: float | None = None  # half the 95 % interval of the change between the ends, also from the scatter of seeds
+    # half the 95 % interval of the change between the ends, also from the scatter of seeds
+    scatter: float | None = None
 
     @property
     def ends(self) -> tuple[float, float]:

@@ -62,7 +62,8 @@ def _threads(number: int, folder: Path) -> Iterator[concurrent.futures.Executor]
         yield pool
     except BaseException:
         programs.stop(str(folder))
-        pool.shutdown(wait=False, cancel_futures=True)  # without waiting: a thread may be blocked by the lock of a living worker
+        # without waiting: a thread may be blocked by the lock of a living worker
+        pool.shutdown(wait=False, cancel_futures=True)
         raise
     pool.shutdown()
 

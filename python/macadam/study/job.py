@@ -24,7 +24,8 @@ from typing import Any
 from macadam.study import programs
 from macadam.study.locks import locked
 
-KILLS = 3  # repetitions after a signal has killed the program, for example because memory ran out; then the job has failed
+# repetitions after a signal has killed the program, for example because memory ran out; then the job has failed
+KILLS = 3
 _LINES = 12  # number of lines of the program's messages that are kept
 _LIBC = ctypes.CDLL(None)  # loaded here, because loading is not safe between fork and exec
 

@@ -54,7 +54,8 @@ def taken(file: Path) -> bool:
     except FileNotFoundError:
         return False
     try:
-        fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)  # held until the handle is closed below; others wait that long
+        # held until the handle is closed below; others wait that long
+        fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         return False
     except (BlockingIOError, PermissionError):
         return True
