@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# CPack runs this on what it is about to pack: manual page and changelog as Debian has them.
+# CPack runs this on the files that it is about to pack. Compresses manual page and changelog as Debian's rules ask.
 file(GLOB_RECURSE files ${CPACK_TEMPORARY_DIRECTORY}/CHANGELOG.md ${CPACK_TEMPORARY_DIRECTORY}/macadam.1)
 foreach(file ${files})
   string(REPLACE CHANGELOG.md changelog name ${file})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Libraries, all from Debian packages (scripts/dependencies names them).
-if(MACADAM_FUZZ)  # the readers need no threads, and clang's OpenMP is a package more
+# Finds the libraries that Macadam needs, all of them from Debian packages, which scripts/dependencies lists.
+if(MACADAM_FUZZ)  # the readers need no threads, and clang's OpenMP would be another package to install
   add_library(OpenMP::OpenMP_CXX INTERFACE IMPORTED)
   target_compile_options(OpenMP::OpenMP_CXX INTERFACE -Wno-unknown-pragmas -Wno-source-uses-openmp)
 else()
@@ -13,14 +13,17 @@ find_package(tomlplusplus 3.2 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C CXX)
-target_link_libraries(hdf5::hdf5_cpp INTERFACE hdf5::hdf5)  # which CMake leaves out: static libraries are taken in order
-target_compile_definitions(hdf5::hdf5_cpp INTERFACE H5_USE_110_API)  # later ones have functions of the same names that ask for more
+# CMake omits this dependency, which matters for the link order of static libraries
+target_link_libraries(hdf5::hdf5_cpp INTERFACE hdf5::hdf5)
+# later HDF5 versions change the arguments of some functions
+target_compile_definitions(hdf5::hdf5_cpp INTERFACE H5_USE_110_API)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
-set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)  # CGAL asks for Boost in a way that CMake 3.30 and later warn of
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)  # CGAL searches for Boost in a way about which CMake 3.30 and later warn
 find_package(CGAL 5.5 REQUIRED)
-find_package(Boost 1.74 REQUIRED CONFIG)  # headers: distributions of Math
+find_package(Boost 1.74 REQUIRED CONFIG)  # only headers: the distributions of Boost.Math
 
-# Debian's SuiteSparse and METIS bring no CMake targets of their own
+# Makes an imported target of a header and a library, for libraries without CMake targets, as Debian's SuiteSparse and
+# METIS
 function(macadam_find_library target header suffix library)
   string(MAKE_C_IDENTIFIER "${target}" id)
   find_path(${id}_INCLUDE ${header} PATH_SUFFIXES ${suffix} REQUIRED)
@@ -31,18 +34,20 @@ function(macadam_find_library target header suffix library)
 endfunction()
 macadam_find_library(SuiteSparse::CHOLMOD cholmod.h suitesparse cholmod)
 macadam_find_library(METIS::METIS metis.h "" metis)
-# Ceres brings some, which link ATLAS beside the BLAS that SuiteSparse takes; the shared library asks for what it needs itself
+# Ceres has CMake targets, but they would link ATLAS in addition to the BLAS that SuiteSparse uses. The shared library
+# loads what it needs itself, so linking only that library is enough.
 macadam_find_library(Ceres::ceres ceres/ceres.h "" ceres)
 macadam_find_library(glog::glog glog/logging.h "" glog)
 
-# Images of computed tomography. In a function, because ITK's configuration looks for libraries of its own and would leave
-# other values in the variables of those above.
+# Finds ITK, for images of computed tomography. It is a function because ITK's configuration searches for libraries too,
+# and would overwrite the variables of those found above.
 function(macadam_find_itk)
   find_package(ITK 5.2 QUIET COMPONENTS ITKIOMeta ITKIONRRD ITKIOTIFF ITKIOPNG ITKSmoothing ITKDistanceMap)
   if(ITK_FOUND)
     add_library(ITK::ITK INTERFACE IMPORTED)
     target_include_directories(ITK::ITK SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
-    # the libraries of code; the rest of the list is what modules of headers alone depend on
+    # only the libraries whose code is used; ITK_LIBRARIES also names dependencies of modules of which only headers are
+    # used
     target_link_libraries(ITK::ITK INTERFACE ITKCommon ITKIOImageBase ITKIOMeta ITKIONRRD ITKIOTIFF ITKIOPNG ITKSmoothing)
   endif()
   set(ITK_FOUND ${ITK_FOUND} PARENT_SCOPE)
@@ -59,7 +64,8 @@ if(NOT MACADAM_CT STREQUAL "OFF")
 endif()
 message(STATUS "CT images: ${MACADAM_HAS_CT}")
 
-# Machine code for the generations in use, as far as this nvcc knows them, and code of the newest for what comes after.
+# Returns the CUDA architectures of a release: machine code for all device generations in use that this nvcc knows, and
+# PTX of the newest one for later devices.
 function(macadam_release_architectures result)
   execute_process(COMMAND ${CMAKE_CUDA_COMPILER} --list-gpu-code OUTPUT_VARIABLE known COMMAND_ERROR_IS_FATAL ANY)
   foreach(version 80 86 89 90 100 120)
@@ -85,13 +91,14 @@ if(NOT MACADAM_CUDA STREQUAL "OFF")
   if(CMAKE_CUDA_COMPILER)
     if(MACADAM_CUDA_RELEASE)
       macadam_release_architectures(CMAKE_CUDA_ARCHITECTURES)
-    elseif(NOT CMAKE_CUDA_ARCHITECTURES AND DEFINED ENV{CUDAARCHS})  # CMake asks for it only when it meets the compiler first
+    elseif(NOT CMAKE_CUDA_ARCHITECTURES AND DEFINED ENV{CUDAARCHS})  # CMake reads it only at the first configuration
       set(CMAKE_CUDA_ARCHITECTURES "$ENV{CUDAARCHS}")
     elseif(NOT CMAKE_CUDA_ARCHITECTURES)
-      set(CMAKE_CUDA_ARCHITECTURES "75-virtual;90-real")  # made for sm_90; the driver compiles for any other from 7.5 on
+      # machine code for sm_90; for other devices from 7.5 on the driver compiles PTX
+      set(CMAKE_CUDA_ARCHITECTURES "75-virtual;90-real")
     endif()
     enable_language(CUDA)
-    if(NOT DEFINED CMAKE_CUDA20_STANDARD_COMPILE_OPTION)  # Debian 12's CMake 3.25 does not know it
+    if(NOT DEFINED CMAKE_CUDA20_STANDARD_COMPILE_OPTION)  # CMake 3.25 of Debian 12 does not know the option for C++20
       set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION "-std=c++20")
       set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION "-std=c++20")
     endif()
@@ -103,7 +110,8 @@ if(NOT MACADAM_CUDA STREQUAL "OFF")
 endif()
 message(STATUS "CUDA backend: ${MACADAM_HAS_CUDA}")
 
-# Several processes with a device each: MPI starts them, NCCL takes the messages of their devices
+# Finds MPI and NCCL, for several processes with one device each: MPI starts the processes, NCCL passes messages between
+# the devices
 set(MACADAM_HAS_RANKS OFF)
 if(MACADAM_RANKS STREQUAL "ON" AND NOT MACADAM_HAS_CUDA)
   message(FATAL_ERROR "MACADAM_RANKS=ON but there is no CUDA backend; use MACADAM_RANKS=AUTO")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -D FOLDER=… -D OUT=….cpp -P embed_shapes.cmake: the .off files of a folder as texts in a source file, so that the
-# program carries its library wherever it is copied.
+# cmake -D FOLDER=… -D OUT=….cpp -P embed_shapes.cmake: writes the .off files of a folder as texts into a C++ source
+# file, so that the program contains its library of shapes and needs no files for it.
 file(GLOB files LIST_DIRECTORIES false ${FOLDER}/*.off)
 list(SORT files)
 set(texts "")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Debian packages by CPack, which scripts/release calls: `macadam`, and `libmacadam-dev` for programs that are built with the
-# library. What they depend on, dpkg-shlibdeps finds in the binaries.
+# Settings of CPack, which scripts/release calls to make two Debian packages: `macadam`, and `libmacadam-dev` for
+# building programs with the library. dpkg-shlibdeps finds their dependencies from the binaries.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME macadam)
 set(CPACK_PACKAGE_VERSION ${MACADAM_VERSION})
@@ -15,7 +15,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # and with it ldconfig
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # this also makes the package run ldconfig
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME macadam)
@@ -23,7 +23,8 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Macadam builds a virtual specimen from a m
 and gives the stiffness modulus and the phase angle over frequency and
 temperature. This package has the program and its library, without the CUDA
 backend.")
-# A fast BLAS below SuiteSparse; pictures, reports and studies: Debian 12's pandas and matplotlib are older than these two ask for, so pip brings them there
+# Recommended: a fast BLAS for SuiteSparse, and matplotlib for pictures. Reports and studies need newer versions of
+# pandas and matplotlib than Debian 12 has, so these packages are only suggested; on Debian 12 pip installs them.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libopenblas0, python3-matplotlib")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-pandas (>= 2), python3-venv")
 
@@ -34,6 +35,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "macadam (= ${MACADAM_VERSION})")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "What programs in C++ that are built with Macadam's library need, and its
 kernels as templates for contact laws of one's own.")
 
-# What Debian compresses: with no time in it, so that the same sources give the same package
+# Compresses the files that Debian wants compressed, without a time stamp, so that the same sources give the same
+# package
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/compress_pages.cmake)
 include(CPack)

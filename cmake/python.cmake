@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The Python package needs an interpreter with its headers and nanobind, which Debian 12 has not: scripts/python makes a place
-# for it, build/python, which is taken where it is there.
+# Finds what the Python package needs: an interpreter, its headers, and nanobind. Debian 12 does not have nanobind, so
+# scripts/python installs it into build/python, which is used if it exists.
 set(MACADAM_HAS_PYTHON OFF)
 if(MACADAM_PYTHON STREQUAL "OFF" OR (MACADAM_PYTHON STREQUAL "AUTO" AND (MACADAM_SANITIZE OR MACADAM_COVERAGE)))
   message(STATUS "Python package: OFF")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Python package's version, as scikit-build-core asks for it: what scripts/version says of the source tree."""
+"""Tells scikit-build-core the version of the Python package, which scripts/version prints for the source tree."""
 import subprocess
 from pathlib import Path
 

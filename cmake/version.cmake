@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Which version this is, asked of scripts/version before project(): MACADAM_VERSION has all of it (0.1.0+3.gHASH), MACADAM_NUMBER
-# what project() takes (0.1.0), MACADAM_COMMIT the commit as it was when CMake last looked.
+# Asks scripts/version for the version, before project() needs it. MACADAM_VERSION is the full version (0.1.0+3.gHASH),
+# MACADAM_NUMBER the part that project() accepts (0.1.0), MACADAM_COMMIT the commit at the time when CMake last
+# configured.
 function(macadam_ask_version result)
   execute_process(COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripts/version ${ARGN} OUTPUT_VARIABLE said
                   OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
@@ -12,7 +13,8 @@ macadam_ask_version(MACADAM_COMMIT --commit)
 macadam_ask_version(source --source)
 message(STATUS "Macadam ${MACADAM_VERSION} (${source})")
 
-# A new commit or tag makes CMake look again. The files lie elsewhere in a worktree, so git says where.
+# A new commit or tag makes CMake configure again. In a worktree git's files are elsewhere, so git is asked for their
+# paths.
 set(asked CHANGELOG.md scripts/version)
 if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/.git)
   execute_process(COMMAND git rev-parse --git-path logs/HEAD --git-path refs/tags WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}

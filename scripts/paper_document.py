@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of docs/paper-specimens.md: ours beside the paper's. What differs by more than a tenth is bold and has the
-letter of its reason in paper_reasons.py; one without a reason is an error."""
+"""Tables of docs/paper-specimens.md: our values beside those of the paper. A value that differs by more than a tenth is
+bold and has the letter of its reason in paper_reasons.py; a bold value without a reason is an error."""
 import textwrap
 from fnmatch import fnmatchcase
 
@@ -11,11 +11,13 @@ from paper_tables import (CLASSES, CLUSTERS, DESIGN, DEVIATION, FREQUENCIES, ICO
 
 
 class Cells:
-    """Cells of ours and the paper's, and the reasons that bold ones ask for."""
+    """Makes cells with our value and the paper's, and collects the reasons that bold cells need."""
 
     def __init__(self, reasons):
         self.reasons, self.used, self.unexplained = reasons, [], []
 
+    # Returns our value with the paper's in brackets. If they differ by more than 10 %, the cell is bold and has the
+    # letter of its reason; key: name of the cell, which the patterns of the reasons match.
     def beside(self, key, ours, paper, digits, spread=None, percent=False):
         sign = "+" if percent else ""
         text = f"{ours:{sign},.{digits}f}" + ("" if spread is None else f" ± {spread:,.{digits}f}")
@@ -31,6 +33,7 @@ class Cells:
         self.unexplained.append(key)
         return f"**{minus(text)}**"
 
+    # Exits with a list of the bold cells that have no reason.
     def check(self):
         if self.unexplained:
             raise SystemExit("more than 10 % off the paper and no reason in scripts/paper_reasons.py:\n  "
@@ -38,7 +41,7 @@ class Cells:
 
 
 def wrapped(text, indent=""):
-    """A paragraph, or an entry of a list, in lines of the house's width."""
+    """Returns a paragraph, or an entry of a list, in lines of at most 120 columns."""
     return textwrap.wrap(minus(" ".join(text.split())), 120, initial_indent=indent, subsequent_indent=" " * len(indent),
                          break_long_words=False, break_on_hyphens=False)
 
@@ -48,12 +51,12 @@ def table(head, rows):
 
 
 def over(runs, name, base, value):
-    """A value over that of another specimen, seed by seed."""
+    """Returns the ratio of a value to that of another specimen, for each seed."""
     return [value(a) / value(b) for a, b in zip(runs[name], runs[base])]
 
 
 def deviations(runs, name, base, key):
-    """Deviation from another specimen in %, at each frequency and their mean (Eq. 26), seed by seed."""
+    """Returns the deviations from another specimen in %, at each frequency and their mean (Eq. 26), for each seed."""
     result = []
     for a, b in zip(runs[name], runs[base]):
         d = [100 * (x / y - 1) for x, y in zip(getattr(a, key), getattr(b, key))]

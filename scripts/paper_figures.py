@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of docs/paper-specimens.md beside those of the five specimens at the same delta: the shapes' figures, the
-calibrated specimens (Figs. 12 and 13), and specimens stepped in time."""
+"""Sections of docs/paper-specimens.md other than those on the five specimens at the same delta: the shapes' figures,
+the calibrated specimens (Figs. 12 and 13), and specimens stepped in time."""
 import math
 
 from pages.data import RESULTS, between, half_range, listed, mean, minus, rows, span, thousands, upto, where
@@ -12,13 +12,14 @@ INDEXES = {"flatness": "F", "elongation": "E", "sphericity_true": "ψ^w", "spher
 
 
 def correlation(x, y):
-    """Pearson's coefficient."""
+    """Returns Pearson's correlation coefficient."""
     dx, dy = ([v - mean(of) for v in of] for of in (x, y))
     return sum(a * b for a, b in zip(dx, dy)) / math.sqrt(sum(a * a for a in dx) * sum(b * b for b in dy))
 
 
 def numbers_of_spheres():
-    """Fig. 6c: spheres of 0.5 mm in shapes of one D^I, against the shapes' indexes."""
+    """Returns the table for Fig. 6c: number of spheres of 0.5 mm in shapes with the same D^I, beside the shapes'
+    indices."""
     found = where(rows("fill-study.csv"), radius_min_mm=0.5, radius_max_mm=0.5, seed=1.0)
     lines = [[r["shape"], thousands(r["spheres"]), *[f"{r[key]:.2f}" for key in INDEXES]]
              for r in sorted(found, key=lambda r: r["spheres"])]
@@ -48,7 +49,7 @@ def gradation():
 
 
 def directions(runs):
-    """Figs. 9a and b."""
+    """Returns the section on Figs. 9a and b."""
     lines = []
     for name in ("MS-Poly-fine", "MS-Poly-coarse"):
         clusters = [mean(run.particles[k] - run.single[k] for run in runs[name]) for k in range(3)]
@@ -103,13 +104,14 @@ def calibrated():
 
 
 def stiffer(name):
-    """|E*| over that of the single spheres at the same delta, mean over seeds and frequencies."""
+    """Returns the ratio of |E*| to that of the single spheres at the same delta, averaged over seeds and
+    frequencies."""
     return mean(a / b for run, ss in zip(committed(PAPER[name].scene), committed(PAPER["SS"].scene))
                 for a, b in zip(run.e_star, ss.e_star))
 
 
 def why_less(found):
-    """What both deltas say of the part that M-A contacts have in |E*|."""
+    """Returns the sentences on what our delta and the paper's imply for the contribution of M-A contacts to |E*|."""
     own, papers = [], []
     for name, (percent, _) in DEVIATION.items():
         delta = mean(r["delta_ma"] for r in where(found, mix="AM1", specimen=name))
@@ -124,7 +126,7 @@ def why_less(found):
 
 # ---- stepped in time
 
-PAPERS_DAYS = (5, 40)  # MS-Poly-fine, at 20 and at 2 Hz; one core of an i9-10900KF
+PAPERS_DAYS = (5, 40)  # the paper's days for MS-Poly-fine at 20 and at 2 Hz, on one core of an i9-10900KF
 
 
 def stepped():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sections after the tables of docs/paper-specimens.md: why ours differ, what the fillings decide, how long it
-takes."""
+"""The sections after the tables of docs/paper-specimens.md: why our values differ, the effect of the fillings, and the
+run times."""
 from pages.data import mean, memory, minus
 from paper_document import deviations, table, wrapped
 from paper_reasons import REASONS, Facts, several
@@ -10,7 +10,7 @@ FILLINGS = ("coarse", "fine")
 
 
 def two(value):
-    return minus(f"{round(value, 2) + 0:.2f}")  # no −0.00
+    return minus(f"{round(value, 2) + 0:.2f}")  # adding 0 turns −0.00 into 0.00
 
 
 def reasons(facts, letters):
@@ -34,7 +34,7 @@ def implied_voids(facts):
     for name in CLUSTERS:
         for classes in ([0], [1], [2], [0, 1, 2]):
             v, together = facts.void(name, classes), len(classes) == 3
-            # a class with many single spheres has no radius of its clusters' spheres
+            # if a class has many single spheres, the mean radius of its spheres is not that of its clusters' spheres
             by_spheres = all(facts.of(name, "single", k) < 0.1 * facts.of(name, "particles", k) for k in classes)
             rows.append([f"{name[3:]}, {'together' if together else CLASSES[classes[0]]}", two(v.ratio), two(v.size),
                          two(1 - 1 / v.ratio), two(v.chance), two(v.number),
@@ -44,7 +44,8 @@ def implied_voids(facts):
 
 
 def hints(facts):
-    """What the paper's numbers say of the void in its clusters, and on what each hint rests."""
+    """Returns the list of hints at the void in the paper's clusters that follow from its numbers, each with its
+    basis."""
     ss, rest = PAPER["SS"], "This rests on"
     budget = {r: [PAPER[f"MS-{s}-{r}"].void_of_mastic for s in ("Poly", "Ico")] for r in FILLINGS}
     ico, poly = ([facts.void(f"MS-{s}-{r}", [0, 1, 2]) for r in FILLINGS] for s in ("Ico", "Poly"))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section 4.4 of the paper beside ours: where the moduli and calibration factors of its contacts come from."""
+"""Section of docs/paper-specimens.md on Section 4.4 of the paper: the origin of the contacts' moduli and calibration
+factors, compared with ours."""
 import cmath
 import math
 import re
@@ -14,7 +15,8 @@ MIXES = {"AM1": "ac14_ss_am1", "AM2": "ac14_ss_am2"}
 
 
 def mastic_scene(mix):
-    """A specimen of mastic alone: box, spheres, laws and walls of the mixture's scene, porosity 0.05."""
+    """Returns the scene of a specimen of mastic alone, with box, spheres, laws and walls of the mixture's scene and
+    porosity 0.05."""
     text = (ROOT / "examples" / MIXES[mix] / "scene.toml").read_text(encoding="utf-8")
     text = re.sub(r" *#.*\n", "\n", text)
     text = re.sub(r"\[\[specimen\.aggregate\]\]\n(?:\w.*\n)+", "", text)
@@ -28,7 +30,7 @@ def laws(mix):
 
 
 def with_mix(text, mix):
-    """A scene of examples/ with the contacts of a mixture; the inner ones stay its own."""
+    """Returns a scene of examples/ with the contact laws of another mixture; it keeps its own law inside aggregates."""
     of_mix = (ROOT / "examples" / MIXES[mix] / "scene.toml").read_text(encoding="utf-8")
     inner = re.search(r'\[\[contacts\]\]\npair = "inner".*?\n\n', text, flags=re.S)[0]
 
@@ -39,20 +41,20 @@ def with_mix(text, mix):
 
 
 def modulus(law, frequency):
-    """Complex modulus of a generalised Kelvin chain, Pa."""
+    """Returns the complex modulus of a generalised Kelvin chain [Pa]."""
     s = 2j * math.pi * frequency
     return 1 / (1 / law["E_m"] + 1 / (s * law["C_m"]) + sum(1 / (e + s * c) for e, c in zip(law["E"], law["C"])))
 
 
 def uniform_strain(alpha):
-    """Young's modulus over that of the contacts, if every sphere moved with the mean strain and facets lay in all
-    directions alike: an upper bound of a large body."""
+    """Returns the ratio of Young's modulus to the contacts' modulus if every sphere moves with the mean strain and the
+    facets are distributed evenly over all directions: an upper bound for a large body."""
     return (2 + 3 * alpha) / (4 + alpha)
 
 
 def factors(mix):
-    """The factor on the M-M law that a mastic specimen needs to be as stiff as the mastic that the law was fitted to, at
-    each frequency, seed by seed; and the phase that the specimen has beyond the law's, degrees."""
+    """Returns the factor on the M-M law with which a mastic specimen is as stiff as the mastic to which the law was
+    fitted, at each frequency and for each seed; and the difference of the specimen's phase from the law's, degrees."""
     law, of = laws(mix)["M-M"], [r for r in rows("paper-mastic.csv") if r["mix"] == mix]
     delta, phase = [], []
     for hz in FREQUENCIES:

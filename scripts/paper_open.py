@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The section of docs/paper-specimens.md on what the paper leaves open: of bench/results/paper-study.csv."""
+"""The section of docs/paper-specimens.md on the choices that the paper does not state, from
+bench/results/paper-study.csv."""
 import math
 
 from pages.data import RESULTS, listed, mean, minus
@@ -9,22 +10,22 @@ from paper_study import (CONTACT_SCALE, DEVIATION_SCALE, NARROW, OURS, QUANTITIE
                          porosity)
 from paper_tables import CLUSTERS, DEVIATION, PAPER
 
-SHOWN = 12  # of the best sets
+SHOWN = 12  # number of best sets in the table
 
 
 def studied():
-    """What the study found, the best first; nothing where it was not run yet."""
+    """Returns the sets of the study, the best first; empty if the study was not run yet."""
     file = RESULTS / "paper-study.csv"
     return merits(rows(file)) if file.is_file() else []
 
 
 def single(choice):
-    """Whether a set differs from ours in one thing."""
+    """Whether a set differs from ours in at most one choice."""
     return sum(getattr(choice, key) != value for key, value in vars(OURS).items()) <= 1
 
 
 def off(of):
-    """Root mean square over the specimens of each quantity's misfit: % of a number of contacts, points of a
+    """Returns each quantity's misfit, root mean square over the specimens: in % of a number of contacts, in points of a
     deviation."""
     scales = [100 * CONTACT_SCALE] * 4 + [DEVIATION_SCALE] * 2
     return [s * math.sqrt(mean(of[n].misfits[k] ** 2 for n in CLUSTERS)) for k, s in enumerate(scales)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of docs/paper-specimens.md: sections, views, orientation and stiffness."""
+"""Draws the pictures of docs/paper-specimens.md: sections, views, orientation and stiffness."""
 import subprocess
 import sys
 
@@ -37,7 +37,7 @@ def gradations(results):
 
 
 def axes(results):
-    """Figs. 9a and b: D^L of every cluster above 4.75 mm in its place."""
+    """Draws Figs. 9a and b: D^L of every cluster above 4.75 mm, as a line at its position."""
     for name in ("MS-Poly-fine", "MS-Poly-coarse"):
         scene = PAPER[name].scene
         figure = plt.figure(figsize=(4.4, 6), layout="constrained")
@@ -70,14 +70,14 @@ def orientation(runs):
 
 
 def stiffness(runs):
-    """Fig. 11: both against the frequency, and below their mean deviations from SS beside the paper's."""
+    """Draws Fig. 11: |E*| and phase over frequency, and below them their mean deviations from SS beside the paper's."""
     figure, grid = plt.subplots(2, 2, figsize=(10, 8), height_ratios=(3, 2), layout="constrained")
     for (upper, lower), key, label, title in zip(grid.T, ("e_star", "phase"), ("|E*| (GPa)", "φ (degrees)"),
                                                  ("$d_m$ of |E*| (%)", "$d_m$ of φ (%)")):
         for name, (colour, dashes, marker) in STYLE.items():
             series = [[getattr(run, key)[k] for run in runs[name]] for k in range(len(FREQUENCIES))]
             range_of = [[mean(s) - min(s) for s in series], [max(s) - mean(s) for s in series]]
-            # Poly and Ico nearly coincide in phi: one open, the other within it
+            # Poly and Ico nearly coincide in phi, so one marker is open and the other is small, inside it
             size, fill = (9, "none") if "Poly" in name else (5, colour)
             upper.errorbar(FREQUENCIES, [mean(s) for s in series], range_of, color=colour, ls=dashes, marker=marker,
                            ms=size, mfc=fill, capsize=3, label=name)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Why ours differ from the paper's: reasons of docs/paper-specimens.md, each for the bold cells that its patterns name.
-Every number comes from the results or from the paper's tables."""
+"""The reasons in docs/paper-specimens.md why our values differ from the paper's. Each reason is for the bold cells that
+its patterns name. Every number comes from the results or from the paper's tables."""
 import math
 from collections import namedtuple
 
@@ -13,12 +13,12 @@ Void = namedtuple("Void", "ratio size chance number spheres")
 
 
 def variant(name, choice):
-    """What a row of the study is called here: `MS-Ico-fine, voids`."""
+    """Returns the name of a row of the study: `MS-Ico-fine, voids`."""
     return name if choice == OURS else f"{name}, {choice.label}"
 
 
 class Facts:
-    """What the reasons need to know of the results."""
+    """The numbers from the results that the reasons use."""
 
     def __init__(self, runs, variants):
         self.runs = runs
@@ -28,12 +28,13 @@ class Facts:
         return mean(getattr(run, key)[k] for run in self.runs[name])
 
     def weighted_size(self, name, k):
-        """Mean L^I in mm over the spheres of a class, not over its aggregates."""
+        """Returns the mean L^I in mm of a class, averaged over its spheres instead of its aggregates."""
         of = [(run.size_by_spheres[k], run.spheres[k]) for run in self.runs[name]]
         return sum(size * spheres for size, spheres in of) / sum(spheres for _, spheres in of)
 
     def void(self, name, classes):
-        """What the paper's number of aggregates says of the void in its clusters, if sizes and shapes are as ours."""
+        """Returns what follows from the paper's number of aggregates for the void in its clusters, if its sizes and
+        shapes are the same as ours."""
         paper, shapes, shapes_of_size, squares, spheres = PAPER[name], 0, 0, 0, 0
         for k in classes:
             found = sum(run.particles[k] for run in self.runs[name])  # aggregates of all seeds
@@ -47,16 +48,16 @@ class Facts:
                     1 - own / shapes_of_size, 1 - spheres / shapes_of_size)
 
     def from_ss(self, variant, key):
-        """Deviations of a variant from SS in %, at 2 and 20 Hz."""
+        """Returns the deviations of a variant from SS in %, at 2 and 20 Hz."""
         v, ss = self.variants[variant], self.variants["SS"]
         return [100 * (float(v[f"{key}_{hz}_hz"]) / float(ss[f"{key}_{hz}_hz"]) - 1) for hz in (2, 20)]
 
     def counts(self, choice, key):
-        """Of the four specimens with a choice, in the order of CLUSTERS."""
+        """Returns a count for each of the four specimens with a choice, in the order of CLUSTERS."""
         return [self.count(variant(n, choice), key) for n in CLUSTERS]
 
     def between(self, variant, base, key="e_star_pa"):
-        """Mean of a variant's two deviations from another one, %."""
+        """Returns the mean of a variant's deviations from another variant at 2 and 20 Hz, %."""
         v, b = self.variants[variant], self.variants[base]
         return mean(100 * (float(v[f"{key}_{hz}_hz"]) / float(b[f"{key}_{hz}_hz"]) - 1) for hz in (2, 20))
 

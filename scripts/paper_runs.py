@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs of the paper's specimens: how one is made, what of its files goes into a row of bench/results/, and such rows
-read again."""
+"""Runs of the paper's specimens: makes a run, writes the important numbers of its files into a row of bench/results/,
+and reads such rows."""
 import csv
 import json
 import math
@@ -17,7 +17,8 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def program(given):
-    """The program to run: the one given, else the one built."""
+    """Returns the program to run: the given one or, by default, that of build/local. Ends the process if it does not
+    exist."""
     file = given or ROOT / "build" / "local" / "macadam"
     if file.is_file():
         return file.resolve()
@@ -30,7 +31,7 @@ def rows(file):
 
 
 def write(file, table, head=()):
-    """A CSV; lines of `head` go before it as comments."""
+    """Writes a CSV file. head: lines of comments before it."""
     with open(file, "w", newline="", encoding="utf-8") as f:
         f.writelines(f"# {line}\n" for line in head)
         out = csv.DictWriter(f, table[0], lineterminator="\n")
@@ -39,7 +40,8 @@ def write(file, table, head=()):
 
 
 def call(macadam, command, folder, *arguments, threads=None):
-    """Runs the program into a folder and leaves there, in measured.json, how long it took and how much memory."""
+    """Runs the program with `folder` as its output and writes the time and memory that it took into measured.json
+    there."""
     environment = dict(os.environ)
     if threads:
         environment.update(OMP_NUM_THREADS=str(threads), OPENBLAS_NUM_THREADS=str(threads))
@@ -57,7 +59,7 @@ def call(macadam, command, folder, *arguments, threads=None):
 
 
 def processor():
-    """Of this machine, as the system says it."""
+    """Returns the name of this machine's processor, as the system reports it."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:
@@ -65,6 +67,7 @@ def processor():
     return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown processor")
 
 
+# Returns the output of a command; empty if it fails.
 def said(*command):
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout
@@ -77,20 +80,21 @@ def commit_of_tree():
 
 
 def device(macadam):
-    """The GPU that the program finds, by its name, else nothing."""
+    """Returns the name of the GPU that the program finds; empty if there is none."""
     found = re.search(r"^cuda +yes.*\n +([^,\n]+),", said(macadam, "info"), re.M)
     return found[1] if found else ""
 
 
+# Returns the status of the run in a folder; None if there is no summary.
 def status(folder):
     file = folder / "summary.json"
     return json.loads(file.read_text())["status"] if file.is_file() else None
 
 
 def record(folder, scene, seed):
-    """The row of a folder of results, and the directions of its clusters."""
+    """Returns the row of a results folder, and the directions of its clusters."""
     summary, measured = json.loads((folder / "summary.json").read_text()), {}
-    if (folder / "measured.json").is_file():  # not of a run whose caller was stopped
+    if (folder / "measured.json").is_file():  # missing if call() was stopped during the run
         measured = json.loads((folder / "measured.json").read_text())
     aggregates, mastic = rows(folder / "aggregates.csv"), summary["composition"][4]
     row = {"scene": scene, "seed": seed, "machine": measured.get("machine"), "date": measured.get("date"),
@@ -122,7 +126,7 @@ def record(folder, scene, seed):
 
 
 class Run:
-    """One specimen of one seed, from its row and the directions of its clusters."""
+    """The data of one specimen with one seed, from its row and the directions of its clusters."""
 
     def __init__(self, row, axes=()):
         def of_class(key, kind=float):
@@ -130,7 +134,7 @@ class Run:
 
         self.seed, self.row = int(row["seed"]), row
         mastic = int(row["particles_4"])
-        # without voids inside aggregates the spheres of a shape have the shape's volume in all
+        # without voids inside aggregates, the volume of a shape is the sum of its spheres' volumes
         self.volume = [v * 1e-9 / BOX for v in of_class("volume_mm3")] + [float(row["reached_4"])]
         self.particles = of_class("particles", int) + [mastic]
         self.spheres = of_class("spheres", int) + [mastic]
@@ -155,14 +159,14 @@ class Run:
 
 
 def committed(scene):
-    """The runs of a scene, in the order of their seeds, from bench/results/."""
+    """Returns the runs of a scene from bench/results/, in the order of their seeds."""
     axes = [a for a in rows(RESULTS / "paper-specimens-axes.csv") if a["scene"] == scene]
     return [Run(row, [[float(a[x]) for x in "xyz"] for a in axes if a["seed"] == row["seed"]])
             for row in rows(RESULTS / "paper-specimens.csv") if row["scene"] == scene]
 
 
 def kolmogorov_smirnov(values):
-    """Largest distance of a sample in [0, 1] from the uniform distribution, and its p-value (asymptotic)."""
+    """Returns the largest distance of a sample in [0, 1] from the uniform distribution, and its asymptotic p-value."""
     values, n = sorted(values), len(values)
     d = max(max((k + 1) / n - v, v - k / n) for k, v in enumerate(values))
     t = d * (math.sqrt(n) + 0.12 + 0.11 / math.sqrt(n))

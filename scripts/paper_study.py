@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the paper leaves open about its specimens, as sets of choices: their scenes, and how far each set is from
-Table 5 and Fig. 11. Shared by bench/paper_variants, which runs them, and by docs/paper-specimens.md."""
+"""The study of choices that the paper does not state about its specimens: sets of choices, their scenes, and how far
+each set is from Table 5 and Fig. 11. Used by bench/paper_variants, which runs them, and for docs/paper-specimens.md."""
 import math
 import re
 from collections import namedtuple
@@ -9,26 +9,27 @@ from dataclasses import asdict, dataclass, replace
 from pages.data import mean
 from paper_tables import CLUSTERS, DEVIATION, PAIRS, PAPER
 
-SHORT = [2, 20]  # Hz: the mean of these two deviations is within 0.3 points of that of all four
+SHORT = [2, 20]  # Hz: the mean deviation at these two frequencies is within 0.3 points of that at all four
 
 
 @dataclass(frozen=True)
 class Choice:
-    """Of a specimen's making, and then of its contacts. As they are here they are those of examples/."""
-    voids: float = 0           # of each specimen's own mastic budget
-    test: str = "surfaces"     # what insertion keeps apart
-    hold_out: float = 0        # stiffness of the shapes' surfaces against mastic
-    spacing_mm: float = 0      # least thickness of mastic between aggregates
-    narrow: bool = False       # coarse spheres of nearly the same radius
-    library: str = ""          # in place of the scene's
-    composition: str = ""      # of the specimen of this name in place of Poly
-    inner_gap: float | None = None  # spheres of an aggregate farther apart, in mean radii, are not joined
-    inner_modulus: float = 1
-    area_min: float = 0        # of all facets
+    """A set of choices: first those of making the specimen, then those of its contacts. The defaults are those of
+    examples/."""
+    voids: float = 0           # void in clusters, as a multiple of the void that the specimen's mastic volume implies
+    test: str = "surfaces"     # which objects must not overlap when aggregates are placed: surfaces or spheres
+    hold_out: float = 0        # stiffness with which the shapes' surfaces keep mastic out
+    spacing_mm: float = 0      # smallest thickness of mastic between aggregates
+    narrow: bool = False       # whether the coarse spheres have nearly the same radius
+    library: str = ""          # library of shapes, in place of the scene's
+    composition: str = ""      # name of the specimen whose composition is used in place of that of Poly
+    inner_gap: float | None = None  # spheres of an aggregate with a larger gap, in mean radii, are not joined
+    inner_modulus: float = 1   # factor on the moduli of contacts inside aggregates
+    area_min: float = 0        # smallest area of all facets
 
     @property
     def making(self):
-        """The choices that decide the specimen, without those of its contacts."""
+        """The choices that determine the specimen, without those of its contacts."""
         return replace(self, inner_gap=None, inner_modulus=1, area_min=0)
 
     @property
@@ -47,7 +48,7 @@ class Choice:
 
 
 OURS = Choice()
-# the most promising first: a run that is stopped has these
+# the most promising choices first, so that a study that is stopped has these
 MAKINGS = [OURS, Choice(voids=1), Choice(test="spheres"), Choice(voids=1, test="spheres"), Choice(hold_out=3),
            Choice(narrow=True), Choice(spacing_mm=0.2), Choice(voids=1.3, test="spheres"),
            Choice(voids=1, test="spheres", narrow=True), Choice(voids=1, test="spheres", hold_out=1),
@@ -55,11 +56,13 @@ MAKINGS = [OURS, Choice(voids=1), Choice(test="spheres"), Choice(voids=1, test="
            Choice(test="spheres", hold_out=3), Choice(voids=0.5, test="spheres")]
 CONTACTS = [OURS, Choice(inner_gap=0.0), Choice(inner_gap=-0.05), Choice(inner_gap=-0.1), Choice(inner_gap=-0.15),
             Choice(inner_modulus=0.5), Choice(area_min=0.026), Choice(inner_gap=-0.1, area_min=0.026)]
-NARROW = (1.35e-3, 1.55e-3)  # m: mean volume 0.82 of the uniform law's in 1 to 2 mm, what Table 3 has at the least
+# radii [m]: their mean volume is 0.82 of that of the uniform law in 1 to 2 mm, which is the least ratio in Table 3
+NARROW = (1.35e-3, 1.55e-3)
 
 
 def makings_of(name):
-    """What is made of a specimen. Single spheres have no voids, no cover and no filling."""
+    """Returns the choices of making that are tried for a specimen. Single spheres have no voids, no cover and no
+    filling."""
     if name == "SS":
         return [m for m in MAKINGS if m == Choice(spacing_mm=m.spacing_mm)]
     own = [m for m in MAKINGS if not m.narrow or "coarse" in name]
@@ -69,19 +72,19 @@ def makings_of(name):
 
 
 def contacts_of(name, making):
-    """The choices of contacts that are tried with a specimen."""
+    """Returns the choices of contacts that are tried with a specimen."""
     of = [c for c in CONTACTS if name != "SS" or c in (OURS, Choice(area_min=c.area_min))]
     return [replace(making, inner_gap=c.inner_gap, inner_modulus=c.inner_modulus, area_min=c.area_min) for c in of]
 
 
 def after(text, section, line):
-    """The scene with one more line in a section."""
+    """Returns the scene with one more line in a section."""
     assert text.count(f"[{section}]\n") == 1
     return text.replace(f"[{section}]\n", f"[{section}]\n{line}\n")
 
 
 def of_pair(text, pair, keys, factor):
-    """The scene with some moduli of one pair's law multiplied."""
+    """Returns the scene with some moduli of one pair's law multiplied by a factor."""
     start = text.index(f'pair = "{pair}"')
     end = text.find("[[contacts]]", start)
 
@@ -91,22 +94,25 @@ def of_pair(text, pair, keys, factor):
     return text[:start] + re.sub(rf"^((?:{keys}) = )(.*)$", times, text[start:end], flags=re.M) + text[end:]
 
 
+# Returns the scene with these volume fractions of its size classes.
 def with_fractions(text, fractions):
     fraction = iter(fractions)
     return re.sub(r"^volume_fraction = .*", lambda _: f"volume_fraction = {next(fraction):.4f}", text, flags=re.M)
 
 
+# Returns the void inside the clusters for a choice: its multiple of the void that the specimen's volumes imply.
 def porosity(name, choice):
     return round(choice.voids * PAPER[name].void_of_mastic, 2) if choice.voids else 0
 
 
 def making_scene(text, name, choice):
-    """The text of a scene of examples/ with the choices of its making."""
-    text = re.sub(r" *#.*\n", "\n", text)  # a comment that changes is not another scene
+    """Returns the text of a scene of examples/ with the choices of its making."""
+    text = re.sub(r" *#.*\n", "\n", text)  # removes comments, so that a changed comment does not make another scene
     text = re.sub(r"^frequencies = .*", f"frequencies = {[float(f) for f in SHORT]}", text, flags=re.M)
     if choice.spacing_mm:
         text = after(text, "specimen", f'spacing = "{choice.spacing_mm:g} mm"')
-    if void := porosity(name, choice):  # the spheres' volumes stay, so that the shapes of clusters grow
+    # the volumes of the spheres stay the same, so the shapes of clusters become larger
+    if void := porosity(name, choice):
         clustered = PAPER[name].clustered
         volume = [s / 100 / (1 - void if k in clustered else 1) for k, s in enumerate(PAPER[name].share)]
         text = with_fractions(text, [v / sum(volume) for v in volume])
@@ -129,7 +135,7 @@ def making_scene(text, name, choice):
 
 
 def contact_scene(text, choice, specimen):
-    """A scene of the same contacts whose specimen is a file, with the choices of its contacts, if any."""
+    """Returns a scene with the same contact laws whose specimen is a file, with the choices of its contacts, if any."""
     box = re.search(r"^box = .*", text, flags=re.M)[0]
     text = f'[specimen]\n{box}\nfile = "{specimen}"\n\n' + text[text.index("[materials."):]
     if choice is None:
@@ -144,15 +150,16 @@ def contact_scene(text, choice, specimen):
 # ---- figure of merit
 
 QUANTITIES = [*PAIRS, "total", "|E*|", "φ"]
-# What a difference is measured by: 5 % of a number of contacts relative to SS, 2 points of a deviation from SS. The
-# paper rounds to half a point; the seeds of one scene differ by up to 4 % in A-A, less in the others, and by a point.
+# Scales by which differences are divided: 5 % for a number of contacts relative to SS, 2 points for a deviation from
+# SS. The paper rounds to half a point. The seeds of one scene differ by up to 4 % in the number of A-A contacts, by
+# less in the other numbers, and by one point in the deviations.
 CONTACT_SCALE, DEVIATION_SCALE = 0.05, 2.0
 Judged = namedtuple("Judged", "ratios deviations misfits")
 
 
 def judged(row, ss):
-    """A row of the study against that of SS with the same contacts: ratios of contacts, deviations in % of |E*| and
-    phi, and each misfit over its scale."""
+    """Compares a row of the study with that of SS with the same contacts. Returns ratios of numbers of contacts,
+    deviations of |E*| and phi in %, and each misfit divided by its scale."""
     paper, base = PAPER[row["specimen"]], PAPER["SS"]
     own, theirs = ([float(r[p]) for p in PAIRS] for r in (row, ss))
     ratios = [a / b for a, b in zip([*own, sum(own)], [*theirs, sum(theirs)])]
@@ -164,21 +171,22 @@ def judged(row, ss):
 
 
 def choice_of(row):
-    """The choice that a row of bench/results/paper-study.csv stands for."""
+    """Returns the choice of a row of bench/results/paper-study.csv."""
     kinds = {"narrow": lambda v: v == "True", "test": str, "library": str,
              "composition": str, "inner_gap": lambda v: float(v) if v else None}
     return Choice(**{key: kinds.get(key, float)(row[key]) for key in asdict(OURS)})
 
 
 def reference(rows, choice, seed):
-    """The single spheres that a choice is compared with: of the same spacing and the same limit of areas."""
+    """Returns the row of the single spheres with which a choice is compared: with the same spacing and the same
+    area_min."""
     wanted = Choice(spacing_mm=choice.spacing_mm, area_min=choice.area_min)
     return next((r for r in rows if r["specimen"] == "SS" and r["seed"] == seed and choice_of(r) == wanted), None)
 
 
 def merits(rows):
-    """Of each choice that all four specimens have: its rows judged, by specimen and averaged over seeds, and the root
-    mean square of their misfits; the best first."""
+    """Returns, for each choice that all four specimens have, its judged rows by specimen, averaged over seeds, and the
+    root mean square of their misfits; the best choice first."""
     by_choice = {}
     for row in rows:
         ss = reference(rows, choice_of(row), row["seed"])
@@ -186,7 +194,7 @@ def merits(rows):
             by_choice.setdefault(choice_of(row), {}).setdefault(row["specimen"], []).append(judged(row, ss))
     result = []
     for choice, own in by_choice.items():
-        # a choice that means nothing to a specimen leaves it as it is
+        # a choice that does not apply to a specimen leaves it unchanged, so its row without that choice is used
         of = {**by_choice.get(replace(choice, narrow=False, library="", composition=""), {}), **own}
         if set(of) >= set(CLUSTERS):
             averaged = {n: Judged(*([mean(v) for v in zip(*part)] for part in zip(*of[n]))) for n in CLUSTERS}

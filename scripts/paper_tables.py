@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The paper's numbers, as it prints them: Table 3 (composition), Table 5 (contacts), Fig. 11 (|E*| and phi), and what
-follows from them alone. Shared by scripts/paper-specimens and bench/paper_variants."""
+"""The paper's printed numbers: Table 3 (composition), Table 5 (contacts), Fig. 11 (|E*| and phi), and values that
+follow from them alone. Used by scripts/paper-specimens and bench/paper_variants."""
 import math
 from dataclasses import dataclass
 
@@ -8,39 +8,41 @@ BOX = 0.05 * 0.05 * 0.08  # m3
 CLASSES = ["12.5–19", "9.5–12.5", "4.75–9.5", "2.0–4.75", "mastic"]
 FREQUENCIES = [2, 5, 10, 20]
 PAIRS = ["A-A", "M-A", "M-M"]
-FINE, COARSE, MASTIC = (0.75e-3, 1.00e-3), (1.00e-3, 2.00e-3), (0.75e-3, 1.00e-3)  # radii, m
+FINE, COARSE, MASTIC = (0.75e-3, 1.00e-3), (1.00e-3, 2.00e-3), (0.75e-3, 1.00e-3)  # radii of the spheres [m]
 DESIGN = ("ac14_ms_design", [14.0, 11.0, 20.7, 13.6, 40.7])  # % of the solid volume, by class
 
 
 def mean_sphere(radius):
-    """Mean volume of spheres whose radii are uniform in a range, m3."""
+    """Returns the mean volume of spheres whose radii are uniformly distributed in a range [m3]."""
     low, high = radius
     return math.pi / 3 * (high**4 - low**4) / (high - low)
 
 
 @dataclass
 class Specimen:
-    """By class: particles, spheres, mean L^I in mm, share of all spheres' volume in %."""
+    """The paper's numbers of one specimen. Lists by size class: particles, spheres, mean L^I in mm, share of all
+    spheres' volume in %."""
     scene: str
-    radius: tuple | None  # of the spheres of a cluster
+    radius: tuple | None  # range of radii of the spheres of a cluster [m]; None: no clusters
     particles: list
     spheres: list
     size: list
     share: list
-    contacts: list  # A-A, M-A, M-M, total
+    contacts: list  # numbers of contacts A-A, M-A, M-M, total
     coordination: float
 
     @property
     def to_box(self):
-        """Volume of all spheres over the box, if the mastic's radii are uniform."""
-        return self.volume(4) / (1 - sum(self.share[:4]) / 100)  # rounded shares: mastic has the rest, as in the scenes
+        """Volume of all spheres over that of the box, if the mastic's radii are uniformly distributed."""
+        # the printed shares are rounded; the mastic has the remainder to 100 %, as in the scenes
+        return self.volume(4) / (1 - sum(self.share[:4]) / 100)
 
     def volume(self, k):
-        """Of the spheres of a class, over the box."""
+        """Returns the volume of the spheres of a class over that of the box."""
         return self.particles[4] * mean_sphere(MASTIC) / BOX if k == 4 else self.share[k] / 100 * self.to_box
 
     def sphere(self, k):
-        """Mean volume of a sphere of a class, m3."""
+        """Returns the mean volume of a sphere of a class [m3]."""
         return self.volume(k) * BOX / self.spheres[k]
 
     @property
@@ -50,7 +52,7 @@ class Specimen:
 
     @property
     def void_of_mastic(self):
-        """Void in the clusters if aggregates and mastic have the same volume together as in SS."""
+        """The fraction of void in the clusters, if aggregates and mastic together have the same volume as in SS."""
         clusters = sum(self.volume(k) for k in self.clustered)
         single = sum(self.volume(k) for k in range(4)) - clusters
         return 1 - clusters / (PAPER["SS"].to_box - self.volume(4) - single)
@@ -74,18 +76,18 @@ PAPER = {
         [14.9, 11.2, 6.5, 3.9, 1.7], [12.6, 9.6, 17.6, 12.4, 47.7], [8788, 126088, 134849, 269728], 8.04),
 }
 CLUSTERS = list(PAPER)[1:]
-# Fig. 11 as the text gives it: mean deviation from SS over the frequencies, % of |E*| and of phi
+# Fig. 11, numbers from the paper's text: mean deviation from SS over the frequencies, of |E*| and of phi in %
 DEVIATION = {"MS-Poly-coarse": (19, -18), "MS-Poly-fine": (33, -31),
              "MS-Ico-coarse": (19, -18), "MS-Ico-fine": (34, -29)}
-# Section 4.4
+# Section 4.4: delta of M-M contacts, the rock, and moduli of contacts inside aggregates
 DELTA_MM = {"AM1": 1.88, "AM2": 1.90}
 ROCK = {"E": 60.0, "nu": 0.28}  # GPa
 INNER_GPA = {"fine": 112.5, "coarse": 111.6}
-# Figs. 12 and 13: delta_MA that brings |E*| to that of SS, by mix; each specimen's own
+# Figs. 12 and 13: delta_MA with which each specimen has the |E*| of SS, by mix
 DELTA_MA = {"AM1": {"SS": 3.15, "MS-Poly-coarse": 1.68, "MS-Ico-coarse": 1.68, "MS-Poly-fine": 1.00,
                     "MS-Ico-fine": 1.00},
             "AM2": {"SS": 6.75, "MS-Poly-coarse": 3.20, "MS-Poly-fine": 1.70}}
-# Mean deviations from SS then, %, over these specimens: |E*| (of AM1 its size), phi
+# Mean deviations from SS with these delta_MA, in %, over the specimens: of |E*| (for AM1 its magnitude), of phi
 CALIBRATED = {"AM1": ("3", (-16, 15)), "AM2": ("−3 … +3", (-8, 23))}
-# Ico over Poly, %: "essentially identical" where coarse
+# Deviation of Ico from Poly, %; the paper says "essentially identical" for the coarse filling
 ICO_OVER_POLY = {"coarse": (0, 0), "fine": (0.8, 2.3)}

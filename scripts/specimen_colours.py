@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What draw-section and draw-specimen share: colours of mastic, air, size classes and single spheres."""
+"""Colours of mastic, air, size classes and single spheres, for draw-section and draw-specimen."""
 import colorsys
 import csv
 
@@ -13,7 +13,7 @@ CLASSES = [(0.33, 0.62, 0.36), (0.62, 0.62, 0.62), (0.90, 0.72, 0.33), (0.80, 0.
 
 
 def size_classes(file):
-    """Size class of each body; empty where there is no such file."""
+    """Returns the size class of each body; empty if the file does not exist."""
     if not file.is_file():
         return {}
     rows = csv.DictReader(open(file, encoding="utf-8"))
@@ -21,7 +21,8 @@ def size_classes(file):
 
 
 def class_names(file):
-    """Name of each size class in the file, such as "4.75-9.5 mm"; empty where there is no such file or column."""
+    """Returns the name of each size class in the file, such as "4.75-9.5 mm"; empty if the file or the column does not
+    exist."""
     if not file.is_file():
         return {}
     rows = csv.DictReader(open(file, encoding="utf-8"))
@@ -29,23 +30,25 @@ def class_names(file):
 
 
 def legend(figure, names, mastic):
-    """Colours of classes and mastic in one line below the drawing; nothing where the classes have no names."""
+    """Adds a legend with the colours of classes and mastic below the drawing; does nothing if the classes have no
+    names."""
     if not names:
         return
     entries = [(CLASSES[k % len(CLASSES)], name.replace("-", "–")) for k, name in names.items()]
     entries += [(MASTIC, "mastic")] * mastic
     handles = [Patch(facecolor=colour, edgecolor="0.3", linewidth=0.4, label=name) for colour, name in entries]
-    # narrow drawings have it in two lines
+    # one line, or two lines in narrow drawings
     columns = len(handles) if figure.get_figwidth() > 0.9 * len(handles) else -(-len(handles) // 2)
     figure.legend(handles=handles, loc="lower center", ncols=columns, fontsize=7, frameon=False, handlelength=1,
                   handleheight=1, handletextpad=0.4, columnspacing=1)
 
 
 def colour(classes, body, particle):
-    """Of one sphere of an aggregate: its class's hue, or one of its body's own; its own shade."""
+    """Returns the colour of one sphere of an aggregate: the hue of its class, or of its body if there are no classes,
+    in a shade that differs between bodies and between spheres."""
     base = CLASSES[classes.get(body, 0) % len(CLASSES)] if classes else CLASSES[body % len(CLASSES)]
     hue, lightness, saturation = colorsys.rgb_to_hls(*base)
-    of_body = (body * 0.6180339887) % 1 - 0.5  # the golden ratio: neighbours in number are far apart in shade
+    of_body = (body * 0.6180339887) % 1 - 0.5  # golden ratio: consecutive numbers get very different shades
     of_particle = (particle * 0.7548776662) % 1 - 0.5
     lightness = min(0.92, max(0.12, lightness * (1 + 0.24 * of_body + 0.20 * of_particle)))
     return colorsys.hls_to_rgb(hue, lightness, saturation)
@@ -58,5 +61,5 @@ def of_phase(phase, classes, body, particle):
 
 
 def colours(classes, phase, body, particle):
-    """Of many spheres, as an array of three columns."""
+    """Returns the colours of many spheres as an array of three columns."""
     return np.array([of_phase(p, classes, b, i) for p, b, i in zip(phase, body, particle)])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file bilinear.hpp  A law of one's own that is not linear: an elastic contact that is softer beyond a displacement.
+/// \file bilinear.hpp  Example of a nonlinear contact law: an elastic contact that is softer beyond a displacement x_0.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,10 @@
 #include "macadam/laws/law.hpp"
 #include "macadam/numeric.hpp"
 
-/// f = E·x up to |x| = x_0, with the slope E_2 beyond. The unit state is x itself.
+/// f = E·x up to |x| = x_0, and with the slope E_2 beyond. The only unit state is x itself.
 struct Bilinear {
   static constexpr const char* name = "bilinear";
-  static constexpr bool linear = false;  // stepped by contact points
+  static constexpr bool linear = false;  // so every contact point is stepped, instead of a condensed contact
   static constexpr int only_units = 1;
   double E = 0, E_2 = 0;  ///< [Pa], E_2 ≤ E
   double x_0 = 0;         ///< [m]
@@ -25,7 +25,8 @@ struct Bilinear {
   struct Step {
     static constexpr bool memoryless = false;
     R E, E_2, x_0;
-    /// Written with sums and products only, so that it compiles for packets of contacts as well.
+    /// Advances the state by dx and returns the new f. It uses sums, products and abs instead of branches, so that it
+    /// also compiles for packets of contacts.
     template <int L, class S, class Units>
     MACADAM_HD S advance(S, S dx, Units&& x) const {
       x(0) += dx;
@@ -33,8 +34,8 @@ struct Bilinear {
     }
     template <class S>
     MACADAM_HD S value(const S& x) const {
-      using std::abs;                                                    // a packet's own is found by its type
-      const S beyond = S(R(0.5)) * (abs(x - S(x_0)) - abs(x + S(x_0)));  // x cut at ±x_0, with a minus
+      using std::abs;                                                    // for packets, abs is found by their type
+      const S beyond = S(R(0.5)) * (abs(x - S(x_0)) - abs(x + S(x_0)));  // −x, limited to ±x_0
       return S(E_2) * x - S(E - E_2) * beyond;
     }
   };

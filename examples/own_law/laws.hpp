@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file laws.hpp  The list of this program's laws.
+/// \file laws.hpp  The list of the contact laws of this program.
 #pragma once
 
 #include <macadam/macadam.hpp>
@@ -8,11 +8,11 @@
 #include "bilinear.hpp"
 #include "standard_linear_solid.hpp"
 
-/// Any one law; Macadam's own may stand beside yours.
+/// Any one of the program's laws; laws of Macadam may be in the list too.
 using OwnLaw = std::variant<StandardLinearSolid, Bilinear, macadam::laws::Elastic>;
 using OwnLaws = std::array<std::optional<OwnLaw>, macadam::pair_types>;
 
-/// Whether this program has the kernels for CUDA devices too: on_device.cu.
+/// Whether this program has kernels for CUDA devices too, which on_device.cu compiles.
 #ifdef OWN_LAW_ON_DEVICE
 inline constexpr bool on_device = true;
 #else

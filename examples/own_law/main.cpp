@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  A column of spheres whose contacts have laws of this program's own, against closed forms.
+// main.cpp  Steps a column of spheres with the contact laws of this program and compares the stresses
+// with closed forms.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -13,7 +14,7 @@ namespace {
 
 using namespace macadam;
 constexpr int spheres = 4;
-constexpr double side = 1e-3, area = side * side, height = spheres * side;  // of a cubic cell [m]
+constexpr double side = 1e-3, area = side * side, height = spheres * side;  // side of a cubic cell [m]; of the column
 
 Specimen make_column() {
   Specimen out;
@@ -27,7 +28,7 @@ Specimen make_column() {
   return out;
 }
 
-/// A run of the column, its top pulled by `drive`; the stress at its end [Pa], tension positive.
+/// Steps the column, whose top `drive` pulls. Returns the stress at the end [Pa], tension positive.
 template <class D>
 double stress_after(const OwnLaw& law, StepperOptions options, D drive, double seconds) {
   const Specimen column = make_column();
@@ -39,7 +40,7 @@ double stress_after(const OwnLaw& law, StepperOptions options, D drive, double s
   drive.step = options.dt;
   drive.ramp_steps = std::llround(2e-4 / options.dt);
   options.boundary = moving_top(drive);
-  // the kernels are compiled here, and in on_device.cu, for these laws and this precision
+  // here, and in on_device.cu, the kernels are compiled for these laws and this precision
   const auto stepper = make_stepper_of<OwnLaw, on_device, Precision::double_>(Backend::automatic, column, network, laws,
                                                                               inertia, options);
   stepper->advance(std::llround(seconds / options.dt));
@@ -47,13 +48,14 @@ double stress_after(const OwnLaw& law, StepperOptions options, D drive, double s
   return -stepper->observe().top_force() / area;
 }
 
+/// Prints both values and returns whether they agree within the relative tolerance.
 bool agree(const char* what, double found, double expected, double tolerance) {
   const double error = std::abs(found / expected - 1);
   std::printf("%-42s %.6g Pa, closed form %.6g Pa: %.1e of %.0e\n", what, found, expected, error, tolerance);
   return error <= tolerance;
 }
 
-/// Relaxation after a strain that rises as a half cosine for 0.2 ms and is held.
+/// Checks the relaxation under a strain that rises as a half cosine within 0.2 ms and is then held.
 bool relaxes() {
   const StandardLinearSolid law{1e9, 3e9, 3e6, 0.2};
   const double strain = 1e-5, at = 2e-3, rise = 2e-4, time = law.C_1 / law.E_1;
@@ -62,10 +64,10 @@ bool relaxes() {
   StepperOptions options;
   options.form = ContactForm::condensed;  // the law is linear
   options.geometry = Geometry::fixed;
-  options.damping_kind = Damping::viscous;  // of the waves that the rise leaves
+  options.damping_kind = Damping::viscous;  // damps the waves that the rise leaves
   options.damping = 2e4;
   const double found = stress_after(OwnLaw(law), options, drive, at);
-  double memory = 0;  // of the rate of strain, by the midpoint rule
+  double memory = 0;  // convolution of the strain rate with exp(−t/time), by the midpoint rule
   const int pieces = 2000;
   for (int i = 0; i < pieces; ++i) {
     const double t = (i + 0.5) * rise / pieces;
@@ -75,7 +77,8 @@ bool relaxes() {
   return agree("standard linear solid, after 2 ms of hold", found, law.E_inf * strain + law.E_1 * memory, 2e-4);
 }
 
-/// A bilinear column pulled beyond the yield displacement of its longer contacts, and left to come to rest.
+/// Checks the stress in a bilinear column that was pulled beyond the yield displacement of its longer contacts and is
+/// at rest again.
 bool yields() {
   const Bilinear law{2e9, 4e8, 2e-9, 0};
   const double pulled = 1.6e-8;
@@ -87,7 +90,8 @@ bool yields() {
   options.damping_kind = Damping::local;
   options.damping = 0.5;
   const double found = stress_after(OwnLaw(law), options, drive, 3e-3);
-  // one force through all contacts, f(x)·A/d: the stress at which their displacements add up to that of the wall
+  // The contacts are in series, so all carry the same stress f(x)/d. Bisection finds the stress at which their
+  // displacements add up to that of the wall.
   const auto stretch = [&](double stress, double d) {
     const double f = stress * d, yield = law.E * law.x_0;
     return f <= yield ? f / law.E : law.x_0 + (f - yield) / law.E_2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// on_device.cu  The steppers of this program's laws on a CUDA device.
+// on_device.cu  Compiles the steppers for this program's laws on a CUDA device.
 #include <kernels/make_cuda.hpp>
 
 #include "laws.hpp"

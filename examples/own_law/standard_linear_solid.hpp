@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file standard_linear_solid.hpp  A law of one's own: a spring beside a spring and a dashpot in a row.
+/// \file standard_linear_solid.hpp  Example of a linear contact law: a spring in parallel with a spring and a dashpot
+/// in series.
 #pragma once
 
 #include <complex>
@@ -8,7 +9,8 @@
 #include "macadam/laws/law.hpp"
 #include "macadam/numeric.hpp"
 
-/// f = E_inf·x + g, where g = E_1·(x − y) stretches the dashpot: C_1·dy/dt = g. The unit state is g itself.
+/// f = E_inf·x + g. The part g = E_1·(x − y) acts on the dashpot, whose displacement is y: C_1·dy/dt = g. The only unit
+/// state is g itself.
 struct StandardLinearSolid {
   static constexpr const char* name = "standard_linear_solid";
   static constexpr int only_units = 1;
@@ -32,7 +34,7 @@ struct StandardLinearSolid {
       return f + (S(E_inf) * dx + dg);
     }
   };
-  /// dg = E_1·(dx − Δt·(g + dg/2)/C_1): the trapezoidal rule.
+  /// Returns the factors of one time step by the trapezoidal rule: dg = E_1·(dx − Δt·(g + dg/2)/C_1).
   template <class R>
   Step<R> step(double dt) const {
     const double a = 1 + E_1 * dt / (2 * C_1);

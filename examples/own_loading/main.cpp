@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  A drive of one's own: a sawtooth pulls the top of a specimen while a platen presses its side. Samples are
-// taken on the way, and what the contacts carry is read at the end.
+// main.cpp  Example of a new drive: a sawtooth moves the top wall of a specimen up and down while a platen presses on
+// its side. The program takes samples during the run and reads the contact forces at the end.
 #include <macadam/macadam.hpp>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace macadam;
 
-/// Up and down in straight lines, `period` steps each way.
+/// Displacement that rises and falls linearly between 0 and `height`, with `period` steps for each.
 struct Sawtooth final : Drive {
   double height, step;
   std::int64_t period;
@@ -26,7 +26,7 @@ struct Sawtooth final : Drive {
   }
 };
 
-/// 3 × 3 × 4 spheres in cubic cells of a millimetre.
+/// Returns a specimen of 3 × 3 × 4 spheres in cubic cells of 1 mm.
 Specimen make_block() {
   const int nx = 3, ny = 3, nz = 4;
   const double side = 1e-3;
@@ -55,7 +55,7 @@ int main() {
   StepperOptions options;
   options.damping_kind = Damping::local;
   options.damping = 0.3;
-  const double mass = 2e-6, force = -0.05;  // of the platen at the side +x
+  const double mass = 2e-6, force = -0.05;  // of the platen at the side +x [kg], on it [N]
   options.boundary.load(wall_x_hi, 0, std::make_shared<drives::Ramp>(), mass);
   options.dt = 0.3 * critical_step(network, laws, inertia, options).dt;
   const std::int64_t period = 2000;

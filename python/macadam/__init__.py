@@ -8,8 +8,8 @@
 
 All numbers are in SI units (m, kg, s, Pa), angles of results in degrees. docs/python.md shows everything.
 
-Names are loaded when they are first used, so that the parts in plain Python (macadam.report, macadam.study) work where the
-compiled library is not.
+Names are loaded when they are first used, so that the parts in plain Python (macadam.report, macadam.study) also work
+if the compiled library is not installed.
 """
 from __future__ import annotations
 
@@ -17,11 +17,12 @@ import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
-# OpenMP reads this once, when the compiled library is loaded. By default its waiting threads spin, which makes work several
-# times slower where other programs use the cores.
+# OpenMP reads OMP_WAIT_POLICY once, when the compiled library is loaded. By default, OpenMP's waiting threads spin; if
+# other programs use the cores, that makes the work several times slower.
 if "OMP_WAIT_POLICY" not in os.environ and "GOMP_SPINCOUNT" not in os.environ:
     os.environ["OMP_WAIT_POLICY"] = "passive"
 
+#: The public names of the package, by the module that defines them.
 _HOMES = {
     "_core": ("Error", "InputError", "RunError", "InterruptedError", "DivergenceError", "info", "pair_names",
               "Specimen", "Contacts", "Cells", "Section", "Boundary", "Drive", "FieldSeries", "Stepper", "Step", "Observation",
@@ -54,7 +55,7 @@ if TYPE_CHECKING:
     from .study.driver import study
     __version__: str
 
-#: Without the name that would hide one of Python's after `from macadam import *`.
+#: All public names except InterruptedError: `from macadam import *` would hide Python's exception of that name.
 __all__ = [name for name in _HOME_OF if name != "InterruptedError" and not name.startswith("_")] + list(_MODULES)
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`python -m macadam …`, and the command `macadam` of an installed package: reports and studies in Python, all else by the
-program that comes with the package."""
+"""Runs `python -m macadam …`, and the command `macadam` of an installed package. The commands report and study are
+Python packages; every other command is passed to the program macadam that comes with the package."""
 from __future__ import annotations
 
 import importlib.util
@@ -10,13 +10,15 @@ import sys
 
 from ._program import own_program
 
-#: Commands that are packages of their own.
+#: Commands that are Python packages.
 _HERE = ("report", "study")
+#: Python packages that these commands need.
 _NEEDED = ("numpy", "pandas", "matplotlib")
 
 
 def _check(command: str) -> None:
-    """Ends with a message where this Python is too old or lacks a package that the command cannot be without."""
+    """Ends the process with a message if this Python is too old for the command or lacks a package that the command
+    needs."""
     missing = [name for name in _NEEDED if importlib.util.find_spec(name) is None]
     if sys.version_info < (3, 11):
         found, expected = "Python " + ".".join(map(str, sys.version_info[:2])), "3.11 or later"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parameters of a scene from measured moduli of the mixture (docs/calibration.md)."""
+"""Finds parameters of a scene from measured moduli of the mixture (docs/calibration.md)."""
 from __future__ import annotations
 
 import json
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Calibration:
-    """What was found, and the folder with its files: scene.toml, calibration.json, predicted.csv."""
+    """The result of a calibration, and the folder with its files: scene.toml, calibration.json, predicted.csv."""
 
     def __init__(self, scene: Scene, data: _core.ModulusData, out: str | PathLike[str] | None, **call: Any) -> None:
         self.folder = result_folder(out, self)
@@ -28,18 +28,18 @@ class Calibration:
 
     @cached_property
     def json(self) -> dict[str, Any]:
-        """calibration.json: everything about it."""
+        """The content of calibration.json: everything about the calibration."""
         return json.loads((self.folder / "calibration.json").read_text(encoding="utf-8"))
 
     @cached_property
     def parameters(self) -> pandas.DataFrame:
-        """A row a parameter: name, unit, value, standard_deviation, start, low, high, at_bound."""
+        """One row per parameter: name, unit, value, standard_deviation, start, low, high, at_bound."""
         import pandas
         return pandas.DataFrame(self.json["parameters"])
 
     @cached_property
     def table(self) -> pandas.DataFrame:
-        """A row a measurement: measured, predicted, difference."""
+        """One row per measurement: measured, predicted, difference."""
         import pandas
         return pandas.read_csv(self.folder / "predicted.csv", comment="#")
 
@@ -58,18 +58,18 @@ def calibrate(scene: SceneLike, target: Data, free: Sequence[str], *,
               misfit: str = "modulus-and-phase", e_star_deviation: float = 3, phase_deviation: float = 1,
               nearest: bool = False, out: str | PathLike[str] | None = None,
               progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Calibration:
-    """Finds parameters such that the scene's specimen has the measured moduli: `macadam calibrate`.
+    """Finds parameters with which the scene's specimen has the measured moduli: `macadam calibrate`.
 
-    target: a table in a file, a DataFrame or a dictionary of columns frequency_hz, e_star_pa, phase_deg, maybe
-    temperature_c, e_star_std, phase_std. `Result.table` of a cyclic test or a sweep has them. Moduli that the misfit
-    does not count, or phases, need not be there.
-    free: parameters to be found: "M-A.delta", "M-M.E_1", "inner.E", "A-A.alpha".
+    target: a table in a file, a DataFrame or a dictionary of columns: frequency_hz, e_star_pa, phase_deg and, if known,
+    temperature_c, e_star_std, phase_std. `Result.table` of a cyclic test or a sweep has these columns. A column of
+    moduli or of phases that the misfit does not count is not needed.
+    free: names of the parameters to find: "M-A.delta", "M-M.E_1", "inner.E", "A-A.alpha".
     bounds: lowest and highest value by name. priors: a value and its relative deviation by name.
-    seeds: specimens whose E* is averaged.
-    misfit: what counts: "modulus-and-phase", "modulus", "phase" or "parts" (E' and E'').
-    e_star_deviation [%], phase_deviation [degrees]: where the target has none.
-    nearest: the nearest values, with a warning, where the target cannot be reached.
-    out: the folder of the files; a temporary one where it is not given. overrides: as Scene has them.
+    seeds: number of specimens whose E* is averaged.
+    misfit: the differences that count: "modulus-and-phase", "modulus", "phase" or "parts" (E' and E'').
+    e_star_deviation [%], phase_deviation [degrees]: standard deviations of the measurements, if the target has none.
+    nearest: if the target cannot be reached, return the nearest values and a warning.
+    out: the folder of the files; a temporary one if it is not given. overrides: as for Scene.
     """
     given, _ = _scene_and_specimen(scene, None)
     if overrides:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contact laws from measured moduli (docs/laws-from-data.md)."""
+"""Fits contact laws to measured moduli (docs/laws-from-data.md)."""
 from __future__ import annotations
 
 import io
@@ -17,16 +17,18 @@ from . import _core
 if TYPE_CHECKING:
     import pandas
 
-#: A table in a file, or columns of the same names: frequency_hz, e_star_pa (e_star_mpa, …) or g_star_pa, phase_deg (or
-#: e_prime_pa, e_double_prime_pa), maybe temperature_c, e_star_std, phase_std. Other columns are passed over, so that
-#: `Result.table` of a cyclic test or a sweep can be given.
+#: Measurements: a table in a file, or columns of the same names in a DataFrame or a dictionary. The columns are
+#: frequency_hz, e_star_pa (or e_star_mpa, …) or g_star_pa, phase_deg (or e_prime_pa and e_double_prime_pa) and, if
+#: known, temperature_c, e_star_std, phase_std. Other columns are ignored, so `Result.table` of a cyclic test or a sweep
+#: can be given.
 Data = str | PathLike[str] | Mapping[str, Sequence[float]] | Any
 
 
 def modulus_data(data: Data, poisson: float | None = None, needed: str = "modulus-and-phase") -> _core.ModulusData:
-    """Reads measurements from a file, a DataFrame or a dictionary of columns, by the reader of `macadam fit`.
+    """Reads measurements from a file, a DataFrame or a dictionary of columns, with the reader of `macadam fit`.
 
-    poisson: for a column g_star_pa. needed: what must be there, "modulus-and-phase", "modulus" or "phase"."""
+    poisson: Poisson's ratio, to convert a column g_star_pa. needed: the columns that must be there:
+    "modulus-and-phase", "modulus" or "phase"."""
     if isinstance(data, _core.ModulusData):
         return data
     if isinstance(data, (str, PathLike)):
@@ -44,8 +46,8 @@ def modulus_data(data: Data, poisson: float | None = None, needed: str = "modulu
 
 
 class Fit:
-    """A fitted law. `files` has the texts of what the command writes, by name: law.toml, fit.json, fit.csv, curve.csv.
-    There is no law.toml where no chain stands for a 2S2P1D or Huet-Sayegh model within the error."""
+    """A fitted law. `files` has the texts of the files that the command writes, by name: law.toml, fit.json, fit.csv,
+    curve.csv. law.toml is missing if no chain represents the 2S2P1D or Huet-Sayegh model within the allowed error."""
 
     def __init__(self, found: dict[str, Any]) -> None:
         self.files: dict[str, str] = found["files"]
@@ -54,9 +56,10 @@ class Fit:
 
     @cached_property
     def law(self) -> dict[str, Any]:
-        """The entry of `contacts` in a scene, in SI units; its `pair` is M-M, to be changed where it is another's.
+        """The entry of `contacts` for a scene, in SI units. Its `pair` is M-M; change it to use the law for another
+        pair.
 
-        Raises InputError where no chain stands for the fitted model; the last of the warnings says why."""
+        Raises InputError if no chain represents the fitted model; the last of the warnings says why."""
         if "law.toml" not in self.files:
             raise _core.InputError(self.warnings[-1])
         return tomllib.loads(self.files["law.toml"])["contacts"][0]
@@ -66,13 +69,14 @@ class Fit:
         """Everything about the fit: parameters with deviations, covariance, candidates, errors."""
         return json.loads(self.files["fit.json"])
 
+    # Reads one of the CSV files by its name.
     def _csv(self, name: str) -> pandas.DataFrame:
         import pandas
         return pandas.read_csv(io.StringIO(self.files[name]), comment="#")
 
     @cached_property
     def table(self) -> pandas.DataFrame:
-        """A row a measurement: measured, fitted, difference."""
+        """One row per measurement: measured, fitted, difference."""
         return self._csv("fit.csv")
 
     @cached_property
@@ -89,14 +93,15 @@ def fit(data: Data | None = None, *, parameters: str | PathLike[str] | None = No
         shift: str = "none", reference_temperature: float | None = None, poisson: float | None = None,
         from_hz: float | None = None, to_hz: float | None = None, error: float = 0.01,
         out: str | PathLike[str] | None = None) -> Fit:
-    """A contact law from measured complex moduli: `macadam fit`.
+    """Fits a contact law to measured complex moduli: `macadam fit`.
 
     data: a table in a file, a DataFrame (`Result.table` of a cyclic test or a sweep, for example) or a dictionary of
-    columns; or `parameters`, the TOML file of a 2S2P1D or Huet-Sayegh
-    model, which becomes a chain from `from_hz` to `to_hz` [Hz] with at most `error` (relative).
-    model: "kelvin", "2s2p1d" or "huet-sayegh". units: Kelvin units; without it the criterion ("aicc", "bic") chooses,
-    up to `most_units`. flow: a dashpot in series. shift: "none", "wlf", "arrhenius" or "free".
-    reference_temperature: [°C]. poisson: ratio, for a column g_star_pa. out: a folder for the files.
+    columns. parameters: in place of data, the TOML file of a 2S2P1D or Huet-Sayegh model, which is converted into a
+    chain that holds from `from_hz` to `to_hz` [Hz] with a relative error of at most `error`.
+    model: "kelvin", "2s2p1d" or "huet-sayegh". units: number of Kelvin units; if it is not given, the criterion
+    ("aicc", "bic") chooses it, up to `most_units`. flow: whether the chain has a dashpot in series. shift: "none",
+    "wlf", "arrhenius" or "free". reference_temperature: [°C]. poisson: Poisson's ratio, to convert a column g_star_pa.
+    out: a folder for the files.
     """
     if (data is None) == (parameters is None):
         raise _core.InputError(f"what to fit: found {'nothing' if data is None else 'both data and parameters'}, expected "

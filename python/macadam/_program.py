@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program that comes with this package."""
+"""Finds the program macadam that comes with this package."""
 from __future__ import annotations
 
 import os
@@ -7,7 +7,8 @@ from pathlib import Path
 
 
 def own_program() -> str | None:
-    """Of an installed package its own; where the package runs from a build, that of the build."""
+    """Returns the path of the program in the installed package or, if the package runs from a build folder, of the
+    build's program; None if there is neither."""
     here = Path(__file__).parent
     for file in (here / "bin" / "macadam", here.parent.parent / "macadam"):
         if file.is_file() and os.access(file, os.X_OK):

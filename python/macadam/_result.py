@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results: the folder of a run, read when it is asked for."""
+"""Results: the folder of a run, whose files are read when they are first used."""
 from __future__ import annotations
 
 import importlib
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def result_folder(out: str | PathLike[str] | None, owner: Any) -> Path:
-    """The folder that was asked for, or one that goes with the object that owns it."""
+    """Returns the folder `out`, or, if it is None, a new temporary folder that is removed together with `owner`."""
     if out is not None:
         return Path(out)
     folder = Path(tempfile.mkdtemp(prefix="macadam-"))
@@ -29,7 +29,7 @@ def result_folder(out: str | PathLike[str] | None, owner: Any) -> Path:
 
 
 class _Outcome(NamedTuple):
-    """Texts of a finished run. Its numbers are in files."""
+    """Texts of a finished run. Its numbers are in the files of the folder."""
     text: str
     decisions: list[str]
     skips: list[dict[str, str]]
@@ -39,10 +39,10 @@ class _Outcome(NamedTuple):
 
 
 class Result:
-    """What a test found, and the folder with its files (docs/scene.md lists them).
+    """The results of a test, and the folder with its files (docs/scene.md lists them).
 
-    `folder` is the one that was asked for, or a temporary one that goes with this object; save() copies it. A pickled
-    result holds the files of a temporary folder, and the name of one that was asked for.
+    `folder` is the folder that was given, or a temporary one that is removed together with this object; save() copies
+    it. A pickled result contains the files if the folder is temporary, otherwise only the folder's name.
     """
 
     def __init__(self, scene: Scene, specimen: _core.Specimen | None, out: str | PathLike[str] | None,
@@ -72,13 +72,13 @@ class Result:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """summary.json: everything asked, made and found."""
+        """The content of summary.json: input, specimen and results."""
         return json.loads((self.folder / "summary.json").read_text(encoding="utf-8", errors="replace"))
 
     @cached_property
     def table(self) -> pandas.DataFrame:
-        """Of a cyclic test or a sweep, a row a frequency: frequency_hz, e_star_pa [Pa], phase_deg and so on. Of the
-        others a row a time: time_s and what the test measures."""
+        """For a cyclic test or a sweep one row per frequency: frequency_hz, e_star_pa [Pa], phase_deg and so on. For
+        the other tests one row per time: time_s and the measured quantities."""
         import pandas
         rows = self.summary["results"]
         if rows and "points" in rows[0]:
@@ -87,23 +87,25 @@ class Result:
 
     @cached_property
     def sensitivities(self) -> pandas.DataFrame:
-        """Change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm, where they were asked for."""
+        """Change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm; empty if the scene does
+        not ask for sensitivities."""
         import pandas
         return pandas.DataFrame([{"frequency_hz": r["frequency_hz"], **s} for r in self.summary["results"]
                                  for s in r.get("sensitivities", [])])
 
     @cached_property
     def response(self) -> pandas.DataFrame:
-        """Of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Of the others, table has all there is."""
+        """The samples of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Other tests have no samples
+        beside `table`."""
         return self.csv("response.csv")
 
     @cached_property
     def prony(self) -> pandas.DataFrame:
-        """Of relaxation, creep and monotonic tests without steps: the relaxation modulus as Maxwell units."""
+        """The relaxation modulus as Maxwell units, for relaxation, creep and monotonic tests without steps."""
         return self.csv("prony.csv")
 
     def csv(self, name: str) -> pandas.DataFrame:
-        """A table of the folder by its name."""
+        """Reads a CSV file of the folder by its name."""
         import pandas
         file = self.folder / name
         if not file.is_file():
@@ -113,34 +115,34 @@ class Result:
 
     @property
     def specimen(self) -> _core.Specimen:
-        """Particles, cells and contacts that were tested."""
+        """The particles, cells and contacts that were tested."""
         if self._specimen is None:
             self._specimen = _core.prepare(self.scene)
         return self._specimen
 
     @property
     def decisions(self) -> list[str]:
-        """What the scene left open, and what was chosen why."""
+        """The choices that the scene left open to the program, each with the value chosen and the reason."""
         return self._run.decisions
 
     @property
     def skips(self) -> list[dict[str, str]]:
-        """What was left out because the scene does not need it: what, why, effect."""
+        """Computations that were left out because the scene does not need them: what, why, effect."""
         return self._run.skips
 
     @property
     def warnings(self) -> list[str]:
-        """What a reader of the results must know."""
+        """Warnings that a reader of the results must know."""
         return self._run.warnings
 
     @property
     def solver(self) -> str:
-        """What ran, in words."""
+        """A description of the solver that ran."""
         return self._run.solver
 
     @property
     def backend(self) -> str:
-        """That ran: cpu, cuda or reference."""
+        """The backend that ran: cpu, cuda or reference."""
         return self._run.backend
 
     def report(self, file: str | PathLike[str]) -> Path:
@@ -149,7 +151,7 @@ class Result:
         return Path(file)
 
     def save(self, folder: str | PathLike[str]) -> Path:
-        """Copies the folder."""
+        """Copies the folder of the results to `folder` and returns the copy's path."""
         return Path(shutil.copytree(self.folder, folder, dirs_exist_ok=True))
 
     def __str__(self) -> str:

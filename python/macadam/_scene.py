@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes: files or dictionaries, with what is to be different."""
+"""Scenes from files or dictionaries, with overrides of single keys and options."""
 from __future__ import annotations
 
 import copy
@@ -10,14 +10,14 @@ from typing import Any
 
 from . import _core, _toml
 
-#: What the command has options for; everything else of a scene goes by its keys.
+#: Overrides that are options of the command. Any other override is a key of the scene.
 OPTIONS = ("seed", "backend", "precision", "method", "linear", "threads", "device")
 
-NO_FILE = "scene"  # what messages call a scene that is no file
+NO_FILE = "scene"  # name in messages of a scene that does not come from a file
 
 
 def _entry_of(entries: list[Any], name: str, place: str) -> Any:
-    """Of an array of tables: by its number from 0 on, or, of contacts, by its pair."""
+    """Returns an entry of an array of tables by its number, from 0, or, if the entries are contacts, by its pair."""
     for entry in entries:
         if isinstance(entry, Mapping) and entry.get("pair") == name:
             return entry
@@ -30,7 +30,7 @@ def _entry_of(entries: list[Any], name: str, place: str) -> Any:
 
 def set_key(table: dict[str, Any], key: str, value: Any) -> None:
     """Sets a dotted key of a scene's tables: `loading.strain_amplitude`, `contacts.M-A.delta`,
-    `specimen.aggregate.0.volume_fraction`. A dictionary is merged into a section; None takes a key away."""
+    `specimen.aggregate.0.volume_fraction`. A dictionary is merged into a section; None removes a key."""
     names = key.split(".")
     at: Any = table
     for depth, name in enumerate(names[:-1]):
@@ -55,17 +55,18 @@ def set_key(table: dict[str, Any], key: str, value: Any) -> None:
         at[names[-1]] = copy.deepcopy(value)
 
 
+# Returns the tables of a scene's text. file: the scene's name, for messages.
 def _tables_of(text: str, file: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        _core.Scene(file, text)  # says it as the command does
+        _core.Scene(file, text)  # raises the error with the command's own message
         raise _core.InputError(f"{file}: TOML syntax: found {error}, expected valid TOML") from error
 
 
 def tables_of(source: str | PathLike[str] | Mapping[str, Any] | _core.Scene,
               file: str | PathLike[str] | None = None) -> tuple[str, dict[str, Any], dict[str, Any]]:
-    """Returns a scene's name for messages, a copy of its tables, and the options that were given beside it."""
+    """Returns a scene's name for messages, a copy of its tables, and its options (a dictionary of names in OPTIONS)."""
     if isinstance(source, _core.Scene):
         return str(source.file), _tables_of(source.text, str(source.file)), source.options
     if isinstance(source, Mapping):
@@ -78,13 +79,13 @@ class Scene(_core.Scene):
     """A scene: a mix, its laws and a test, read and checked completely.
 
     source: a file (TOML, docs/scene.md), a dictionary of the same keys, or another Scene.
-    overrides: instead of the scene's own values. `seed`, `backend`, `precision`, `method`, `linear`, `threads` and
-    `device` are the command's options. Any other name is a key: a section with a dictionary of what is different in
-    it (`loading={"frequencies": [10]}`), or, in a dictionary, a dotted key (`**{"contacts.M-A.delta": 1.5}`).
-    file: what messages call a dictionary, and to whose folder paths in it are relative: "scene", in the working folder.
+    overrides: values that replace the scene's own. `seed`, `backend`, `precision`, `method`, `linear`, `threads` and
+    `device` are the command's options. Any other name is a key: a section with a dictionary of the values to change
+    (`loading={"frequencies": [10]}`), or, in a dictionary, a dotted key (`**{"contacts.M-A.delta": 1.5}`).
+    file: for a dictionary, the name of the scene in messages; paths in the dictionary are relative to the folder of
+    this file. By default the name is "scene" and the folder is the working folder.
 
-    Raises InputError with the command's text. Messages name the line of a file as long as nothing but options is
-    overridden.
+    Raises InputError with the command's message. The message names the line in the file, unless a key is overridden.
     """
 
     def __init__(self, source: str | PathLike[str] | Mapping[str, Any] | _core.Scene, *,

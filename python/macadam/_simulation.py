@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests of a specimen: stepped, or solved without steps; each leaves the folder that the command leaves."""
+"""Runs tests of a specimen, stepped in time or solved without steps. Each writes the same folder as the command."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
@@ -12,18 +12,20 @@ from ._result import result_folder as result_folder
 from ._scene import Scene
 
 SceneLike = _core.Scene | _core.Specimen | Mapping[str, Any] | str | PathLike[str]
-SpecimenLike = _core.Specimen | Mapping[str, Any]  # made before, or changed keys of the scene's section `specimen`
-Number = float | int | str  # of a scene: SI units, or text with its unit
+# a specimen made before, or changed keys of the scene's section `specimen`
+SpecimenLike = _core.Specimen | Mapping[str, Any]
+Number = float | int | str  # a value of a scene: in SI units, or text with its unit
 
-#: Of [solver], what belongs to the test that is replaced.
+#: Keys of [solver] that belong to the scene's own test and are removed when another test replaces it.
 _OF_THE_TEST = ("method", "density_scaling", "time_step", "safety", "inertia")
-#: Of run(), what the calls of single tests pass on.
+#: Arguments of run() that the functions of single tests accept too and pass on.
 _OF_RUN = ("resume", "on_step", "every", "on_plan", "on_warning")
 
 
 def _scene_and_specimen(scene: SceneLike, specimen: SpecimenLike | None,
                         overrides: dict[str, Any] | None = None) -> tuple[Scene, _core.Specimen | None]:
-    """Returns the scene, and the specimen if one was made before. Puts a section `specimen` among the overrides."""
+    """Returns the scene, and the specimen if one was made before. If `specimen` is a dictionary of keys, puts it into
+    `overrides` as the section `specimen`."""
     overrides = {} if overrides is None else overrides
     made = scene if isinstance(scene, _core.Specimen) else None
     if isinstance(specimen, _core.Specimen):
@@ -49,17 +51,19 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: S
         **overrides: Any) -> Result:
     """Runs a scene's test: `macadam run`.
 
-    scene: a Scene, file or dictionary, or a Specimen, which is then not made anew.
-    out: the folder of the results; a temporary one where it is not given.
-    specimen: a Specimen of the same scene, made before; or a dictionary with the changed keys of the section `specimen`.
-    resume: go on from the checkpoint that an interrupted run left in `out`.
+    scene: a Scene, file or dictionary, or a Specimen, which is then used as it is.
+    out: the folder of the results; a temporary one if it is not given.
+    specimen: a Specimen of the same scene, made before; or a dictionary with the changed keys of the section
+    `specimen`.
+    resume: continue from the checkpoint that an interrupted run left in `out`.
     on_step: called after every `every` steps of a stepped test with a Step: its time [s], strain, stress_pa [Pa] …
-    progress: called with what is being done and the share of it that is done, 0 to 1.
-    on_plan: called with the decisions before the first step; on_warning: with each warning at once.
-    overrides: as Scene has them, in SI units or text with a unit: `backend="cuda"`, `method="harmonic"`, `threads=4`, `loading={"cycles": 3}` …
+    progress: called with the name of the current stage and the fraction of it that is done, 0 to 1.
+    on_plan: called with the decisions before the first step; on_warning: called with each warning as soon as it occurs.
+    overrides: as for Scene, in SI units or text with a unit: `backend="cuda"`, `method="harmonic"`, `threads=4`,
+    `loading={"cycles": 3}` …
 
-    Ctrl-C ends a stepped test with a checkpoint in `out`, and raises KeyboardInterrupt that says so. What a callback
-    raises ends the test likewise.
+    Ctrl-C ends a stepped test with a checkpoint in `out` and raises KeyboardInterrupt, whose message says so. An
+    exception in a callback ends the test in the same way and is raised again.
     """
     given, made = _scene_and_specimen(scene, specimen, overrides)
     if overrides:
@@ -70,13 +74,15 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: S
 
 def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, Any], overrides: dict[str, Any],
           method: str = "harmonic", **call: Any) -> Result:
-    """Another test of a scene. Calls have what run() has; `overrides` may too."""
+    """Runs another test than the scene's own. loading: the new section [loading]. call: arguments for run();
+    `overrides` may hold such arguments too."""
     given, made = _scene_and_specimen(scene, specimen, overrides)
     tables = given.as_dict()
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}
     solver = {k: v for k, v in tables.get("solver", {}).items() if k not in _OF_THE_TEST}
     if method != "harmonic":
-        solver.pop("tolerance", None)  # of the scene's own test: refused here, where nothing predicts the error
+        # the scene's tolerance would be refused: no error is predicted for this stepped test
+        solver.pop("tolerance", None)
     tables["solver"] = {**solver, "method": method}
     options = {**given.options, "method": None}
     call |= {name: overrides[name] for name in _OF_RUN if name in overrides}
@@ -90,6 +96,7 @@ def _several(numbers: Sequence[Number] | Number) -> Any:
     return [numbers] if isinstance(numbers, str) or not hasattr(numbers, "__len__") else numbers
 
 
+# Returns the arguments unchanged. Raises InputError for `resume` without `out`.
 def _checked(call: dict[str, Any]) -> dict[str, Any]:
     if call.get("resume") and call.get("out") is None:
         raise _core.InputError("resume: found no out, expected the folder of the interrupted run")
@@ -101,13 +108,13 @@ def harmonic(scene: SceneLike, frequencies: Sequence[Number] | Number | None = N
              inertia: bool | None = None, sensitivities: bool | None = None,
              out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
              **overrides: Any) -> Result:
-    """|E*| and φ as the steady state of the frequency domain: `macadam run --method harmonic`.
+    """Computes |E*| and φ as the steady state in the frequency domain: `macadam run --method harmonic`.
 
-    frequencies: [Hz]; the scene's where they are not given.
-    temperatures: [°C], every frequency at each; laws need shift keys then.
+    frequencies: [Hz]; those of the scene if they are not given.
+    temperatures: [°C]; every frequency is computed at each of them. The laws need keys of a temperature shift then.
     inertia: include the particles' inertia.
-    sensitivities: derivatives by every parameter of the laws, in `sensitivities` of the result.
-    Others as run() has them.
+    sensitivities: compute derivatives with respect to every parameter of the laws, in `sensitivities` of the result.
+    The other arguments are those of run().
     """
     changed: dict[str, Any] = dict(overrides)
     given, made = _scene_and_specimen(scene, specimen, changed)
@@ -131,9 +138,9 @@ def sweep(scene: SceneLike, *, frequencies: Sequence[Number], points_per_decade:
           points: int | None = None, temperatures: Sequence[Number] | None = None,
           specimen: SpecimenLike | None = None, out: str | PathLike[str] | None = None,
           progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
-    """The complex modulus over frequencies [Hz] and temperatures [°C]: `kind = "sweep"` (docs/relaxation.md).
+    """Computes the complex modulus over frequencies [Hz] and temperatures [°C]: `kind = "sweep"` (docs/relaxation.md).
 
-    frequencies: a list, or, with points_per_decade or points, the two ends of a range.
+    frequencies: a list, or, if points_per_decade or points is given, the two ends of a range.
     """
     loading = {"kind": "sweep", "frequencies": frequencies, "points_per_decade": points_per_decade, "points": points,
                "temperatures": temperatures}
@@ -145,13 +152,13 @@ def relaxation(scene: SceneLike, *, times: Sequence[Number], points_per_decade: 
                poisson_ratio: float | None = None, method: str = "harmonic", specimen: SpecimenLike | None = None,
                out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
                **overrides: Any) -> Result:
-    """Stress under a strain that is held: `kind = "relaxation"` (docs/relaxation.md).
+    """Computes the stress under a constant strain: `kind = "relaxation"` (docs/relaxation.md).
 
-    times: [s] from the beginning of the ramp, or, with points_per_decade or points, the two ends of a range.
-    strain: that is held; ramp: over which it grows [s], 0: at once.
+    times: [s] from the beginning of the ramp; if points_per_decade or points is given, the two ends of a range.
+    strain: the strain that is held. ramp: the time over which the strain grows [s]; 0: it is applied at once.
     poisson_ratio: for the tables of finite-element programs.
-    method: "harmonic", without a time step, or "explicit", stepped; then on_step, every, resume and so on too.
-    overrides: as run() has them: `**{"solver.density_scaling": 100}` …
+    method: "harmonic", without time steps, or "explicit", stepped in time; on_step, every, resume and so on are then
+    allowed too. overrides: as for run(): `**{"solver.density_scaling": 100}` …
     """
     loading = {"kind": "relaxation", "times": times, "points_per_decade": points_per_decade, "points": points,
                "strain": strain, "ramp": ramp, "poisson_ratio": poisson_ratio}
@@ -163,10 +170,11 @@ def creep(scene: SceneLike, *, stress: Number, times: Sequence[Number], points_p
           platen_mass: Number | None = None, poisson_ratio: float | None = None, method: str = "harmonic",
           specimen: SpecimenLike | None = None, out: str | PathLike[str] | None = None,
           progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
-    """Strain under a stress [Pa] that is held, and taken off from `release` [s] on: `kind = "creep"` (docs/relaxation.md).
+    """Computes the strain under a constant stress [Pa], which is removed at `release` [s]: `kind = "creep"`
+    (docs/relaxation.md).
 
-    platen_mass: of the loaded top wall [kg], of method "explicit".
-    times, points_per_decade, points, ramp, poisson_ratio, method, overrides: as relaxation() has them.
+    platen_mass: mass of the loaded top wall [kg], for method "explicit".
+    times, points_per_decade, points, ramp, poisson_ratio, method, overrides: as for relaxation().
     """
     loading = {"kind": "creep", "stress": stress, "times": times, "points_per_decade": points_per_decade,
                "points": points, "ramp": ramp, "release": release, "platen_mass": platen_mass,
@@ -179,10 +187,11 @@ def monotonic(scene: SceneLike, *, rate: Number, times: Sequence[Number] | None 
               poisson_ratio: float | None = None, method: str = "harmonic", specimen: SpecimenLike | None = None,
               out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
               **overrides: Any) -> Result:
-    """Stress under a constant rate of strain [1/s], tension positive: `kind = "monotonic"` (docs/relaxation.md).
+    """Computes the stress under a constant strain rate [1/s], tension positive: `kind = "monotonic"`
+    (docs/relaxation.md).
 
-    strain: at which the test ends, in place of times. points: even distances of time.
-    times, points_per_decade, poisson_ratio, method, overrides: as relaxation() has them.
+    strain: the strain at which the test ends, in place of times. points: number of evenly spaced times.
+    times, points_per_decade, poisson_ratio, method, overrides: as for relaxation().
     """
     loading = {"kind": "monotonic", "rate": rate, "times": times, "points_per_decade": points_per_decade,
                "points": points, "strain": strain, "poisson_ratio": poisson_ratio}

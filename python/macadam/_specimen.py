@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Specimens: particles, Laguerre cells and contacts of a scene."""
+"""Makes specimens: particles, Laguerre cells and contacts, from a scene or from given particles."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str, float], object]
 
-#: Arrays of a specimen's own particles, and those that must be given.
+#: Names of the arrays that the argument `particles` may have, and of those that it must have.
 _ARRAYS, _NEEDED = ("centre", "radius", "phase", "body", "box"), ("centre", "radius")
 
 
@@ -25,12 +25,12 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
              sections: Sequence[str] = (), progress: Progress | None = None) -> _core.Specimen:
     """Makes a scene's particles, their Laguerre cells and their contacts: `macadam specimen`.
 
-    particles: in place of the scene's own, which needs no other source then: `centre` [m] (n, 3), `radius` [m] (n,),
-    `phase` (0 aggregate, 1 mastic; without it all are mastic), `body` (number of the aggregate, -1 for mastic), and `box`
-    [m] (3,), where it is not the scene's.
+    particles: arrays that replace the scene's particles; the scene then needs no source of particles. `centre` [m] (n,
+    3), `radius` [m] (n,), `phase` (0 aggregate, 1 mastic; if it is not given, all are mastic), `body` (number of the
+    aggregate, -1 for mastic), and `box` [m] (3,), if it differs from the scene's.
     out: a folder to write specimen.csv, aggregates.csv, summary.json and so on into, as the command does.
-    sections: planes to cut ("x=0.025", "z=40 mm"), written into `out`.
-    progress: called with a stage and the share of it that is done, 0 to 1.
+    sections: planes ("x=0.025", "z=40 mm") whose cross sections are written into `out`.
+    progress: called with a stage and the fraction of it that is done, 0 to 1.
     """
     if particles is not None:
         return _of_particles(scene, particles)
@@ -40,6 +40,7 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
     return _core.prepare_into(given, fspath(out), list(sections), progress)
 
 
+# Makes a specimen from the caller's particles. Raises InputError for an unknown or missing array.
 def _of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str],
                   particles: Mapping[str, ArrayLike]) -> _core.Specimen:
     wrong = [name for name in particles if name not in _ARRAYS] or [name for name in _NEEDED if name not in particles]
@@ -52,10 +53,11 @@ def _of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str],
 
 
 def _scene_of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], box: ArrayLike | None) -> Scene:
-    """Returns the scene with the given particles as its source, without a mixture, which does not describe them."""
+    """Returns the scene with the given particles as its source. The mixture is removed, because it does not describe
+    these particles; the densities of a recipe are kept."""
     name, tables, options = tables_of(scene)
     section = tables.get("specimen", {})
-    if "recipe" in section:  # densities follow from it
+    if "recipe" in section:  # the densities of aggregate and mastic follow from the recipe, which is removed below
         recipe: Any = Scene(scene).recipe
         for phase in ("aggregate", "mastic"):
             if recipe[f"{phase}_density"] > 0:

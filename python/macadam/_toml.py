@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dictionaries as TOML: what a scene is made of, no more."""
+"""Writes dictionaries as TOML: only the types that a scene can hold, no dates."""
 from __future__ import annotations
 
 import json
@@ -9,12 +9,14 @@ from os import PathLike, fspath
 from typing import Any
 
 
+# Returns a key as it is written in TOML, in quotes if it needs them.
 def _key(name: object) -> str:
     text = str(name)
     bare = text and all(c.isalnum() and c.isascii() or c in "-_" for c in text)
     return text if bare else json.dumps(text)
 
 
+# Returns a float as TOML, which needs a point or an exponent.
 def _number(value: float) -> str:
     if math.isnan(value):
         return "nan"
@@ -25,7 +27,7 @@ def _number(value: float) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Numbers and arrays of NumPy as those of Python, paths as texts."""
+    """Returns numbers and arrays of NumPy as Python numbers and lists, and paths as texts."""
     if isinstance(value, PathLike):
         return fspath(value)
     if hasattr(value, "tolist"):
@@ -34,7 +36,7 @@ def _plain(value: Any) -> Any:
 
 
 def value(of: Any) -> str:
-    """One value in a line."""
+    """Returns one value as TOML, on one line. Raises TypeError for a type that a scene cannot hold."""
     of = _plain(of)
     if isinstance(of, bool):
         return "true" if of else "false"
@@ -51,12 +53,13 @@ def value(of: Any) -> str:
     raise TypeError(f"a scene cannot hold a {type(of).__name__}: {of!r}")
 
 
+# Whether it is a list of dictionaries, which TOML writes as an array of tables.
 def _tables(of: Any) -> bool:
     return isinstance(of, (list, tuple)) and len(of) > 0 and all(isinstance(x, Mapping) for x in of)
 
 
 def dumps(table: Mapping[str, Any], path: str = "") -> str:
-    """The text of a table and those below it. What is None is left out."""
+    """Returns the TOML text of a table and of the tables in it. Keys whose value is None are left out."""
     own, below = "", ""
     for name, entry in table.items():
         full = f"{path}.{_key(name)}" if path else _key(name)

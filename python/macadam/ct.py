@@ -18,16 +18,19 @@ Fraction = float | str
 Path = str | PathLike[str]
 
 
+# Raises InputError if the library was built without ITK.
 def _require_ct() -> None:
     if not _core.info()["ct"]:
         raise _core.InputError("macadam ct: images of computed tomography: found a package built without ITK, expected one "
                                "built with it: install libinsighttoolkit5-dev and build again, with MACADAM_CT=ON")
 
 
+# Returns a length as the text that the library reads.
 def _length(of: Length) -> str:
     return of if isinstance(of, str) else repr(float(of))
 
 
+# Returns a fraction as a number; text is read as per cent. name: of the argument, for the message.
 def _fraction(of: Fraction | None, name: str) -> float | None:
     if not isinstance(of, str):
         return of
@@ -53,12 +56,14 @@ def segment(images: Path, out: Path, *, voxel: Length | Sequence[Length] | None 
             smallest: Length | None = None, gradation: Path | None = None, cuts: Path | None = None, recipe: str = "own",
             facets: int = 500, threads: int | None = None,
             progress: Callable[[str, float], object] | None = None) -> _core.Segmentation:
-    """Grains and phases of a scan, whose files go into `out`: `macadam ct segment`, with its options and defaults.
+    """Finds phases and grains in a scan and writes the files into `out`: `macadam ct segment`, with its options and
+    defaults.
 
-    images: .mha, .mhd, .nrrd, .tif, .h5 (with `dataset`), or a folder of .tif. voxel: its edge, or three, in place of those in
-    the file. region: what of the scan is the specimen. slices, rings, hardening: what is corrected. air_voids, aggregate:
-    fractions of the volume, from the laboratory. memory: that may be taken, "3 GB". smallest: diameter of the smallest grain that
-    matters. gradation: the laboratory's, a CSV file. cuts: a cuts.csv that was changed by hand.
+    images: .mha, .mhd, .nrrd, .tif, .h5 (with `dataset`), or a folder of .tif. voxel: edge length of a voxel, or three,
+    which replace those in the file. region: which part of the scan is the specimen. slices, rings, hardening: whether
+    slices of different brightness, rings and beam hardening are corrected. air_voids, aggregate: volume fractions
+    measured in the laboratory. memory: limit of the memory to use, "3 GB". smallest: diameter of the smallest grain of
+    interest. gradation: CSV file with the laboratory's gradation. cuts: a cuts.csv that was edited by hand.
     """
     _require_ct()
     edges = [] if voxel is None else [_length(voxel)] if isinstance(voxel, (str, float, int)) else [*map(_length, voxel)]
@@ -70,12 +75,12 @@ def segment(images: Path, out: Path, *, voxel: Length | Sequence[Length] | None 
 
 def phantom(scene: _core.Scene | Mapping[str, Any] | Path, voxel: Length, out: Path, *, sawn: Length = 0,
             air: Length = "1 mm", specimen_seed: int | None = None, **spec: Any) -> _core.Phantom:
-    """A synthetic scan of a scene's specimen with its truth, in `out`: `macadam ct phantom`.
+    """Writes a synthetic scan of a scene's specimen, and the true phases and grains, into `out`: `macadam ct phantom`.
 
-    voxel: its edge. sawn: taken off each side of the box before it is scanned; air: around the specimen.
-    specimen_seed: instead of the scene's.
-    spec: seed, shape ("prism", "cylinder"), samples, blur [voxels], noise, cupping, rings, drift, grey_air, grey_mastic,
-    grey_aggregate, progress; as the command's options.
+    voxel: edge length of a voxel. sawn: thickness removed from each side of the box before it is scanned. air:
+    thickness of the air around the specimen. specimen_seed: replaces the scene's seed.
+    spec: seed, shape ("prism", "cylinder"), samples, blur [voxels], noise, cupping, rings, drift, grey_air,
+    grey_mastic, grey_aggregate, progress; as the command's options.
     """
     _require_ct()
     spec |= {name: _fraction(spec[name], name) for name in ("noise", "cupping", "rings", "drift") if name in spec}
@@ -86,10 +91,11 @@ def phantom(scene: _core.Scene | Mapping[str, Any] | Path, voxel: Length, out: P
 def twin(folder: Path, scene: _core.Scene | Mapping[str, Any] | Path, out: Path, *, box: Sequence[Length] = (),
          porosity: Fraction | None = None, least_void: Length = 0, seed: int = 1,
          progress: Callable[[str, float], object] | None = None) -> _core.Twin:
-    """The specimen in a segmented scan as a scene that runs, in `out`/scene.toml: `macadam ct twin`.
+    """Makes a scene that can be run from the specimen in a segmented scan and writes it to `out`/scene.toml: `macadam
+    ct twin`.
 
-    box: lower and upper corner in the scan, six lengths. porosity: of the mastic. least_void: radius below which a void is
-    left out; 0: two voxels.
+    box: lower and upper corner in the scan, six lengths. porosity: porosity of the mastic's spheres. least_void: radius
+    below which a void is left out; 0: two voxels.
     """
     _require_ct()
     return _core.twin(fspath(folder), _scene(scene), fspath(out), box=[*map(_length, box)],

@@ -38,29 +38,32 @@ def _surface(of: SurfaceLike) -> Surface:
 
 
 def check(surface: SurfaceLike) -> Verdict:
-    """What is wrong with a surface and where; str() says it in words, and it is true where the surface is good."""
+    """Finds the faults of a surface and where they are. str() of the Verdict describes them; bool() is true if the
+    surface is good."""
     return _core.check_surface(_surface(surface))
 
 
 def repair(surface: SurfaceLike, *, wrap: bool = False) -> tuple[Surface, str]:
-    """Returns the surface made fit for measuring and filling, and in words what was done, with volume and area before and after.
+    """Returns a repaired surface that can be measured and filled, and a text that says what was done, with volume and
+    area before and after.
 
-    wrap: accept a new skin around a faulty surface that changes volume or area by more than 1 %. RunError where nothing
-    helped, or where a change of more than 1 % is not accepted.
+    wrap: accept a new skin around a faulty surface even if it changes volume or area by more than 1 %. Raises RunError
+    if no repair succeeds, or if a change of more than 1 % is not accepted.
     """
     return _core.repair_surface(_surface(surface), wrap)
 
 
 def measure(surface: SurfaceLike) -> ShapeMeasure:
-    """Dimensions [m], volume, area and shape indices of a closed surface."""
+    """Measures a closed surface: dimensions [m], volume, area and shape indices."""
     return _core.measure_shape(_surface(surface))
 
 
 def table(surfaces: Iterable[SurfaceLike], *, repair: bool = False, wrap: bool = False,
           out: str | PathLike[str] | None = None) -> pandas.DataFrame:
-    """measure() of several, a row each [SI units]: `macadam shapes measure`.
+    """Measures several surfaces, one row each [SI units]: `macadam shapes measure`.
 
-    repair: faulty surfaces, before they are measured; wrap: as repair() has it. out: a folder for shapes.csv, statistics.csv and correlation.csv.
+    repair: repair faulty surfaces before they are measured. wrap: as for repair(). out: a folder for shapes.csv,
+    statistics.csv and correlation.csv.
     """
     import pandas
     shapes = [_surface(one) for one in surfaces]
@@ -74,7 +77,7 @@ def table(surfaces: Iterable[SurfaceLike], *, repair: bool = False, wrap: bool =
 
 
 def files_in(folder: str | PathLike[str], scale: float = 1) -> list[Surface]:
-    """All shapes of a folder, in the order of their names."""
+    """Reads all surfaces of a folder, in the order of their names. scale: as for read()."""
     return [read(file, scale) for file in _core.surface_files_in(fspath(folder))]
 
 
@@ -83,11 +86,11 @@ def fill(surface: SurfaceLike, radius: float | tuple[float, float], *, porosity:
          out: str | PathLike[str] | None = None) -> Spheres:
     """Fills a shape with spheres.
 
-    radius: of the spheres [m], or the least and the greatest.
+    radius: radius of the spheres [m], or the smallest and the largest.
     porosity: 1 - sum of the spheres' volumes / volume of the shape.
-    least: fewer spheres than this: a single one, of the radius that `single` says: "intermediate" (D^I/2),
-    "circumscribed" or "volume".
-    circumscribed: scale the shape first, to D^I/2 of this [m].
+    least: if fewer spheres than this would fill the shape, it becomes a single sphere, whose radius `single` chooses:
+    "intermediate" (D^I/2), "circumscribed" or "volume".
+    circumscribed: scale the shape first, so that D^I/2 has this value [m].
     out: a folder for spheres.csv, spheres.obj and shape.obj, as the command writes them.
     """
     low, high = (radius, radius) if isinstance(radius, (int, float)) else radius
@@ -102,8 +105,8 @@ def fill(surface: SurfaceLike, radius: float | tuple[float, float], *, porosity:
 
 def generate(out: str | PathLike[str] | None = None, *, seed: int = 1, count: int = 82,
              icosahedron: float | None = None) -> list[Surface]:
-    """Crushed aggregates with the statistics of the library that ships, or the subdivided icosahedron of a radius [m];
-    written as OFF files where a folder `out` is given, in which there may be no other shapes."""
+    """Generates crushed aggregates with the statistics of the library that ships or, if `icosahedron` is given, the
+    subdivided icosahedron of this radius [m]. out: a folder for OFF files, which must not contain other shapes."""
     shapes = _core.generate_shape_library(seed, count) if icosahedron is None else [_core.subdivided_icosahedron(icosahedron)]
     if out is not None:
         _core.write_shape_library(fspath(out), shapes)

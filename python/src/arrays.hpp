@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file arrays.hpp  Vectors of the library as NumPy arrays.
+/// \file arrays.hpp  Gives the library's vectors to Python as NumPy arrays, as views without a copy or as arrays that
+/// own their numbers.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -17,28 +18,32 @@ namespace macadam::python {
 
 namespace nb = nanobind;
 
-/// Numbers that are seen from Python where they are, and cannot be changed there. Bound with reference_internal, the
-/// default of properties, the array keeps their owner alive.
+/// A read-only NumPy array that refers to the library's memory without a copy. Properties are bound with
+/// reference_internal by default, so the array keeps the object that owns the memory alive.
 template <class T>
 using View = nb::ndarray<nb::numpy, const T>;
 
+/// Returns a view of the numbers from `data` on. strides: in elements of T, not bytes; row-major if they are not given.
 template <class T>
 View<T> view(const T* data, std::initializer_list<std::size_t> shape,
              std::initializer_list<std::int64_t> strides = {}) {
   return View<T>(data, shape.size(), shape.begin(), nb::handle(), strides.size() > 0 ? strides.begin() : nullptr);
 }
 
+/// Returns a view of shape (n,).
 template <class T>
 View<T> view(const std::vector<T>& values) {
   return view(values.data(), {values.size()});
 }
 
+/// Returns a view of shape (n, 3).
 inline View<double> view(const std::vector<Vec3d>& values) {
   static_assert(sizeof(Vec3d) == 3 * sizeof(double));
   return view(reinterpret_cast<const double*>(values.data()), {values.size(), 3});
 }
 
-/// Member `T Owner::*` of each entry.
+/// Returns a strided view, shape (n,), of one member of type T of every entry. entry: returns the address of the member
+/// in an Owner.
 template <class T, class Owner, class Entry>
 View<T> member(const std::vector<Owner>& entries, const Entry& entry) {
   static_assert(sizeof(Owner) % sizeof(T) == 0);
@@ -46,7 +51,8 @@ View<T> member(const std::vector<Owner>& entries, const Entry& entry) {
   const T* first = entry(entries.empty() ? none : entries.front());
   return view(first, {entries.size()}, {static_cast<std::int64_t>(sizeof(Owner) / sizeof(T))});
 }
-/// Three numbers of each entry.
+/// Returns a strided view, shape (n, 3), of one Vec3d member of every entry. entry: returns a reference to the member
+/// in an Owner.
 template <class Owner, class Entry>
 View<double> member3(const std::vector<Owner>& entries, const Entry& entry) {
   static_assert(sizeof(Owner) % sizeof(double) == 0);
@@ -55,7 +61,7 @@ View<double> member3(const std::vector<Owner>& entries, const Entry& entry) {
   return view(first, {entries.size(), 3}, {static_cast<std::int64_t>(sizeof(Owner) / sizeof(double)), 1});
 }
 
-/// A vector that becomes the array's own.
+/// Returns an array that owns the given numbers and that Python may change. shape: (n,) if it is not given.
 template <class T>
 nb::ndarray<nb::numpy, T> owned(std::vector<T> values, std::vector<std::size_t> shape = {}) {
   auto* kept = new std::vector<T>(std::move(values));

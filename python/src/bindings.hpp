@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file bindings.hpp  Every noun adds itself to the module, in the order in which they need each other.
+/// \file bindings.hpp  Declares one function for each source file of the bindings, which adds that file's classes and
+/// functions to the module, and the two types that several of them use. The functions are called in this order because
+/// a class must be bound before another one refers to it.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -11,12 +13,12 @@
 
 namespace macadam::python {
 
-/// A scene as Python has it, with the options that were given beside it.
+/// The scene object of Python: a scene, and the command's options (seed, backend, …) that the caller set in addition.
 struct GivenScene : Scene {
-  Overrides instead = {};
+  Overrides instead = {};  ///< Options that replace the scene's own values.
 };
 
-/// A scene's particles, cells and contacts, with the scene.
+/// The specimen object of Python: particles, cells and contacts, and the scene that they were made from.
 struct Prepared {
   std::shared_ptr<const GivenScene> scene;
   Preparation made;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibration.cpp  Parameters of a scene from measured moduli of the mixture: `macadam calibrate`.
+// calibration.cpp  Binds `macadam calibrate`, which finds parameters of a scene from measured moduli of the mixture.
 #include "macadam/calibration.hpp"
 
 #include <nanobind/stl/filesystem.h>
@@ -18,9 +18,11 @@
 namespace macadam::python {
 namespace {
 
-using Pairs = std::map<std::string, std::pair<double, double>>;
+using Pairs = std::map<std::string, std::pair<double, double>>;  // two numbers by name of a parameter
 
-/// The free parameters with what is known of each. \throws InputError for bounds or priors of one that is not free.
+/// Returns the free parameters with their bounds (low, high) and priors (value, standard deviation of its
+/// natural logarithm).
+/// \throws InputError if bounds or priors name a parameter that is not free.
 std::vector<FreeParameter> free_of(const std::vector<std::string>& names, const Pairs& bounds, const Pairs& priors) {
   std::vector<FreeParameter> out;
   for (const std::string& name : names) out.push_back({name, {}, {}, {}, 0});
@@ -40,6 +42,7 @@ std::vector<FreeParameter> free_of(const std::vector<std::string>& names, const 
   return out;
 }
 
+/// Calibrates and writes the files into `out`. Returns the result as text, and the warnings.
 nb::dict run_calibration(const GivenScene& scene, const ModulusData& data, const std::vector<std::string>& free,
                          const Pairs& bounds, const Pairs& priors, int seeds, const std::string& misfit,
                          double e_star_deviation, double phase_deviation, bool nearest,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file calls.hpp  Long calls: the interpreter is free meanwhile, and Ctrl-C or a callback that raises ends them.
+/// \file calls.hpp  Runs long work of the library from Python. The interpreter's lock is released while the library
+/// works, so other Python threads run. Ctrl-C, or an exception in a callback, ends the work.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -18,13 +19,16 @@ namespace macadam::python {
 
 namespace nb = nanobind;
 
-/// One long call. Threads of other calls, and of Python, run beside it.
+/// One long call from Python. The work asks stop() regularly, or calls progress(), which asks it too. An exception of
+/// Python that occurs during the work (Ctrl-C, or raised by a callback) is stored, ends the work, and is raised again
+/// when the work has returned.
 class LongCall {
  public:
-  /// `progress`: None, or what is called with (stage, share) as the work goes on.
+  /// progress: None, or a callable that is called with the stage of the work and the fraction of it that is done, 0
+  /// to 1.
   explicit LongCall(nb::object progress = nb::none()) : progress_(std::move(progress)) {}
 
-  /// Whether the work is to end: asked by the work itself, at any rate.
+  /// Returns true if the work must end. The work may ask at any rate: signals are looked for every 50 ms at most.
   bool stop() {
     const auto now = Clock::now();
     if (now - looked_ < std::chrono::milliseconds(50)) return raised_.has_value();
@@ -34,7 +38,8 @@ class LongCall {
     return raised_.has_value();
   }
 
-  /// Calls something of Python from within the work. What it raises ends the work.
+  /// Calls f, which runs Python code, from within the work. An exception that it raises is stored and ends the work;
+  /// after one, f is no longer called.
   template <class F>
   void tell(F&& f) {
     const nb::gil_scoped_acquire acquire;
@@ -44,21 +49,22 @@ class LongCall {
     } catch (nb::python_error& error) { raised_.emplace(std::move(error)); }
   }
 
-  /// Tells how far the work is. \throws InterruptedError where it is to end.
+  /// Reports progress to Python. \throws InterruptedError if the work must end.
   void progress(const std::string& stage, double share) {
     show(stage, share);
     if (stop()) throw InterruptedError("interrupted at: " + stage + "; nothing was written");
   }
-  /// The same of work that asks stop() itself.
+  /// Reports progress to Python and never throws: for work that asks stop() itself.
   void show(const std::string& stage, double share) {
     if (!progress_.is_none()) tell([&] { progress_(stage, share); });
   }
+  /// Returns progress() as a function for the library. It must not outlive this object.
   Progress progress_function() {
     return [this](const std::string& stage, double share) { progress(stage, share); };
   }
 
-  /// Does the work without the interpreter's lock, and raises what a callback raised, or Ctrl-C, however the work
-  /// ended.
+  /// Does the work without the interpreter's lock and returns its result. If a callback raised, or Ctrl-C came, that
+  /// exception is raised instead, whether the work returned or threw.
   template <class F>
   auto operator()(F&& work) {
     try {
@@ -85,7 +91,8 @@ class LongCall {
     return work();
   }
 
-  /// Raises what Python raised meanwhile, Ctrl-C with what the work says of its end.
+  /// Raises the stored exception of Python, if there is one. KeyboardInterrupt gets `text` as its message, which is how
+  /// the work says where it ended.
   void raise(const char* text) {
     if (!raised_) return;
     nb::python_error error = std::move(*raised_);
@@ -96,8 +103,8 @@ class LongCall {
   }
 
   nb::object progress_;
-  Clock::time_point looked_ = Clock::now();
-  std::optional<nb::python_error> raised_;
+  Clock::time_point looked_ = Clock::now();  // last time that signals were looked for
+  std::optional<nb::python_error> raised_;   // the stored exception
 };
 
 }  // namespace macadam::python

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cells.cpp  Laguerre cells, and what a plane cuts of them.
+// cells.cpp  Binds the Laguerre cells, and the polygons that a plane cuts from them.
 #include <fmt/format.h>
 #include <nanobind/stl/string.h>
 
@@ -11,11 +11,12 @@
 namespace macadam::python {
 namespace {
 
-/// Vertices of one polygon, as a view.
+/// Returns the vertices of one polygon as a view of shape (n, 3).
 View<double> polygon(std::span<const Vec3d> vertices) {
   return view(reinterpret_cast<const double*>(vertices.data()), {vertices.size(), 3});
 }
 
+/// Returns i as an index into `of`. \throws IndexError of Python if there is no such entry.
 template <class Of>
 std::size_t index_of(std::int64_t i, const Of& of) {
   if (i < 0 || i >= std::ssize(of)) throw nb::index_error("no polygon of this number");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file choices.hpp  Choices by the names that the command has for them.
+/// \file choices.hpp  Reads arguments of Python that are one of several names, a number in a range, or devices, with
+/// the names and the limits of the command's options.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 
 namespace macadam::python {
 
-/// One of several names. \throws InputError
+/// Returns the value that belongs to the name `text`. \throws InputError that lists the names if there is no such name.
 template <class T>
 T choice(const char* name, const std::string& text, const std::vector<std::pair<const char*, T>>& choices) {
   std::string names;
@@ -32,7 +33,7 @@ std::optional<T> choice(const char* name, const std::optional<std::string>& text
   return choice(name, *text, choices);
 }
 
-/// A number of a range, as an option of the command. \throws InputError
+/// Returns the number if it is from low to high, or nothing if none was given. \throws InputError for other numbers.
 template <class T>
 std::optional<T> in_range(const char* name, const std::optional<T>& value, T low, T high) {
   if (value && !(*value >= low && *value <= high)) {
@@ -47,9 +48,10 @@ T in_range(const char* name, T value, T low, T high) {
   return *in_range(name, std::optional<T>(value), low, high);
 }
 
-/// A device, several, or "all", as the command's option has them.
+/// The argument `device`: one number, a list of numbers, or "all", as in the command's option.
 using Devices = std::optional<std::variant<int, std::vector<int>, std::string>>;
-/// \throws InputError
+/// Returns the devices. \throws InputError for another word, an empty list, a number outside 0 to 1023 or a repeated
+/// one.
 inline std::optional<DeviceList> devices_of(const Devices& given) {
   if (!given) return {};
   if (const auto* word = std::get_if<std::string>(&*given)) {

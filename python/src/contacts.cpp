@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contacts.cpp  The contact network, seen where it is.
+// contacts.cpp  Binds the contact network. Its arrays are views of the library's memory.
 #include "macadam/contact_network.hpp"
 
 #include <fmt/format.h>

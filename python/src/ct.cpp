@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ct.cpp  Images of computed tomography: `macadam ct …`, where the library was built with ITK.
+// ct.cpp  Binds `macadam ct …` (images of computed tomography). Without ITK in the build, it binds nothing.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
@@ -32,13 +32,14 @@ namespace {
 using Path = std::filesystem::path;
 using Text = std::optional<std::string>;
 
-/// Voxels as an array of (z, y, x), a view of the image.
+/// Returns the image's voxels as a view of shape (z, y, x).
 template <class T>
 View<T> voxels(const Image<T>& image) {
   const auto n = [&](int axis) { return static_cast<std::size_t>(image.size[static_cast<std::size_t>(axis)]); };
   return view(image.voxels.data(), {n(2), n(1), n(0)});
 }
 
+/// Segments a scan and writes the files into `out`. Lengths are texts with a unit, as in the command's options.
 std::shared_ptr<Segmentation> segment(const Path& images, const Path& out, const std::vector<std::string>& voxel,
                                       const std::string& dataset, const std::string& region, bool slices, bool rings,
                                       bool hardening, const std::string& denoise, std::optional<double> air_voids,
@@ -91,12 +92,14 @@ nb::list grains_of(const std::vector<ScannedGrain>& grains) {
   return out;
 }
 
+/// What Python gets of a synthetic scan: voxels along x, y, z, number of grains, fractions of the scan's volume.
 struct PhantomNumbers {
   std::array<std::int64_t, 3> size{};
   std::size_t grains = 0;
   double aggregate = 0, mastic = 0, voids = 0;
 };
 
+/// Makes a synthetic scan of the scene's specimen and writes it into `out`.
 PhantomNumbers phantom(const GivenScene& scene, const std::string& voxel, const Path& out, std::uint64_t seed,
                        const std::string& shape, const std::string& sawn, const std::string& air, int samples,
                        double blur, double noise, double cupping, double rings, double drift, double grey_air,
@@ -125,6 +128,8 @@ PhantomNumbers phantom(const GivenScene& scene, const std::string& voxel, const 
   });
 }
 
+/// Makes a specimen from the segmented scan in `folder` and writes it into `out`. box: no lengths, or six: the lowest
+/// corner x, y, z, then the highest.
 Twin twin(const Path& folder, const GivenScene& scene, const Path& out, const std::vector<std::string>& box,
           std::optional<double> porosity, const std::string& least_void, std::uint64_t seed, nb::object progress) {
   TwinSpec spec;

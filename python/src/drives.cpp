@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// drives.cpp  What walls are made to do.
+// drives.cpp  Binds the drives (displacements and forces of walls as functions of the step) and the Boundary that
+// applies them to walls.
 #include "macadam/drives/all.hpp"
 
 #include <nanobind/stl/shared_ptr.h>
@@ -23,7 +24,7 @@ std::vector<double> values_of(const Drive& drive, std::int64_t first, std::int64
   return out;
 }
 
-constexpr std::int64_t most_steps = std::int64_t{1} << 60;  // two of them may be added
+constexpr std::int64_t most_steps = std::int64_t{1} << 60;  // the sum of two such numbers does not overflow 64 bits
 
 std::int64_t steps(const char* name, std::int64_t value, std::int64_t least) {
   return in_range(name, value, least, most_steps);

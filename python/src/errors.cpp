@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// errors.cpp  The library's errors as exceptions of Python, with the same text.
+// errors.cpp  Makes Python exceptions for the library's errors, with the same text, and translates one into the other.
 #include "macadam/error.hpp"
 
 #include "python/src/bindings.hpp"
@@ -11,7 +11,8 @@ namespace nb = nanobind;
 
 PyObject* divergence = nullptr;
 
-/// A new exception of the package, below others.
+/// Adds a new exception type to the module and returns it. bases: the type, or the tuple of types, that it derives
+/// from.
 nb::object make(nb::module_& m, const char* name, const char* doc, const nb::object& bases) {
   const std::string full = std::string("macadam.") + name;
   nb::object made = nb::steal(PyErr_NewExceptionWithDoc(full.c_str(), doc, bases.ptr(), nullptr));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fields.cpp  Files for viewers, with arrays of one's own, and series of them in time.
+// fields.cpp  Writes files for viewers with arrays that the caller gives, one file or a series of frames in time.
 #include "python/src/fields.hpp"
 
 #include <fmt/format.h>
@@ -17,12 +17,13 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// What is drawn, and how many rows its arrays have.
+/// The mesh of a file for viewers, and the number of rows of its arrays.
 struct Drawn {
   FieldMesh mesh;
   std::size_t rows = 0;
 };
 
+/// Returns the mesh of "particles", "contacts" or "cells"; one row per particle, contact or polygon.
 Drawn drawn(const Prepared& p, const std::string& what) {
   const Preparation& made = p.made;
   if (what == "particles") return {particle_mesh(made.specimen, made.aggregates), made.specimen.size()};
@@ -42,9 +43,11 @@ FieldFormat format_of(const Path& file) {
   throw InputError(file.string(), 0, "ending of the file", ending.string(),
                    ".vtkhdf, .vtp or, of particles and contacts, .csv");
 }
+/// Returns the path without its ending.
 Path stem_of(const Path& file) { return file.parent_path() / file.stem(); }
 
-/// Arrays by name, a row each: numbers, or tuples of numbers. The unit is none's: viewers show the name.
+/// Returns the arrays that the caller gives by name. Each has `rows` rows of one number or of several; integers become
+/// int32, others float32. They have no unit, because viewers show the name only.
 std::vector<FieldArray> arrays_of(const nb::dict& given, std::size_t rows) {
   std::vector<FieldArray> out;
   for (const auto& [key, value] : given) {
@@ -71,7 +74,7 @@ std::vector<FieldArray> arrays_of(const nb::dict& given, std::size_t rows) {
   return out;
 }
 
-/// A file to which frames are added.
+/// A file for viewers to which frames in time are added. Several threads may add frames; one writes at a time.
 class Series {
  public:
   Series(const Prepared& p, const Path& file, const std::string& what) : name_(file.filename().string()), what_(what) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fields.hpp  Fields of a specimen: for arrays and for files.
+/// \file fields.hpp  Fields of a specimen (one value or vector per particle, contact or cell polygon): as NumPy arrays
+/// and in files for viewers.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +11,12 @@
 
 namespace macadam::python {
 
-/// Mean stress in the cell of each particle, (n, 6).
+/// Returns the mean stress in the cell of each particle [Pa], (n, 6): xx yy zz xy yz xz, tension positive.
 nb::ndarray<nb::numpy, float> stress_of(const Preparation& made, const ContactState& state);
 
-/// Writes particles, contacts or cells with these arrays beside their own. \throws InputError, RunError.
+/// Writes particles, contacts or cells (`what`) into a file for viewers, with the given arrays in addition to those
+/// that such files always have. A .csv file is written if the ending says so and no arrays are given. \throws
+/// InputError for another ending or arrays of wrong shape, RunError if the file cannot be written.
 void write_specimen(const Prepared& p, const std::filesystem::path& file, const std::string& what,
                     const nb::dict& arrays);
 

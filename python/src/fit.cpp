@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit.cpp  Contact laws from measured moduli: `macadam fit`. Results are the texts of its files.
+// fit.cpp  Binds `macadam fit`, which fits contact laws to measured moduli. Results are returned as the texts of the
+// files that the command writes.
 #include "macadam/fit.hpp"
 
 #include <nanobind/stl/filesystem.h>
@@ -69,7 +70,7 @@ nb::dict fit(const ModulusData& data, const std::string& model, std::optional<in
   return result_of(report.files, report.text, warnings);
 }
 
-/// A model that somebody else has fitted, as a chain.
+/// Converts a 2S2P1D or Huet-Sayegh model, whose parameters are in a file, into a chain of Kelvin units.
 nb::dict convert(const std::filesystem::path& parameters, std::optional<double> from, std::optional<double> to,
                  double error, const Folder& out) {
   const ShiftedAnalogue analogue = read_analogue(parameters);

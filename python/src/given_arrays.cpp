@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// given_arrays.cpp  Reads an argument with NumPy and checks kind and shape.
+// given_arrays.cpp  Converts an argument with NumPy and checks the kind of its numbers and its shape.
 #include "python/src/given_arrays.hpp"
 
 #include <fmt/format.h>
@@ -57,6 +57,7 @@ std::vector<double> doubles(nb::handle given, const std::string& name, std::size
   return {in.data(), in.data() + in.size()};
 }
 
+/// Returns the value as a 32-bit integer. \throws InputError that names the row `at` if it is not one.
 std::int32_t whole(double value, const std::string& name, std::size_t at) {
   using Limits = std::numeric_limits<std::int32_t>;
   if (!(value >= Limits::min() && value <= Limits::max() && value == std::floor(value))) {
@@ -75,7 +76,8 @@ nb::object number_array(nb::handle given, const std::string& name, const std::st
     const char kind = nb::cast<std::string>(array.attr("dtype").attr("kind")).front();
     if (std::string_view("biuf").find(kind) != std::string_view::npos) return array;
     if (kind != 'O') refuse(name, contents(kind), expected);
-    return numpy.attr("asarray")(array, "float64");  // a column with missing values, or numbers of Python in a row
+    // An array of objects is, for example, a column with missing values or a row of Python numbers.
+    return numpy.attr("asarray")(array, "float64");
   } catch (const nb::python_error& error) {
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
     refuse(name, array.is_valid() ? "objects that are not numbers" : "rows of different lengths", expected);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic.cpp  Steady states of the frequency domain, one by one, with the motion of every particle.
+// harmonic.cpp  Binds the solver of the frequency domain: steady states at single frequencies, with the motion of every
+// particle, and the start of a stepped run from one.
 #include "macadam/harmonic.hpp"
 
 #include <nanobind/stl/complex.h>
@@ -19,7 +20,7 @@
 namespace macadam::python {
 namespace {
 
-/// A solver with what it refers to.
+/// A solver of the frequency domain, and the specimen that it refers to. One thread at a time solves; others wait.
 class Solver {
  public:
   Solver(PreparedPointer prepared, double typical, Backend backend, LinearMethod linear, const Devices& device,
@@ -47,7 +48,7 @@ class Solver {
     for (const double f : numbers(frequencies, "frequencies")) loads.push_back({f, scaling, damping});
     std::unique_lock one_at_a_time(busy_, std::defer_lock);
     {
-      const nb::gil_scoped_release release;  // whoever solves may ask for it
+      const nb::gil_scoped_release release;  // the thread that is solving needs the interpreter's lock in stop()
       one_at_a_time.lock();
     }
     LongCall call;
@@ -70,10 +71,11 @@ class Solver {
  private:
   PreparedPointer prepared_;
   std::optional<Harmonic> harmonic_;
-  LongCall* call_ = nullptr;
+  LongCall* call_ = nullptr;  // the call that is running, which options.stop asks
   std::mutex busy_;
 };
 
+/// Returns the fraction of E* that each pair type carries, by name; pair types that carry nothing are left out.
 nb::dict shares_of(const HarmonicResult& r) {
   nb::dict out;
   const auto all = shares(r.parts);

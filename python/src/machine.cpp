@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// machine.cpp  Version, backends, devices: `macadam info`.
+// machine.cpp  Binds `macadam info`: version, backends and devices.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// module.cpp  macadam._core: the library, thinly; macadam/*.py makes it comfortable.
+// module.cpp  Defines the compiled module macadam._core, a thin layer over the library. The Python files of macadam/
+// add the interface that users call.
 #include "python/src/bindings.hpp"
 
 NB_MODULE(_core, m) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pickles.cpp  States of scenes and specimens as tuples of plain values.
+// pickles.cpp  Converts scenes and specimens to tuples of plain values and back, for Python's pickle.
 #include "python/src/pickles.hpp"
 
 #include <nanobind/stl/array.h>
@@ -18,9 +18,11 @@
 namespace macadam::python {
 namespace {
 
-using Row = std::tuple<std::string, std::int64_t, std::int64_t, double, double>;  // of CompositionRow
+/// The members of a CompositionRow: name, count_asked, count, fraction_asked, fraction.
+using Row = std::tuple<std::string, std::int64_t, std::int64_t, double, double>;
 
-/// Names (shape), whole numbers (body, class, spheres, surface) and numbers of an Aggregate.
+/// The members of an Aggregate by type: its shape's name; the integers body, size_class, spheres, surface; 18 numbers
+/// in the order that state_of() lists.
 using AggregateState = std::tuple<std::string, std::array<std::int64_t, 4>, std::array<double, 18>>;
 
 AggregateState state_of(const Aggregate& a) {
@@ -44,7 +46,7 @@ Aggregate aggregate_of(const AggregateState& state) {
   return a;
 }
 
-/// Returns what a generated specimen has beside its spheres.
+/// Returns the data of a generated specimen other than its spheres: composition, aggregates, iterations, times.
 nb::tuple report_of(const Preparation& made) {
   std::vector<Row> composition;
   for (const CompositionRow& r : made.composition)
@@ -55,6 +57,7 @@ nb::tuple report_of(const Preparation& made) {
   return nb::make_tuple(composition, aggregates, made.relaxation_iterations, seconds);
 }
 
+/// Restores in `made` what report_of() returned.
 void put_report(const nb::tuple& report, Preparation& made) {
   for (const auto& [name, count_asked, count, fraction_asked, fraction] : nb::cast<std::vector<Row>>(report[0]))
     made.composition.push_back({name, count_asked, count, fraction_asked, fraction});
@@ -65,6 +68,7 @@ void put_report(const nb::tuple& report, Preparation& made) {
   made.seconds_specimen = seconds[0], made.seconds_tessellation = seconds[1], made.seconds_network = seconds[2];
 }
 
+/// Returns box, particles, voids and source of a specimen, the arrays as NumPy arrays.
 nb::tuple spheres_of(const Specimen& s) {
   std::vector<std::int32_t> phase;
   for (const Phase p : s.phase) phase.push_back(static_cast<std::int32_t>(p));
@@ -82,6 +86,7 @@ nb::tuple spheres_of(const Specimen& s) {
                         s.source, s.first_line);
 }
 
+/// Returns the specimen that spheres_of() described.
 Specimen specimen_of(const nb::tuple& spheres) {
   const auto at = [&](int k) { return ArrayLike(spheres[static_cast<std::size_t>(k)], nb::detail::borrow_t{}); };
   const auto box = nb::cast<std::array<double, 3>>(spheres[0]);
@@ -110,7 +115,7 @@ void pickle_scenes(nb::class_<GivenScene>& c) {
     const nb::object read = nb::cast(GivenScene{read_scene(nb::cast<std::filesystem::path>(state[0]), text)});
     read.attr("override")(**nb::cast<nb::dict>(state[2]));
     new (&self) GivenScene(nb::cast<GivenScene&>(read));
-    self.text = text;  // override() adds a seed to the text, where it stands already
+    self.text = text;  // override() adds the seed to the text, but the pickled text has it already
   });
 }
 

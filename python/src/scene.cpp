@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scene.cpp  Scenes: read from a file or a text, and changed as the command's options change them.
+// scene.cpp  Binds scenes, which are read from a file or a text, and the options that replace values of a scene.
 #include "macadam/scene.hpp"
 
 #include <nanobind/stl/filesystem.h>
@@ -20,7 +20,7 @@ namespace {
 
 using Text = std::optional<std::string>;
 
-/// What was given, by the names of the command's options.
+/// Returns the options that were given, by the names of the command's options.
 nb::dict options_of(const Overrides& given) {
   nb::dict out;
   if (given.seed) out["seed"] = *given.seed;
@@ -37,6 +37,7 @@ nb::dict options_of(const Overrides& given) {
   return out;
 }
 
+/// Applies the given options to the scene and remembers them; options given earlier stay unless given again.
 void override_options(GivenScene& scene, std::optional<std::uint64_t> seed, const Text& backend, const Text& precision,
                       const Text& method, const Text& linear, std::optional<int> threads, const Devices& device) {
   const Overrides now{seed,
@@ -56,6 +57,8 @@ void override_options(GivenScene& scene, std::optional<std::uint64_t> seed, cons
   take(all.devices, now.devices);
 }
 
+/// Returns volumes, masses and densities of the scene's mix design and the sieves at which its gradation is outside the
+/// envelope, or None if the scene has no recipe.
 nb::object recipe_of(const GivenScene& scene) {
   if (!scene.recipe) return nb::none();
   const MixVolumes v = volumes_of(*scene.recipe);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shapes.cpp  Surfaces of aggregates: read, checked, repaired, measured, filled, made.
+// shapes.cpp  Binds the functions on surfaces of aggregates: read, check, repair, measure, fill with spheres, generate.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
@@ -21,6 +21,7 @@
 namespace macadam::python {
 namespace {
 
+/// Returns a surface of these points and facets. \throws InputError if a facet refers to a point that does not exist.
 Surface surface_of(const std::string& name, const ArrayLike& points, const ArrayLike& facets) {
   Surface out{name, vectors(points, "points"), whole_triples(facets, "facets")};
   const auto n = static_cast<std::int64_t>(out.points.size());
@@ -33,6 +34,7 @@ Surface surface_of(const std::string& name, const ArrayLike& points, const Array
   return out;
 }
 
+/// Calls f without the interpreter's lock.
 template <class F>
 auto released(F&& f) {
   const nb::gil_scoped_release release;
@@ -91,6 +93,7 @@ void bind_surface(nb::module_& m) {
       "The surface made fit for measuring and filling, and in words what was done.");
 }
 
+/// Writes the measures of every shape, their statistics and their correlations into `out`.
 void write_tables(const std::filesystem::path& out, const std::vector<std::string>& names,
                   const std::vector<ShapeMeasure>& shapes) {
   const ResultFolder folder(out);

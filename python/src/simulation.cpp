@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// simulation.cpp  The whole job: a scene's test, into a folder.
+// simulation.cpp  Binds `macadam run`: runs a scene's experiment and writes its files into a folder.
 #include "macadam/simulation.hpp"
 
 #include <nanobind/stl/filesystem.h>
@@ -17,11 +17,13 @@
 namespace macadam::python {
 namespace {
 
-/// What a callback sees of a run that is under way; of no use when it has returned.
+/// What the callback on_step gets: the state of the run at this step. After the callback has returned, reading
+/// particles or contacts raises an error, because the run has gone on.
 class StepView {
  public:
   StepView(const Stepper& stepper, const Preparation& made, double frequency_hz)
       : stepper_(&stepper), made_(&made), frequency_hz(frequency_hz), now(stepper.observe()) {}
+  /// Makes later calls of stepper() raise an error.
   void end() { stepper_ = nullptr; }
 
   const Stepper& stepper() const {
@@ -44,7 +46,9 @@ class StepView {
   Observation now;
 };
 
-/// Asks Python as the work goes on.
+/// Returns the watcher that calls Python's callbacks during a run. started: set when the run is planned; from then on
+/// the run itself asks stop(), so that an interrupted run writes its checkpoint. made: set when the specimen is
+/// prepared.
 Watcher watcher_of(LongCall& call, bool& started, const Preparation*& made, const nb::object& on_step,
                    std::int64_t every, const nb::object& on_plan, const nb::object& on_warning) {
   Watcher w;
@@ -80,6 +84,7 @@ Watcher watcher_of(LongCall& call, bool& started, const Preparation*& made, cons
   return w;
 }
 
+/// Runs the scene's experiment. specimen: made before, or null; every: number of steps from one on_step to the next.
 std::shared_ptr<RunResult> run_scene(const GivenScene& scene, const std::filesystem::path& out,
                                      const PreparedPointer& specimen, bool resume, const nb::object& on_step,
                                      std::int64_t every, const nb::object& progress, const nb::object& on_plan,
@@ -90,7 +95,7 @@ std::shared_ptr<RunResult> run_scene(const GivenScene& scene, const std::filesys
   bool started = false;
   const Preparation* made = nullptr;
   const Watcher watcher = watcher_of(call, started, made, on_step, every, on_plan, on_warning);
-  const GivenScene own = scene;  // another thread may change the caller's
+  const GivenScene own = scene;  // a copy, because another Python thread may change the caller's scene
   return call([&] {
     return std::make_shared<RunResult>(specimen ? run(own, specimen->made, out, watcher, resume)
                                                 : run(own, out, watcher, resume));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// specimen.cpp  A scene's particles, seen where they are.
+// specimen.cpp  Binds specimens: makes one from a scene or from given particles. Its arrays are views of the library's
+// memory.
 #include "macadam/specimen.hpp"
 
 #include <nanobind/stl/filesystem.h>
@@ -23,7 +24,8 @@
 namespace macadam::python {
 namespace {
 
-/// Returns a specimen of these particles. \throws InputError for arrays of wrong shape or of unequal lengths.
+/// Returns a specimen of these particles. Without `phase` all are mastic; without `body` none belongs to an aggregate.
+/// \throws InputError for arrays of wrong shape or of unequal lengths.
 Specimen particles_of(const ArrayLike& box, const ArrayLike& centre, const ArrayLike& radius,
                       const std::optional<ArrayLike>& phase, const std::optional<ArrayLike>& body) {
   Specimen out;

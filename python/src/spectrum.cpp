@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spectrum.cpp  Relaxation and creep of a specimen at any time, and what cyclic samples say.
+// spectrum.cpp  Binds the relaxation and creep functions of a specimen at any time, and the evaluation of |E*| and
+// phase angle from samples of stress and strain.
 #include "macadam/spectrum.hpp"
 
 #include <nanobind/stl/complex.h>
@@ -20,7 +21,7 @@
 namespace macadam::python {
 namespace {
 
-/// Returns f of each time.
+/// Returns the array of f(time), (n,).
 template <class F>
 nb::ndarray<nb::numpy, double> of_each(const ArrayLike& times, F&& f) {
   std::vector<double> out = numbers(times, "times");
@@ -28,7 +29,7 @@ nb::ndarray<nb::numpy, double> of_each(const ArrayLike& times, F&& f) {
   return owned(std::move(out));
 }
 
-/// (value, time) of each unit, (n, 2).
+/// Returns (value, time) of each unit, (n, 2). value: the member of Unit that is meant, a modulus or a compliance.
 template <class Unit>
 nb::ndarray<nb::numpy, double> pairs_of(const std::vector<Unit>& units, double Unit::*value) {
   std::vector<double> out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// states.cpp  What a stepper shows: walls, particles, contacts.
+// states.cpp  Binds the states that a stepper returns: of walls, of particles and of contacts.
 #include <fmt/format.h>
 #include <nanobind/stl/string.h>
 

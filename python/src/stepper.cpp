@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper.cpp  Steppers stepped by hand.
+// stepper.cpp  Binds the stepper, with which a Python program advances a specimen in time itself.
 #include "macadam/stepper.hpp"
 
 #include <nanobind/stl/array.h>
@@ -23,14 +23,14 @@
 namespace macadam::python {
 namespace {
 
-/// A stepper with what it refers to. One thread at a time may use it.
+/// A stepper, and the specimen that it refers to. One thread at a time may use it.
 struct Steps {
   PreparedPointer prepared;
   std::unique_ptr<Stepper> stepper;
   double dt = 0;
   mutable std::mutex busy = {};
 
-  /// Keeps others out as long as it lives. \throws RunError where another thread is at it.
+  /// Locks the stepper as long as the returned lock lives. \throws RunError if another thread holds it.
   std::unique_lock<std::mutex> hold() const {
     std::unique_lock held(busy, std::try_to_lock);
     if (!held) throw RunError("stepper: found another thread at it, expected one at a time");
@@ -38,7 +38,8 @@ struct Steps {
   }
 };
 
-/// The step of the drives, which must have one and the same; none: there is no drive.
+/// Returns the time step that the drives were made for, or nothing if no wall is driven. All drives must have the same
+/// step; the first drive's is returned.
 std::optional<double> step_of(const Boundary& boundary) {
   std::optional<double> out;
   for (const WallMotionSpec& wall : boundary.wall) {
@@ -54,7 +55,8 @@ CriticalStep critical(const Prepared& p, const StepperOptions& options) {
   return critical_step(p.made.network, p.scene->laws, make_inertia(p.made.specimen, m.aggregate, m.mastic), options);
 }
 
-/// Steps in pieces of some tenths of a second, so that Ctrl-C is answered; the bits do not depend on where they end.
+/// Advances in pieces of 0.1 to 0.4 s and looks for Ctrl-C after each. Results do not depend on the length of the
+/// pieces, to the last bit.
 void advance(Steps& s, std::int64_t steps) {
   if (steps < 0) throw InputError("advance: found " + std::to_string(steps) + " steps, expected none or more");
   LongCall call;
@@ -85,6 +87,7 @@ nb::dict state_of(const Steps& s) {
   return out;
 }
 
+/// Returns a copy of the numbers if the array is flat and its type is T, otherwise nothing.
 template <class T>
 std::optional<StateArray::Values> values_as(nb::handle array) {
   nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu> in;
@@ -113,7 +116,7 @@ void set_state(Steps& s, const nb::dict& arrays) {
 
 using OnDevice = nb::ndarray<nb::ro, nb::shape<-1, 8>, nb::device::cuda>;
 
-/// Where the bodies' motion lies on the device, without a copy.
+/// Returns the arrays of velocities and displacements on the device without a copy, or None on other backends.
 nb::object device_motion(const Steps& s) {
   const auto held = s.hold();
   const DeviceMotion d = s.stepper->device_motion();
@@ -146,6 +149,8 @@ nb::list kernels_of(const Steps& s) {
 
 using Text = std::string;
 
+/// Constructs a Stepper. The time step is `dt` if it is given, else that of the drives, else `safety` times the
+/// critical step.
 void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::optional<double> dt,
           const Text& backend, const Text& precision, const Text& form, const Text& geometry, const Text& damping_kind,
           double damping, double density_scaling, double safety, bool skip_shear, bool skip_rotations, int threads,

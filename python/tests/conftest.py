@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A small scene for all tests, made once."""
+"""Fixtures for all tests: a small scene and its specimen, made once."""
 import os
 from pathlib import Path
 
@@ -15,7 +15,7 @@ SMALL = {"specimen.box": ["12 mm", "12 mm", "15 mm"], "loading.frequencies": [10
 
 @pytest.fixture(scope="session")
 def scene():
-    """The demo in a box of about 550 particles."""
+    """The demo scene in a smaller box, with about 550 particles."""
     return mc.Scene(DEMO, **SMALL)
 
 
@@ -26,7 +26,7 @@ def specimen(scene):
 
 @pytest.fixture(scope="session")
 def small_file(scene, tmp_path_factory):
-    """The same as a file."""
+    """The small scene as a file."""
     file = tmp_path_factory.mktemp("scene") / "small.toml"
     file.write_text(scene.text)
     return file

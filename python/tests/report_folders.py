@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Result folders for the tests of reports and studies, made by the program when first asked for."""
+"""Makes result folders for the tests of reports and studies, with the program, when a test first needs them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _program() -> str | None:
 
 
 PROGRAM = _program()
-# of commands that tests start: they find the package beside these tests, and leave the other cores to others
+# environment of the commands that tests start: they use the package of this source tree, and one thread each
 ENVIRONMENT = {
     **os.environ,
     "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT / "python"), os.environ.get("PYTHONPATH")])),
@@ -37,7 +37,8 @@ ENVIRONMENT = {
 
 
 def command(line: str) -> list[str]:
-    """A line of the documents, `macadam report …`, as it is run here: by the program, which hands it to this Python."""
+    """Returns the arguments that run a line of the documents, `macadam report …`. The program passes it on to this
+    Python."""
     words = shlex.split(line)
     assert words[0] == "macadam"
     return [str(PROGRAM), *words[1:]]
@@ -152,7 +153,7 @@ BROKEN = (
 
 
 def scene(kind: str, seed: int = 1) -> str:
-    """The text of a small scene of this kind."""
+    """Returns the text of a small scene of this kind."""
     if kind == "broken":
         return BROKEN.format(data=ROOT / "tests/data")
     laws = LAWS.format(shift=SHIFT if kind == "temperatures" else "")
@@ -163,16 +164,17 @@ def scene(kind: str, seed: int = 1) -> str:
 
 
 def run(*arguments: str | Path) -> None:
-    """The program with these arguments; an error where it fails."""
+    """Runs the program with these arguments and asserts that it succeeds."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, env=ENVIRONMENT)
     assert done.returncode == 0, done.stderr
 
 
-_kept = tempfile.TemporaryDirectory(prefix="macadam-results-")  # for all modules of tests; gone when they are done
+# shared by all test modules; removed at the end of the process
+_kept = tempfile.TemporaryDirectory(prefix="macadam-results-")
 
 
 def make(kind: str, seed: int = 1) -> Path:
-    """The result folder of this kind, made where it is not there yet."""
+    """Returns the result folder of this kind; makes it if it does not exist yet."""
     folder = Path(_kept.name)
     out = folder / (kind if seed == 1 else f"{kind}-{seed}")
     if out.exists():
@@ -214,7 +216,7 @@ def make(kind: str, seed: int = 1) -> Path:
     elif kind == "shapes":
         run("shapes", "measure", ROOT / "examples/shapes", "--out", out)
     else:
-        file = folder / f"{kind}.toml"  # one scene for all its seeds
+        file = folder / f"{kind}.toml"  # all seeds share one scene file
         if not file.exists():
             file.write_text(scene(kind), encoding="utf-8")
         run("run", file, "--out", out, *([] if seed == 1 else ["--seed", str(seed)]))

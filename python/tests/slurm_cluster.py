@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Slurm cluster of this one machine, of Debian's slurmctld, slurmd and munge, in a folder of its own."""
+"""Starts a Slurm cluster that consists of this machine alone, from Debian's slurmctld, slurmd and munge. All its files
+are in one folder."""
 
 from __future__ import annotations
 
@@ -13,7 +14,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-_LONG = 300  # s after which a daemon is taken to hang
+_LONG = 300  # seconds after which a daemon is assumed to hang
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo", "scontrol")
 
 _CONFIGURATION = """
@@ -45,7 +46,7 @@ PartitionName=debug Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
 
 def why_not() -> str:
-    """Why no cluster can run here; empty where one can be tried."""
+    """Returns why a cluster cannot run on this machine; empty if it can be tried."""
     path = f"{os.environ.get('PATH', '')}:/usr/sbin:/sbin"
     missing = [p for p in PROGRAMS if not shutil.which(p, path=path)]
     if missing:
@@ -61,7 +62,8 @@ def _free_port() -> int:
 
 @contextlib.contextmanager
 def cluster(folder: Path) -> Iterator[dict[str, str]]:
-    """The environment in which sbatch finds the cluster; a RuntimeError with the logs where it does not come up."""
+    """A context with a running cluster; yields the environment in which sbatch finds it. Raises RuntimeError with the
+    logs if the cluster does not start."""
     host = socket.gethostname().split(".")[0]
     (folder / "state").mkdir(parents=True)
     (folder / "spool").mkdir()
@@ -120,7 +122,8 @@ def _said(environment: dict[str, str], *command: str) -> str:
 
 
 def _wait(folder: Path, running: list[subprocess.Popen], ready: Callable[[], bool]) -> None:
-    """Returns when something is ready; a RuntimeError with the logs if a daemon ends before, or nothing happens."""
+    """Returns when ready() is true. Raises RuntimeError with the logs if a daemon ends before, or after _LONG
+    seconds."""
     end = time.monotonic() + _LONG
     while time.monotonic() < end and all(p.poll() is None for p in running):
         if ready():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tests of studies share: a program in place of macadam, quick and countable, and the scene that it reads."""
+"""Helpers for the tests of studies: a stand-in for the program macadam, which is quick and logs its runs, and the scene
+that it reads."""
 
 from __future__ import annotations
 
@@ -8,7 +9,8 @@ from pathlib import Path
 
 import report_folders
 
-# |E*| is delta in GPa, the phase angle ten degrees; each start and each end is a line of LOG
+# The stand-in's result: |E*| in GPa is the scene's delta, the phase angle is ten degrees. It writes a line to LOG at
+# each start and each end. Delta 13 fails with a message, delta 17 kills the program.
 _PROGRAM = """#!/bin/sh
 case $1 in
   --version) echo "macadam stand-in VERSION"; exit ;;
@@ -37,8 +39,8 @@ _WAIT = 'case $value in 1.0) ;; *) [ -e "FILE" ] || exec sleep 3600 ;; esac  # u
 def stand_in(
     folder: Path, pause: float = 0.0, version: str = "1", real: str = "", go: Path | None = None
 ) -> tuple[str, Path]:
-    """The program and its log. real: values that end so are computed by macadam itself. go: without this file all but
-    the value 1 are never done."""
+    """Writes the stand-in and returns its path and that of its log. real: values that end with this text are computed
+    by macadam itself. go: until this file exists, runs with values other than 1 never end."""
     log = folder / "log"
     lines = _REAL.replace("REAL", real).replace("PROGRAM", str(report_folders.PROGRAM)) if real else ""
     text = (
@@ -56,12 +58,12 @@ def stand_in(
 
 
 def lines(log: Path, of: str) -> list[float]:
-    """The values of all begins or ends."""
+    """Returns the values of all runs that began (of="begin") or ended (of="end"), from the log."""
     return [float(line.split()[1]) for line in log.read_text().splitlines() if line.startswith(of)]
 
 
 def scene(folder: Path) -> Path:
-    """The scene of eight millimetres with one `delta`, that of M-A."""
+    """Writes the scene of the 8 mm specimen, in which only the pair M-A has a `delta`, and returns its path."""
     text = report_folders.scene("file").replace('pair = "M-A"\n', 'pair = "M-A"\ndelta = 1.0\n')
     file = folder / "scene.toml"
     file.write_text(text, encoding="utf-8")

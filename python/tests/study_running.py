@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A study that runs and never ends, for tests that stop it."""
+"""A running study that never ends, for tests that stop it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ workers = 2
 
 
 class Running:
-    """A study of which one point is done and two never are, in a session of its own."""
+    """A study, in its own session, of which one point ends and two points run forever."""
 
     def __init__(self, folder: Path, place: str, study: str = STUDY, environment: dict[str, str] | None = None) -> None:
         self.folder, self.out, self.go = folder, folder / "out", folder / "go"
@@ -35,13 +35,14 @@ class Running:
         self.process = subprocess.Popen(self.line, stderr=subprocess.PIPE, start_new_session=True, **self.how)
 
     def wait_for_work(self) -> None:
-        """Returns when the first point is done and two programs run that never end."""
+        """Returns when the first point is done and the two programs that never end are running."""
         while len(list((self.out / "results").glob("*"))) < 1 or len(lines(self.log, "begin")) < 3:
             assert self.process.poll() is None, self.process.stderr.read()
             time.sleep(0.01)
 
     def left(self) -> set[psutil.Process]:
-        """The processes that this study started, by the names in their command lines, and their children."""
+        """Returns the processes that this study started, found by the study's folder in their command lines, and their
+        children."""
         found = set()
         for process in psutil.process_iter():
             try:

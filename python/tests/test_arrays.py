@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays that are handed over: every kind that NumPy reads, and an InputError for a wrong shape that names the argument."""
+"""Arrays as arguments: every kind that NumPy reads is accepted, and a wrong shape raises an InputError that names the
+argument."""
 import numpy as np
 import pandas as pd
 import pytest
@@ -60,7 +61,8 @@ def test_what_is_missing_is_named(scene):
 
 
 def refusals(specimen):
-    """Every other function that takes an array, with one of wrong shape, and the beginning of its message."""
+    """Returns calls of all other functions that take an array, each with an array of wrong shape, and the beginning of
+    the expected message."""
     stepper = mc.Stepper(specimen, mc.Boundary(), backend="cpu")
     n, state = len(specimen), stepper.state()
     name = next(iter(state))
@@ -98,7 +100,8 @@ def test_every_function_names_the_argument_of_wrong_shape(specimen):
 
 def test_lists_and_columns_serve_as_well(specimen):
     table = pd.DataFrame({"t": [0.0, 1e-6], "u": [0.0, 1e-9]})
-    assert mc.drives.Table(1e-6, table.t, table.u).value(1) == pytest.approx(1e-9, rel=1e-12)  # rounding of a line
+    # rounding in the interpolation
+    assert mc.drives.Table(1e-6, table.t, table.u).value(1) == pytest.approx(1e-9, rel=1e-12)
     assert mc.HarmonicSolver(specimen).solve(np.array([10], np.float32))[0].frequency_hz == 10
     assert mc.harmonic(specimen, np.int64(10)).table.frequency_hz[0] == 10
     assert list(mc.harmonic(specimen, frequencies=pd.Series([10.0, 20.0])).table.frequency_hz) == [10, 20]

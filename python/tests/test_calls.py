@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long calls: Ctrl-C ends them, threads run beside them."""
+"""Long calls: Ctrl-C ends them, and other threads run at the same time."""
 import os
 import signal
 import subprocess
@@ -102,7 +102,7 @@ def test_a_stepper_serves_one_thread_at_a_time(specimen):
     try:
         stepper.advance(1)
     except mc.RunError as error:
-        assert "another thread" in str(error)  # said of observe() and the like too
+        assert "another thread" in str(error)  # observe() and the like report it too
     other.join()
     assert stepper.observe().step in (3000, 3001)
     assert np.isfinite(stepper.particles().velocity).all()
@@ -117,7 +117,7 @@ def test_a_solver_serves_threads_in_turn(specimen):
 
 def test_what_the_last_callback_raises_is_raised(specimen):
     def fail(stage, share):
-        if stage == "contact network":  # the last of all
+        if stage == "contact network":  # the last stage
             raise LookupError("too late to stop")
     with pytest.raises(LookupError, match="too late"):
         mc.specimen(specimen.scene, progress=fail)

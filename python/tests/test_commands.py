@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands on the pages: those of the start, the how-tos and the tutorial run as a reader types them, one after another; of every
-other command, and of those that a page marks `<!-- not run: REASON -->`, the program knows the subcommand and all options."""
+"""Commands on the documentation pages. Those of the start page, the how-tos and the tutorial are run as a reader types
+them, in order. For every other command, and for those that a page marks `<!-- not run: REASON -->`, the test checks
+that the program knows the subcommand and all options."""
 import json
 import os
 import re
@@ -19,8 +20,8 @@ pytestmark = pytest.mark.skipif(not PROGRAM, reason="MACADAM_PROGRAM names no pr
 
 
 def shell_lines(page):
-    """(line, command) of every line of a shell block, fenced or indented, that calls macadam."""
-    text = re.sub(r"\\\n\s*", lambda m: " " * len(m[0]), page.read_text(encoding="utf-8"))  # a continued line is one
+    """Yields (line number, command) of every line of a shell block, fenced or indented, that calls macadam."""
+    text = re.sub(r"\\\n\s*", lambda m: " " * len(m[0]), page.read_text(encoding="utf-8"))  # joins continued lines
     fence = None
     for number, line in enumerate(text.splitlines(), 1):
         if m := re.match(r"```(\w*)", line):
@@ -35,7 +36,8 @@ COMMANDS = [pytest.param(line, id=f"{page.relative_to(ROOT)}:{number}") for page
 
 @cache
 def options(command):
-    """Of a command's own help; of those that Python has, its parser's."""
+    """Returns the options that a command's help lists. For commands written in Python it is the help of their
+    parser."""
     words = [sys.executable, "-m", f"macadam.{command[0]}"] if command[0] in ("report", "study") else [PROGRAM, *command]
     told = subprocess.run([*words, "--help"], capture_output=True, text=True, timeout=60)
     assert told.returncode == 0, f"{' '.join(command)} --help: {told.stderr}"
@@ -61,7 +63,8 @@ INLINE = re.compile(r"`(--[a-z][\w-]*) ([^`]+)`")  # an option with a value in a
 
 
 def not_run(page):
-    """Commands of a page's blocks that are not run, each once more with every option that a sentence of the page gives a value."""
+    """Yields the commands of a page's blocks that are not run; and each of them with every option for which a sentence
+    of the page gives a value."""
     text = page.read_text(encoding="utf-8")
     commands = [line for kind, _, language, code in FENCE.findall(text) if kind == "not run" and language == "sh"
                 for line in code.replace("\\\n", " ").splitlines() if line.startswith("macadam ")]
@@ -80,13 +83,13 @@ def values_not_run():
 
 @pytest.mark.parametrize("words", values_not_run())
 def test_values_of_options_are_accepted(words, tmp_path):
-    """In an empty folder such a command fails, of its inputs and not of its options."""
+    """In an empty folder such a command must fail because of missing inputs, not because of its options."""
     ran = subprocess.run([PROGRAM, *words], cwd=tmp_path, text=True, capture_output=True, timeout=60)
     assert ran.returncode == 2 and not re.search(r"(?m)^macadam: (command line: )?--", ran.stderr), ran.stderr
 
 
 def runnable(page):
-    """What a reader does: files that are saved, and blocks that are run."""
+    """Yields the steps of a reader in order: files to save, and blocks to run."""
     for kind, what, language, code in FENCE.findall(page.read_text(encoding="utf-8")):
         if kind == "file":
             yield what, code
@@ -114,7 +117,7 @@ def test_page_runs(page, tmp_path):
 
 
 def as_told(text, folder):
-    """The start's numbers are those that its reader gets; its report is there."""
+    """Asserts that the numbers on the start page are those that the commands gave, and that the report was written."""
     told = re.findall(r"^ {4} +([\d.]+) +([\d.]+) +([\d.]+) +[\d.]+e-\d+ ", text, re.M)
     found = json.loads((folder / "results" / "mix" / "summary.json").read_text(encoding="utf-8"))["results"]
     assert len(told) == len(found) > 4

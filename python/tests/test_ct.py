@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scans: a phantom, its grains, its twin, as the commands have them."""
+"""Scans: a phantom, its segmentation and its twin are the same as those of the commands."""
 import subprocess
 
 import numpy as np
@@ -15,7 +15,7 @@ SPEC = {"specimen.box": ["10 mm", "10 mm", "10 mm"], "specimen.aggregate.0.volum
 
 @pytest.fixture(scope="module")
 def scanned(tmp_path_factory):
-    """A small phantom, and its folder."""
+    """The scene of a small phantom, the phantom's folder, and the phantom."""
     folder = tmp_path_factory.mktemp("phantom")
     scene = mc.Scene(DEMO, **SPEC)
     return scene, folder, mc.ct.phantom(scene, "200 um", folder, seed=3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every block of Python on the pages runs, one after another, from the top of a repository."""
+"""Runs every block of Python on the documentation pages, in order, in the top folder of the repository."""
 import re
 
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Laws from measurements, and calibration: what the commands write, from files and from columns."""
+"""Fits of laws and calibration: the same files as those of the commands, from files and from columns."""
 import subprocess
 
 import numpy as np
@@ -18,7 +18,7 @@ def test_a_fit_is_that_of_the_command(tmp_path, program):
     found = mc.fit(MASTIC, shift="wlf", units=6, out=tmp_path / "own")
     assert found.files.keys() == {"law.toml", "fit.json", "fit.csv", "curve.csv"}
     for name, text in found.files.items():
-        if name != "fit.json":  # which names its source as it was given
+        if name != "fit.json":  # fit.json names the source of the data, which differs
             assert text == (tmp_path / name).read_text() == (tmp_path / "own" / name).read_text()
     assert found.law["law"] == "generalised_kelvin" and len(found.law["E"]) == 6
     assert len(found.table) == len(pd.read_csv(MASTIC, comment="#")) and "e_star_pa" in found.curve.columns
@@ -48,7 +48,7 @@ def test_a_model_of_somebody_else(tmp_path):
 
 @pytest.fixture(scope="module")
 def lab(specimen):
-    """What the scene would measure with other deltas."""
+    """The moduli of the scene with another delta, as measurements."""
     stiff = mc.harmonic(specimen, frequencies=[5, 20], **{"contacts.M-A.delta": 1.3})
     return stiff.table[["frequency_hz", "e_star_pa", "phase_deg"]]
 

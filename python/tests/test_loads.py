@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Relaxation, creep and constant rates that are stepped, and bonds that break in them."""
+"""Stepped tests of relaxation, creep and constant strain rate, and bonds that break in them."""
 import subprocess
 
 import numpy as np
@@ -8,7 +8,7 @@ import pytest
 import macadam as mc
 
 TIMES = [1e-3, 2e-3, 4e-3]
-FAST = {"solver.density_scaling": 100}  # waves are over within some tenths of a millisecond
+FAST = {"solver.density_scaling": 100}  # waves are damped within some tenths of a millisecond
 CALLS = {
     "relaxation": lambda s, **more: mc.relaxation(s, times=TIMES, strain=1e-4, **more),
     "creep": lambda s, **more: mc.creep(s, times=TIMES, stress="0.1 MPa", **more),
@@ -27,14 +27,15 @@ def test_stepped_tests_have_the_numbers_of_the_command(kind, specimen, tmp_path,
     assert [step for step, _, _ in seen] == list(range(200, found.summary["results"][0]["steps"] + 1, 200))
     assert {(f, shape) for _, f, shape in seen} == {(0.0, (len(specimen), 6))}
     assert found.scene.method == "explicit" and found.scene.kind == kind
-    assert np.allclose(found.table.time_s, TIMES, atol=1e-6)  # the nearest whole steps, of some 4e-7 s
+    assert np.allclose(found.table.time_s, TIMES, atol=1e-6)  # times are rounded to whole steps of about 4e-7 s
 
 
 def test_a_stepped_creep_nears_the_spectrum(specimen):
     stepped = CALLS["creep"](specimen, method="explicit", platen_mass=1e-4, **FAST).table
     spectrum = mc.spectrum(specimen, shortest=1e-4, longest=1e-2)
     expected = 1e5 * spectrum.creep.compliance(stepped.time_s.to_numpy())
-    # what the ramp, of some tenths of a millisecond, and damping leave after four; the spectrum has neither
+    # 5 %: the difference left at 4 ms by the ramp, some tenths of a millisecond long, and by damping, which the
+    # spectrum lacks
     assert stepped.strain.iloc[-1] == pytest.approx(expected[-1], rel=0.05)
 
 
@@ -67,7 +68,7 @@ def test_brittle_bonds_break_for_good(scene):
         return mc.monotonic(mc.Scene(scene, contacts=brittle), rate=0.5, strain=5e-4, points=5, method="explicit", **FAST)
     weak, strong = pulled("1 kPa"), pulled(1e12)
     assert weak.table.strain.iloc[-1] == pytest.approx(5e-4, rel=1e-2)
-    # mastic on mastic bears much of the load, and nothing of it once it is broken
+    # contacts of mastic on mastic carry much of the load, and none of it after they have broken
     assert weak.table.stress_pa.iloc[-1] < 0.8 * strong.table.stress_pa.iloc[-1]
     assert weak.table.broken_points.iloc[-1] > 0
     assert strong.table.broken_points.iloc[-1] == 0

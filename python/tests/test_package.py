@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The package itself: lazy, typed, and one with the program."""
+"""The package itself: it loads names lazily, is typed, and works together with the program."""
 import os
 import pydoc
 import subprocess
@@ -21,7 +21,7 @@ def test_every_name_is_there_and_documented():
         assert getattr(mc, name) is not None
         assert getattr(mc, name).__doc__, name
     number = subprocess.run([ROOT / "scripts" / "version", "--number"], capture_output=True, text=True, check=True).stdout
-    assert mc.__version__.split("+")[0] == number.strip()  # what follows is of the commit that was built
+    assert mc.__version__.split("+")[0] == number.strip()  # after the + comes the commit that was built
     assert set(mc.__all__) <= set(dir(mc))
     with pytest.raises(AttributeError, match="harmonics"):
         mc.harmonics  # noqa: B018
@@ -74,7 +74,7 @@ def test_help_has_units():
 
 
 def fake(tmp_path, name):
-    """A package macadam whose command says what it was told."""
+    """Writes a package macadam whose command prints its arguments."""
     folder = tmp_path / "fake" / "macadam" / name
     folder.mkdir(parents=True)
     (folder.parent / "__init__.py").touch()
@@ -85,10 +85,11 @@ def fake(tmp_path, name):
 
 @pytest.mark.parametrize("name", ["report", "study"])
 def test_the_program_hands_on_what_is_python(name, tmp_path, program):
-    """A program that lies alone asks the Python that is named, and hands all words on."""
+    """A program without a package beside it starts the Python that MACADAM_PYTHON names, and passes on all
+    arguments."""
     alone = tmp_path / "bin" / "macadam"
     alone.parent.mkdir()
-    alone.symlink_to(program)  # /proc/self/exe is the true one: it finds its own package
+    alone.symlink_to(program)  # /proc/self/exe is the real file, beside which the program finds its own package
     python = tmp_path / "python"
     python.write_text(f"#!/bin/sh\nPYTHONPATH={fake(tmp_path, name)} exec {sys.executable} \"$@\"\n")
     python.chmod(0o755)
@@ -96,7 +97,8 @@ def test_the_program_hands_on_what_is_python(name, tmp_path, program):
     environment.pop("MACADAM_PROGRAM", None)
     said = subprocess.run([alone, name, "DIR", "--out", "a b", "--help"], env=environment, capture_output=True, text=True,
                           cwd=tmp_path)
-    told = f"told ['{name}', 'DIR', '--out', 'a b', '--help'] {Path(program).resolve()}\n"  # a study runs who was called
+    # the study gets the program that was called
+    told = f"told ['{name}', 'DIR', '--out', 'a b', '--help'] {Path(program).resolve()}\n"
     assert (said.returncode, said.stdout) == (0, told), said.stderr
     python.write_text(f"#!/bin/sh\nPYTHONPATH={tmp_path} exec {sys.executable} -S \"$@\"\n")
     said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True,
@@ -109,7 +111,7 @@ def test_the_program_hands_on_what_is_python(name, tmp_path, program):
 
 @pytest.mark.parametrize("name", ["report", "study"])
 def test_a_python_without_the_packages_is_told_apart(name, tmp_path, program):
-    """No traceback: what is missing, of which Python, and how it is put there."""
+    """There is no traceback; the message says what is missing in which Python and how to install it."""
     python = tmp_path / "python"
     python.write_text(f"#!/bin/sh\nexec {sys.executable} -S \"$@\"\n")  # without its site-packages
     python.chmod(0o755)
@@ -128,7 +130,7 @@ def test_the_package_hands_on_what_is_the_programs(program):
 
 @pytest.mark.parametrize("level", ["x86-64", "x86-64-v3", "x86-64-v4"])
 def test_code_of_every_generation_finds_the_same(level, small_file, specimen):
-    """A build for this machine alone has one, which ignores the wish."""
+    """A build for this machine only (native) has code for one processor, and ignores MACADAM_PROCESSOR."""
     code = (f"import macadam as mc; s = {str(small_file)!r}; print(mc.info()['processor'], mc.harmonic(s, frequencies=[10]).table.e_star_pa[0],"
             "mc.run(s, loading={'frequencies': [20.0]}).table.e_star_pa[0])")
     said = subprocess.run([sys.executable, "-c", code], env={**os.environ, "MACADAM_PROCESSOR": level}, capture_output=True,
@@ -137,7 +139,7 @@ def test_code_of_every_generation_finds_the_same(level, small_file, specimen):
     own = mc.info()["processor"]
     assert name == own == "native" or name == min(level, own)
     assert float(solved) == pytest.approx(mc.harmonic(specimen, frequencies=[10]).table.e_star_pa[0], rel=1e-9)  # the solver's tolerance
-    # single precision, as the scene's tolerance chooses it: what the run itself estimates of that is below 1e-5
+    # the scene's tolerance leads to single precision, whose error the run itself estimates to be below 1e-5
     assert float(stepped) == pytest.approx(mc.run(specimen, loading={"frequencies": [20.0]}).table.e_star_pa[0], rel=1e-5)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes, specimens and results are copied and sent to other processes."""
+"""Scenes, specimens and results can be copied and sent to other processes."""
 import copy
 import multiprocessing
 import pickle

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reports: a page of every kind of result folder says what is in it; a wrong folder is an error that names it."""
+"""Reports: the page of every kind of result folder shows the folder's contents; a wrong folder raises an error that
+names it."""
 
 from __future__ import annotations
 
@@ -62,26 +63,28 @@ CASES = {
 
 @pytest.fixture
 def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Specimens are not drawn: most of the time of a report."""
+    """Switches off the pictures of specimens, which take most of the time of a report."""
     monkeypatch.setattr(specimen, "MOST", 0)
 
 
 @pytest.mark.parametrize("kind", CASES)
 def test_every_kind_of_folder(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    if kind not in ("recipe", "voids"):  # pictures of the specimen are most of the time of a report
+    if kind not in ("recipe", "voids"):  # pictures of the specimen take most of the time of a report
         monkeypatch.setattr(specimen, "MOST", 0)
     out = report(make(kind), tmp_path / "report.html")
     page = out.read_text(encoding="utf-8")
     plain = re.sub(r"data:[^\"]*", "", page)
     for words in CASES[kind]:
         assert words in re.sub(r"<[^>]*>", "", plain) or words in plain, words
-    assert "<script" not in plain and "http" not in plain.replace("http-equiv", "")  # nothing to load, nothing to run
+    # the page loads nothing and runs no script
+    assert "<script" not in plain and "http" not in plain.replace("http-equiv", "")
     assert not re.search(r">[^<]*\b(nan|None|inf)\b", plain), "a value that is none shows as one"
     assert list(tmp_path.iterdir()) == [out]
 
 
 def test_cells_of_a_plane_are_those_of_least_power_distance() -> None:
-    """Against all particles at every point; among them spheres that reach far, and gaps that no sphere is near."""
+    """Compares with a search over all particles at every point. The cases include very large spheres, and gaps far from
+    any sphere."""
     draw = np.random.default_rng(5)
     for number, least, most in ((300, 0.4, 0.6), (40, 0.01, 3.0), (3, 0.1, 0.2)):
         centre = draw.uniform([0, 0, -5], [10, 12, 5], (number, 3))
@@ -96,7 +99,7 @@ def test_fields_are_drawn_by_pyvista(tmp_path: Path, no_pictures) -> None:
     pytest.importorskip("pyvista")
     folder = make("fields")
     plain = report(folder, tmp_path / "r.html").read_text(encoding="utf-8")
-    assert "Displacement (µm), particles_2Hz.vtkhdf; what lies in front" in plain  # of the lowest frequency
+    assert "Displacement (µm), particles_2Hz.vtkhdf; what lies in front" in plain  # the lowest frequency
     assert "Normal force (N), contacts_2Hz.vtkhdf; those with at least" in plain
     copy = tmp_path / "cut"
     shutil.copytree(folder, copy)
@@ -133,7 +136,7 @@ def test_seeds_of_one_scene_have_a_mean_and_a_scatter(tmp_path: Path, no_picture
     scatter = abs(values[0] - values[1]) / 2**0.5 / (sum(values) / 2)
     assert "mean of 2 seeds" in plain
     said = re.search(r"standard deviation as bars; it is ([\d.]+) % of", plain)
-    assert said and float(said[1]) >= 0.98 * 100 * scatter  # the largest of all frequencies
+    assert said and float(said[1]) >= 0.98 * 100 * scatter  # the page shows the largest of all frequencies
 
 
 def test_folders_of_one_name_are_told_apart(tmp_path: Path, no_pictures) -> None:
@@ -219,12 +222,14 @@ def test_other_wrong_requests(tmp_path: Path, capsys) -> None:
     with pytest.raises(ReportError, match="found a folder"):
         report(folder, tmp_path)
     (tmp_path / "file").write_text("")
-    assert command.main([str(folder), "--out", str(tmp_path / "file/r.html")]) == 1  # cannot be written
+    # exit code 1: the file cannot be written
+    assert command.main([str(folder), "--out", str(tmp_path / "file/r.html")]) == 1
     assert "file" in capsys.readouterr().err
 
 
 def test_commands_of_the_page(tmp_path: Path, no_pictures) -> None:
-    """Every command and every line of Python of docs/report.md, in a folder with results of its names."""
+    """Runs every command and every line of Python of docs/report.md, in a folder with results of the names used
+    there."""
     page = (ROOT / "docs/report.md").read_text(encoding="utf-8")
     shutil.copytree(make("stepped"), tmp_path / "results/demo")
     shutil.copytree(make("harmonic"), tmp_path / "results/harmonic")

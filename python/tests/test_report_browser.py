@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reports in a headless Chromium: opened without a network or an error on its console, a screenshot, pages of A4."""
+"""Reports in a headless Chromium: they open without a network and without an error on the console, a screenshot shows
+them, and they print on A4."""
 
 from __future__ import annotations
 
@@ -23,7 +24,7 @@ pytestmark = [
 
 
 def browse(tmp_path: Path, page: Path, *options: str) -> str:
-    """Opens the page; what the browser wrote to its log."""
+    """Opens the page in the browser and returns the browser's log."""
     done = subprocess.run(
         [
             CHROMIUM,
@@ -63,8 +64,8 @@ def test_report_opens_and_prints_on_a4(kinds: tuple[str, ...], tmp_path: Path) -
     picture = imread(tmp_path / "page.png")[..., :3]
     assert picture.shape[:2] == (2200, 900)
     written = picture.min(axis=2) < 0.98
-    assert written[:, 100:800].any(axis=1).mean() > 0.5  # the page is full
-    assert not written[:, -20:].any()  # and nothing runs over its side
+    assert written[:, 100:800].any(axis=1).mean() > 0.5  # most rows of the page show something
+    assert not written[:, -20:].any()  # and nothing crosses its right edge
     browse(tmp_path, page, f"--print-to-pdf={tmp_path}/page.pdf", "--no-pdf-header-footer")
     pdf = (tmp_path / "page.pdf").read_bytes()
     boxes = re.findall(rb"/MediaBox\s*\[\s*0\s+0\s+([\d.]+)\s+([\d.]+)", pdf)
@@ -73,7 +74,7 @@ def test_report_opens_and_prints_on_a4(kinds: tuple[str, ...], tmp_path: Path) -
 
 
 def test_every_picture_is_shown(tmp_path: Path) -> None:
-    """The browser's own measure of each picture: one that it cannot read has none."""
+    """Asks the browser for the size of each picture: a picture that it cannot read has size 0."""
     page = report(make("harmonic"), tmp_path / "report.html")
     text = page.read_text(encoding="utf-8")
     probe = tmp_path / "probe.html"
@@ -104,7 +105,7 @@ def test_every_picture_is_shown(tmp_path: Path) -> None:
 
 
 def test_wide_tables_stay_on_the_page(tmp_path: Path) -> None:
-    """The statistics of shapes have eight columns: none runs over the side of A4, where nobody can scroll."""
+    """The statistics of shapes have eight columns. They must fit on A4, because paper cannot be scrolled."""
     page = report(make("shapes"), tmp_path / "report.html")
     probe = tmp_path / "probe.html"
     probe.write_text(

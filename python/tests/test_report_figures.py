@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures and first words of a report: the frame asked for, one colour per size class, the scene's name, the result."""
+"""Pictures and first sentences of a report: the requested frame, one colour per size class, the scene's name, the
+result."""
 
 from __future__ import annotations
 
@@ -16,12 +17,12 @@ from macadam.report.folders import read, read_all
 from report_folders import PROGRAM, make
 
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
-FRAMES = (0.0, 1e-3, 3e-3)  # heights of all particles [m]
+FRAMES = (0.0, 1e-3, 3e-3)  # displacement of all particles in each frame [m]
 
 
 @pytest.fixture
 def series(specimen: mc.Specimen, tmp_path: Path) -> Path:
-    """A file of particles with three frames, in each of which all have the same displacement."""
+    """A file of particles with three frames; within a frame all particles have the same displacement."""
     file = tmp_path / "particles.vtkhdf"
     frames = mc.FieldSeries(specimen, file)
     for k, height in enumerate(FRAMES):
@@ -44,7 +45,7 @@ def test_a_frame_that_is_not_there_is_refused(series: Path, frame: int) -> None:
 
 
 def _with_classes(folder: Path, names: list[str]) -> Path:
-    """A folder whose aggregates, one a class, are of these classes."""
+    """Writes a result folder with one aggregate of each of these size classes."""
     folder.mkdir()
     (folder / "summary.json").write_text('{"status": "prepared", "box_m": [0.01, 0.01, 0.01]}')
     spheres = "".join(f"{k},{0.002 + 0.002 * k},0.005,0.005,0.001,aggregate,{k}\n" for k in range(len(names)))
@@ -55,7 +56,7 @@ def _with_classes(folder: Path, names: list[str]) -> Path:
 
 
 def test_a_size_class_has_one_colour_in_all_specimens_of_a_report(tmp_path: Path) -> None:
-    """The class 4.75-9.5 mm is the first of one mix and the second of the other."""
+    """The class 4.75-9.5 mm is the first class of one mix and the second of the other."""
     folders = read_all(
         [
             _with_classes(tmp_path / "a", ["4.75-9.5 mm", "2-4.75 mm"]),
@@ -64,7 +65,7 @@ def test_a_size_class_has_one_colour_in_all_specimens_of_a_report(tmp_path: Path
     )
     colours = specimen.class_colours(folders)
     assert list(colours) == ["4.75–9.5 mm", "2–4.75 mm", "9.5–12.5 mm"] and len(set(colours.values())) == 3
-    shade = 1 + 0.22 * ((np.arange(3) * 0.6180339887) % 1 - 0.5)  # of bodies 0, 1, 2
+    shade = 1 + 0.22 * ((np.arange(3) * 0.6180339887) % 1 - 0.5)  # shades of bodies 0, 1, 2
     first, second = (specimen._colours(f, colours)(np.arange(n)) for f, n in zip(folders, (2, 3)))
     assert np.allclose(first[0] / shade[0], second[1] / shade[1])  # 4.75-9.5 mm
     assert np.allclose(first[1] / shade[1], second[2] / shade[2])  # 2-4.75 mm
@@ -80,7 +81,7 @@ def test_mastic_is_taken_away_only_where_there_is_some(tmp_path: Path) -> None:
 def test_a_report_has_the_name_of_its_scene(tmp_path: Path) -> None:
     shutil.copytree(make("harmonic"), tmp_path / "res")
     folder = read(tmp_path / "res")
-    assert document._title([folder]) == "harmonic"  # harmonic.toml
+    assert document._title([folder]) == "harmonic"  # the scene is harmonic.toml
     folder.summary["scene"] = "examples/demo/scene.toml"
     assert document._title([folder]) == "demo"
     del folder.summary["scene"]

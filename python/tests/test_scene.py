@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes: files, dictionaries, overrides; errors with the command's text."""
+"""Scenes from files and dictionaries, overrides, and errors with the command's messages."""
 import subprocess
 import tomllib
 

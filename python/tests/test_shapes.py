@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces of aggregates: as the commands have them."""
+"""Surfaces of aggregates: the same results as those of the commands."""
 import subprocess
 
 import numpy as np
@@ -50,7 +50,7 @@ def test_polygons_and_seams_are_read_and_said(tmp_path):
     assert read.reading == "cut 6 polygons into triangles"
     measured = mc.shapes.measure(read)
     assert measured.volume == pytest.approx(8, rel=1e-12) and measured.area == pytest.approx(24, rel=1e-12)
-    seams = [f"v {x + 1e-16 * k} {y} {z}" for k in range(6) for x, y, z in corners]  # each face has corners of its own
+    seams = [f"v {x + 1e-16 * k} {y} {z}" for k in range(6) for x, y, z in corners]  # each face has its own corners
     seams += [f"f {' '.join(str(8 * k + p + 1) for p in q)}" for k, q in enumerate(quads)]
     (tmp_path / "seams.obj").write_text("\n".join(seams) + "\n")
     assert mc.shapes.measure(tmp_path / "seams.obj").volume == pytest.approx(8, rel=1e-12)
@@ -75,7 +75,8 @@ def test_tables_are_those_of_the_command(cube, tmp_path, program):
     table = mc.shapes.table([mc.shapes.read(tmp_path / "cube.off", scale=1e-3)])
     assert len(written) == len(table) == 1
     assert table.volume[0] == pytest.approx(1e-6, rel=1e-12)
-    assert mc.shapes.measure(mc.shapes.read(tmp_path / "cube.stl", 1e-3)).volume == pytest.approx(1e-6, rel=1e-5)  # floats
+    # STL has single precision
+    assert mc.shapes.measure(mc.shapes.read(tmp_path / "cube.stl", 1e-3)).volume == pytest.approx(1e-6, rel=1e-5)
     with pytest.raises(mc.InputError, match="none.off"):
         mc.shapes.read(tmp_path / "none.off")
 
@@ -84,7 +85,7 @@ def test_filling(cube):
     spheres = mc.shapes.fill(cube, (0.9e-3, 1.1e-3), seed=2)
     report = mc.shapes.measure_fill(cube, spheres)
     assert len(spheres) > 50 and 0.9e-3 <= spheres.radius.min() and spheres.radius.max() <= 1.1e-3
-    assert report.sphere_volume == pytest.approx(0.88e-6, rel=0.02)  # porosity 0.12, to a sphere
+    assert report.sphere_volume == pytest.approx(0.88e-6, rel=0.02)  # porosity 0.12, up to the volume of a sphere
     assert np.array_equal(mc.shapes.fill(cube, (0.9e-3, 1.1e-3), seed=2).centre, spheres.centre)
     assert len(mc.shapes.fill(cube, 5e-3, single="volume")) == 1
     with pytest.raises(mc.InputError, match=r"single: .*intermediate\|circumscribed\|volume"):
@@ -117,7 +118,8 @@ def test_a_faulty_surface_is_repaired_for_a_table(cube):
     holed = mc.shapes.Surface(cube.points, cube.facets[:-1], "holed")
     with pytest.raises(mc.Error):
         mc.shapes.table([holed])
-    assert mc.shapes.table([holed], repair=True).volume[0] == pytest.approx(1e-6, rel=1e-3)  # a hole is closed by triangles
+    # repair closes the hole with triangles
+    assert mc.shapes.table([holed], repair=True).volume[0] == pytest.approx(1e-6, rel=1e-3)
 
 
 def test_the_library(tmp_path):

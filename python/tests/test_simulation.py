@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests of a specimen: the numbers of the command, callbacks, errors."""
+"""Runs of experiments from Python: the same numbers as the command's, callbacks, errors."""
 import json
 import subprocess
 
@@ -16,7 +16,7 @@ def of_the_command(program, file, out, *options):
 
 
 def same(found, expected):
-    """Everything but what a clock says, and where the files are."""
+    """Asserts that two summaries are equal, except for measured times and paths of files."""
     timed = ("timing_s", "scene", "solve_s")
     if isinstance(expected, dict):
         assert list(found) == list(expected)
@@ -66,7 +66,7 @@ def test_what_a_callback_sees(specimen):
         force = step.contacts().force
         assert state.displacement.shape == (len(specimen), 3) and force.shape == (len(specimen.contacts), 3)
         top = specimen.contacts.b == -6
-        # the wall's is against those on the particles; sums of some hundred terms in single precision
+        # the wall's force is opposite to the forces on the particles; sums of some hundred terms in single precision
         assert step.observation.top_force == pytest.approx(-force[top, 2].sum(), rel=1e-6)
     result = mc.run(specimen, on_step=lambda s: (look(s) if s.step % 10_000 == 0 else None), every=2000,
                     **{"loading.frequencies": [20.0]})
@@ -143,7 +143,8 @@ def test_sensitivities_and_inertia(specimen):
     result = mc.harmonic(specimen, frequencies=[10], sensitivities=True)
     by = result.sensitivities.set_index("parameter").d_e_star_pa
     deltas = [by[name] for name in by.index if name.endswith(".delta")]
-    assert sum(deltas) == pytest.approx(result.table.e_star_pa[0], rel=1e-9)  # |E*| is of first degree in all stiffnesses
+    # |E*| is a homogeneous function of degree 1 of all stiffnesses
+    assert sum(deltas) == pytest.approx(result.table.e_star_pa[0], rel=1e-9)
     heavy = mc.harmonic(specimen, frequencies=[10], inertia=True, **{"solver.density_scaling": 1e6})
     assert heavy.table.density_scaling[0] == 1e6 and heavy.table.e_star_pa[0] != result.table.e_star_pa[0]
 
@@ -167,7 +168,8 @@ def test_tests_without_steps_hang_together(specimen):
     with pytest.raises(mc.InputError, match="sweep.*not stepped in time|not stepped in time"):
         mc.run(swept.scene, method="explicit")
     spectrum = mc.spectrum(specimen, shortest=0.01, longest=1.0)
-    assert np.allclose(relaxed.table.modulus_pa, spectrum.relaxation.modulus(times), rtol=1e-4)  # tolerance of the first: 1e-5
+    # tolerance of the relaxation: 1e-5
+    assert np.allclose(relaxed.table.modulus_pa, spectrum.relaxation.modulus(times), rtol=1e-4)
     assert spectrum.error < 1e-6 and spectrum.relaxation.units.shape[1] == 2
     assert spectrum.relaxation.instantaneous * spectrum.creep.instantaneous == pytest.approx(1, rel=1e-9)
     assert abs(spectrum.relaxation.stiffness(2j * np.pi)) == pytest.approx(swept.table.e_star_pa[0], rel=1e-3)

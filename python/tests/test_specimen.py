@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Specimens: views of the library's arrays that stay valid, and files."""
+"""Specimens: their arrays are views that stay valid without the specimen, and files of specimens."""
 import csv
 import gc
 import subprocess
@@ -53,7 +53,7 @@ def test_views_do_not_dangle(scene):
     copies = [v.copy() for v in views]
     del made
     gc.collect()
-    others = [np.full(100_000, float(i)) for i in range(50)]  # what would be written over them
+    others = [np.full(100_000, float(i)) for i in range(50)]  # would overwrite the memory if it had been freed
     for view, copy in zip(views, copies, strict=True):
         assert np.array_equal(view, copy)
     del others
@@ -107,7 +107,7 @@ def test_particles_of_ones_own(scene):
 
 
 def test_particles_of_ones_own_need_no_other_source(scene, tmp_path):
-    """The scene has laws and a test alone; a mixture in it is left out, as it does not describe the particles."""
+    """The scene needs only laws and a test. A mixture in it is ignored, because it does not describe the particles."""
     side = np.arange(3) * 1e-3 + 0.5e-3
     centre = np.stack(np.meshgrid(side, side, side, indexing="ij"), axis=-1).reshape(-1, 3)
     particles = {"box": [3e-3] * 3, "centre": centre, "radius": np.full(27, 5e-4)}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steppers stepped by hand: against the run, drives of one's own, states."""
+"""Steppers that Python advances itself: compared with a run, with the test's own drives, and their states."""
 import math
 
 import numpy as np
@@ -35,7 +35,7 @@ def test_steady_start_gives_the_harmonic_modulus(specimen, dt):
         strain.append(now.top_displacement / height)
         stress.append(-now.top_force / area)
     e_star = np.fft.rfft(stress)[1] / np.fft.rfft(strain)[1]
-    # 1e-3: the error of the time step, of second order, 1 / (critical step) away from stability
+    # 1e-3: the error of the time step, which is of second order
     assert abs(e_star) == pytest.approx(solved.e_star_pa, rel=1e-3)
     assert np.degrees(np.angle(e_star)) == pytest.approx(solved.phase_deg, abs=0.05)
     assert solved.motion.shape == (len(specimen), 6) and solved.motion.dtype == complex
@@ -50,7 +50,7 @@ def test_samples_of_ones_own_are_evaluated():
     angle = 2 * np.pi * HZ * time
     found = mc.evaluate_cyclic(time, 1e-4 * np.sin(angle), 1e6 * np.sin(angle + np.radians(20)), HZ, fit_cycles=2)
     assert found["e_star_pa"] == pytest.approx(1e10) and found["phase_deg"] == pytest.approx(20)
-    # parabolas through three samples of two hundred a period
+    # 1e-3: peaks are those of parabolas through three samples, with 200 samples per period
     assert found["e_star_peaks_pa"] == pytest.approx(1e10, rel=1e-3) and found["fit_rms"] < 1e-9
     with pytest.raises(mc.InputError, match=r"strain: found numbers of shape \(2,\), expected .*\(3,\)"):
         mc.evaluate_cyclic([0.0, 1.0, 2.0], [0.0, 1.0], [0.0, 1.0], HZ)
@@ -65,7 +65,7 @@ def test_a_table_of_the_same_values_is_the_same_drive(specimen, dt):
     a, b = stepper(specimen, ramp), stepper(specimen, table)
     a.advance(150)
     b.advance(150)
-    # rates of the two drives differ by rounding
+    # the rates of the two drives differ by rounding
     assert np.allclose(a.particles().displacement, b.particles().displacement, rtol=0, atol=1e-15)
     assert a.observe().step == 150 and a.observe().time == pytest.approx(150 * dt)
 
@@ -85,7 +85,7 @@ def test_states_go_there_and_back(specimen, dt):
     for wrong, message in (({}, "step"), ({**state, "sums": state["sums"][:-1]}, "sums"), ({"x": "y"}, "x: found text, expected")):
         with pytest.raises(mc.Error, match=message):
             other.set_state(wrong)
-    assert np.array_equal(one.particles().force, other.particles().force)  # nothing was changed
+    assert np.array_equal(one.particles().force, other.particles().force)  # the refused states changed nothing
 
 
 def test_forces_balance(specimen, dt):
@@ -117,7 +117,8 @@ def test_pulses_and_what_drives_say_of_themselves(specimen, dt):
 
 
 def test_stresses_of_cells_are_those_of_the_whole(specimen, dt):
-    """Volumes times stresses sum up to what the walls bear: exactly so in equilibrium, where no momentum is left."""
+    """The volume-weighted sum of the cells' stresses equals the stress on the walls, exactly so in equilibrium, when no
+    momentum is left."""
     ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=200)
     stepping = stepper(specimen, ramp, damping_kind="viscous", damping=0.05 / dt)
     stepping.advance(3000)
@@ -125,7 +126,7 @@ def test_stresses_of_cells_are_those_of_the_whole(specimen, dt):
     mean = (stepping.stress() * specimen.cells.volume[:, None]).sum(axis=0) / (box[0] * box[1] * box[2])
     wall = -stepping.observe().top_force / (box[0] * box[1])
     assert stepping.stress().shape == (len(specimen), 6)
-    assert mean[2] == pytest.approx(wall, rel=0.05)  # what flows on, and waves that are left
+    assert mean[2] == pytest.approx(wall, rel=0.05)  # 5 %: the specimen still flows, and waves are left
 
 
 def test_boundaries(specimen, dt):
@@ -191,7 +192,7 @@ def test_broken_points_of_contacts(scene):
     assert state.broken.shape == (len(contacts),) and 0 < state.broken.max() <= 1
     begin, breaks, bond = state.chain_begin, [], mc.pair_names.index("M-M")
     for c, pair in enumerate(contacts.pair):
-        # a point of a bond keeps f and opening, then f and the break of each slip
+        # state of a point of a bond: f and opening, then f and the break of each slip
         of_points = state.chain[begin[c]:begin[c + 1]].reshape(-1, 6)[:, 3] if pair == bond else np.zeros(1)
         assert state.broken[c] == pytest.approx(np.count_nonzero(of_points) / len(of_points))
         breaks += list(of_points[of_points != 0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies: which points they have, that no result is computed twice, their tables, failures, locks and report."""
+"""Studies: their points, tables, failures, locks and report, and that no result is computed twice."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ THREADS = {"on": "threads", "workers": 2}
 
 @pytest.fixture
 def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A stand-in for the program; its log."""
+    """Installs the stand-in for the program and returns the path of its log."""
     file, log = stand_in(tmp_path)
     monkeypatch.setenv("MACADAM_PROGRAM", file)
     scene(tmp_path)
@@ -64,7 +64,7 @@ def test_grid_hypercube_list_and_choices_are_crossed(program: Path) -> None:
     assert len(design.jobs) == (4 + 1) * 2 * 3 * 2
     assert len({job.key for job in design.jobs}) == len(design.jobs)
     sampled = sorted({v["contacts.M-M.delta"] for v in values(design)} - {7.0})
-    assert [int((x - 0.5) * 4) for x in sampled] == [0, 1, 2, 3]  # one in each quarter
+    assert [int((x - 0.5) * 4) for x in sampled] == [0, 1, 2, 3]  # one point in each quarter of the range
     logs = sorted({np.log10(v["contacts.A-A.E"]) for v in values(design) if v["contacts.M-M.delta"] != 7.0})
     assert [int((x - 9) / 2 * 4) for x in logs] == [0, 1, 2, 3]
     one = next(j for j in design.jobs if j.values[KEY] == 2.0 and j.values["binder"] == "soft")
@@ -92,7 +92,7 @@ def test_values_with_units_gradations_and_sections(program: Path) -> None:
     assert all(re.fullmatch(r"[\d.]+ %", s["specimen"]["recipe"]["binder"]) for s in scenes)
     slow = next(s for s, j in zip(scenes, design.jobs, strict=True) if j.experiment == "slow")
     fast = next(s for s, j in zip(scenes, design.jobs, strict=True) if j.experiment == "fast")
-    assert slow["loading"] == {"kind": "creep", "stress": 1e5, "times": [1.0]}  # the section as a whole
+    assert slow["loading"] == {"kind": "creep", "stress": 1e5, "times": [1.0]}  # the whole section is replaced
     assert fast["loading"]["kind"] == "cyclic" and fast["loading"]["frequencies"] == [50]
 
 
@@ -109,7 +109,7 @@ def test_the_key_is_of_scene_files_and_version(program: Path, tmp_path: Path) ->
 
     assert key() == key() and key("2") != key() and key(**{"loading.frequencies": [[3]]}) != key()
     particles = (ROOT / "tests/data/t8.csv").read_bytes()
-    for folder in "ab":  # the same content elsewhere is the same specimen
+    for folder in "ab":  # a file with the same content in another folder gives the same key
         (tmp_path / folder).mkdir()
         (tmp_path / folder / "t8.csv").write_bytes(particles)
     here, there = (key(**{"specimen.file": [f"{folder}/t8.csv"]}) for folder in "ab")
@@ -175,7 +175,7 @@ def test_results_table_failures_and_report(program: Path, tmp_path: Path) -> Non
         *parquet,
     ]
     assert all((p / "scene.toml").is_file() and (p / "study.json").is_file() for p in (out / "results").iterdir())
-    # a failure is known and not repeated, but when that is asked for
+    # a failed result is not computed again, unless retry_failed is set
     study(asked(grid={KEY: [11.0, 12.0, 13.0, 17.0]}), out)
     assert lines(program, "begin").count(13.0) == 1
     study(asked(grid={KEY: [11.0, 12.0, 13.0]}), out, retry_failed=True)
@@ -220,7 +220,8 @@ def test_columns_of_a_hypercube_do_not_go_together(program: Path) -> None:
     keys = ["contacts.M-M.delta", "contacts.M-A.delta", "contacts.A-A.E"]
     design = read_design(asked(latin_hypercube={"points": 24, **{k: [1.0, 2.0] for k in keys}}), "1")
     table = np.array([[job.values[k] for k in keys] for job in design.jobs])
-    assert abs(np.corrcoef(table.T) - np.eye(3)).max() < 0.2  # of 24 independent points 0.2 is one standard deviation
+    # 0.2 is one standard deviation of the correlation of 24 independent points
+    assert abs(np.corrcoef(table.T) - np.eye(3)).max() < 0.2
 
 
 def test_wrong_arguments_of_the_command(program: Path, tmp_path: Path, capsys) -> None:

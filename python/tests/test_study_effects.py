@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Main effects of studies, weighed against the scatter of seeds, and their sentences in the report."""
+"""Main effects of studies, compared with the scatter of seeds, and their sentences in the report."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from macadam.study.summary import write_report
 
 
 def asked(**factors: dict | list) -> Design:
-    """A study of an empty scene."""
+    """Returns the design of a study with these factors and an empty scene."""
     return read_design({"scene": {}, **factors}, "1")
 
 
@@ -45,7 +45,7 @@ def test_effects_and_scatter_are_what_the_numbers_say(tmp_path: Path) -> None:
 
 
 def rows_of(change: float, offs: dict[int, float], b: tuple[str, ...] = ("x",)) -> pd.DataFrame:
-    """A binder of 10 GPa and one with this change; offs: deviation of each seed; all in GPa."""
+    """Returns a table with a binder of 10 GPa and one of 10 GPa + change. offs: deviation of each seed; all in GPa."""
     return pd.DataFrame(
         [
             {"binder": k, "b": other, "seed": seed, "frequency_hz": 10.0, "e_star_pa": 1e9 * (10 + k * change + off)}
@@ -58,8 +58,8 @@ def rows_of(change: float, offs: dict[int, float], b: tuple[str, ...] = ("x",)) 
 
 @pytest.mark.parametrize("change, within", [(0.2, True), (0.45, True), (0.47, False), (2.0, False)])
 def test_an_effect_within_the_scatter_of_seeds_is_told(change: float, within: bool, tmp_path: Path) -> None:
-    """Standard deviation of seeds 0.2 GPa, three of each, 4 degrees of freedom: t = 2.776, of the change
-    0.2 GPa sqrt(2/3) t = 0.453 GPa."""
+    """Three seeds of each binder with a standard deviation of 0.2 GPa have 4 degrees of freedom, so t = 2.776, and the
+    half interval of the change is 0.2 GPa sqrt(2/3) t = 0.453 GPa."""
     design = asked(grid={"binder": [0, 1], "seed": [1, 2, 3]})
     (quantity,) = quantities(rows_of(change, {1: -0.2, 2: 0.0, 3: 0.2}), design)
     (effect,) = effects(quantity)
@@ -83,7 +83,7 @@ def test_without_several_seeds_nothing_is_said_of_chance(tmp_path: Path) -> None
 
 
 def test_the_scatter_of_a_line() -> None:
-    """Ten values of a factor, two seeds each: the error of a slope by its textbook formula."""
+    """For ten values of a factor with two seeds each, the error of the slope is that of the textbook formula."""
     x = np.arange(10.0)
     rows = pd.DataFrame(
         [
@@ -94,7 +94,8 @@ def test_the_scatter_of_a_line() -> None:
     )
     design = asked(grid={"a": list(x), "seed": [1, 2]})
     (effect,) = effects(quantities(rows, design)[0])
-    error = 2**0.5 / 2**0.5 / ((x - x.mean()) ** 2).sum() ** 0.5  # of a slope; seeds deviate by sqrt(2), two of each
+    # error of the slope; seeds deviate by sqrt(2), two per point
+    error = 2**0.5 / 2**0.5 / ((x - x.mean()) ** 2).sum() ** 0.5
     assert np.isclose(effect.scatter, student_95(10) * 9 * error)
 
 
@@ -105,7 +106,7 @@ def test_students_t() -> None:
 
 
 def test_a_factor_of_a_hypercube_does_not_count_as_another() -> None:
-    """Two factors that go together by chance, of which one does nothing."""
+    """Two factors are correlated by chance, and one of them has no effect."""
     draw = np.random.default_rng(3)
     a = draw.random(30)
     b = a + 0.2 * draw.random(30)

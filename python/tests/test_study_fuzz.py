@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Damaged study files: read, or refused with a StudyError; nothing else, and no endless loop. Changes are random with fixed seeds: what
-libFuzzer is for C++ would be one more package here."""
+"""Damaged study files are either read or refused with a StudyError; there is no other exception and no endless loop.
+The changes are random with fixed seeds; a fuzzer for Python, as libFuzzer is for C++, would be one more package to
+install."""
 
 from __future__ import annotations
 
@@ -77,7 +78,7 @@ def test_damaged_studies_and_scenes_are_read_or_refused(tmp_path: Path) -> None:
     (tmp_path / "law.toml").write_text(LAW)
     study.write_text(STUDY)
     scene.write_text(SCENE)
-    assert len(read_design(study, "1").jobs) == 8  # the texts are right before they are changed
+    assert len(read_design(study, "1").jobs) == 8  # the unchanged texts are valid
     for case in range(1500):
         of_scene = case % 3 == 0
         study.write_text(STUDY if of_scene else changed(STUDY, chance), errors="surrogateescape")
@@ -90,7 +91,8 @@ def test_damaged_studies_and_scenes_are_read_or_refused(tmp_path: Path) -> None:
         except Exception as error:
             text = (scene if of_scene else study).read_text(errors="replace")
             raise AssertionError(f"case {case}: {text[:1000]!r}") from error
-        assert time.process_time() - begin < 60, f"case {case}"  # far above what a slow processor takes; a loop is seen
+        # far more than a slow processor needs, so it means an endless loop
+        assert time.process_time() - begin < 60, f"case {case}"
 
 
 def test_more_points_than_anyone_computes_are_refused_before_they_are_made(tmp_path: Path) -> None:

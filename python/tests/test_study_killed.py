@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies whose driver or workers are killed at random moments: all results come to be, and none is computed twice."""
+"""Studies whose driver or workers are killed at random moments: all results are computed in the end, and none twice."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ psutil = pytest.importorskip("psutil")
 pytest.importorskip("parsl")
 
 WORKERS = 2
-LONG = 400  # s after which a test fails; nothing is expected to take that long
+LONG = 400  # seconds after which a test fails, far more than it should need
 STUDY = """
 scene = "scene.toml"
 [grid]
@@ -32,7 +32,7 @@ workers = WORKERS
 
 
 def processes(driver: subprocess.Popen, folder: Path) -> list[psutil.Process]:
-    """The driver, and all that it began, directly or not; of drivers before it too."""
+    """Returns the driver and all processes that it or earlier drivers started, directly or indirectly."""
     found = {driver.pid: psutil.Process(driver.pid)} if driver.poll() is None else {}
     for process in psutil.process_iter():
         try:
@@ -46,10 +46,10 @@ def processes(driver: subprocess.Popen, folder: Path) -> list[psutil.Process]:
 
 
 def is_worker(process: psutil.Process) -> bool:
-    """Or the program that it runs; not Parsl's manager of the workers."""
+    """Whether the process is a worker or the program that a worker runs. Parsl's manager of the workers is not one."""
     try:
         line, above = " ".join(process.cmdline()), process.parent()
-        if "macadam.study.manager" in line:  # which watches the manager
+        if "macadam.study.manager" in line:  # the process that watches the manager
             return False
         return "macadam-1" in line or (above is not None and "process_worker_pool.py" in " ".join(above.cmdline()[:2]))
     except psutil.Error:
@@ -57,7 +57,7 @@ def is_worker(process: psutil.Process) -> bool:
 
 
 def killed(process: psutil.Process) -> bool:
-    """Whether it was alive, and is dead now."""
+    """Kills the process. Returns whether it was alive before."""
     try:
         process.kill()
     except psutil.Error:
@@ -66,7 +66,8 @@ def killed(process: psutil.Process) -> bool:
 
 
 def published(out: Path) -> dict[str, tuple[int, int]]:
-    """The results that are there; a folder made anew would be another one."""
+    """Returns the existing results with inode and time of their records, which would change if a result were computed
+    again."""
     there = {}
     for result in (out / "results").glob("*"):
         state = (result / "study.json").stat()
@@ -77,13 +78,14 @@ def published(out: Path) -> dict[str, tuple[int, int]]:
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
 @pytest.mark.parametrize("points, kills", [(30, 3), pytest.param(200, 10, marks=pytest.mark.long)])
 def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path) -> None:
-    program, log = stand_in(tmp_path, pause=0.15, real="5.0")  # every tenth is computed by macadam
+    program, log = stand_in(tmp_path, pause=0.15, real="5.0")  # every tenth value is computed by macadam itself
     scene(tmp_path)
     values = [100.0 + k for k in range(points)]
     (tmp_path / "study.toml").write_text(STUDY.replace("VALUES", str(values)).replace("WORKERS", str(WORKERS)))
     out = tmp_path / "out"
     chance = random.Random(7)
-    moments = sorted(chance.sample(range(2, points - 5), kills))  # numbers of results after which somebody is killed
+    # numbers of results after which a driver or worker is killed
+    moments = sorted(chance.sample(range(2, points - 5), kills))
     line = [sys.executable, "-m", "macadam.study", "study.toml", "--out", str(out)]
     environment = {**ENVIRONMENT, "MACADAM_PROGRAM": program}
     kept: dict[str, tuple[int, int]] = {}
@@ -113,7 +115,7 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
                     drivers += 1
                     moments.pop(0)
             time.sleep(0.02)
-        _, left = psutil.wait_procs(seen, timeout=LONG)  # what a killed driver leaves behind ends by itself
+        _, left = psutil.wait_procs(seen, timeout=LONG)  # processes that a killed driver leaves must end by themselves
         assert not left, left
     finally:
         for process in {*processes(driver, out), *seen}:
@@ -122,8 +124,8 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
     assert len(published(out)) == points
     table = pd.read_csv(out / "table.csv")
     assert set(table["contacts.M-A.delta"]) == set(values) and table["key"].nunique() == points
-    assert len(table) == points + 2 * (points // 10)  # those of macadam have three frequencies
-    # what was begun again was under way when somebody was killed: at most what all workers had
+    assert len(table) == points + 2 * (points // 10)  # results of macadam itself have three frequencies
+    # only computations that were running at a kill are begun again: at most one per worker
     assert len(lines(log, "begin")) <= points + kills * WORKERS
     assert set(lines(log, "end")) == set(values)
     assert not (out / "failures.csv").exists() and not (out / "running").exists()
@@ -133,18 +135,19 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
 
 
 def test_a_manager_that_waits_for_ever_ends_with_its_study() -> None:
-    """A worker killed with the queue of results in its hands leaves such a manager: here a program that just waits."""
+    """A worker that is killed while it holds the queue of results leaves a manager that waits forever. Here a program
+    that only waits takes the manager's place."""
     study = subprocess.Popen(["sleep", "3600"])
     line = [sys.executable, "-m", "macadam.study.manager", str(study.pid), "1", "sleep", "3600"]
     manager = subprocess.Popen(line, env=ENVIRONMENT)
     try:
         process = psutil.Process(manager.pid)
-        while process.cmdline() != ["sleep", "3600"]:  # it has become the command
+        while process.cmdline() != ["sleep", "3600"]:  # until the process has become the command
             assert manager.poll() is None
             time.sleep(0.01)
         (watcher,) = process.children()
         looked = watcher.num_ctx_switches().voluntary
-        while watcher.num_ctx_switches().voluntary < looked + 3:  # it has looked, and looked again
+        while watcher.num_ctx_switches().voluntary < looked + 3:  # until the watcher has checked at least twice
             time.sleep(0.01)
         assert manager.poll() is None
         study.kill()
@@ -153,5 +156,5 @@ def test_a_manager_that_waits_for_ever_ends_with_its_study() -> None:
         _, left = psutil.wait_procs([watcher], timeout=LONG)
         assert not [p for p in left if p.status() != psutil.STATUS_ZOMBIE], left
     finally:
-        for process in (study, manager):  # does nothing where it has ended
+        for process in (study, manager):  # does nothing to a process that has ended
             process.kill()

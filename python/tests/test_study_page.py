@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What docs/studies.md and examples/study say runs."""
+"""The commands and code of docs/studies.md and the study of examples/study can be run."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from study_faults import stand_in
 
 
 def blocks(page: str) -> list[str]:
-    """Indented blocks of a page."""
+    """Returns the indented blocks of a page."""
     text = (ROOT / "docs" / page).read_text(encoding="utf-8")
     return [re.sub(r"(?m)^    ", "", b) for b in re.findall(r"(?m)(?:^    .*\n|^\n(?=    ))+", text)]
 
 
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
 def test_commands_of_the_page(tmp_path: Path) -> None:
-    """Every command, study file and line of Python of docs/studies.md; a stand-in computes."""
+    """Runs every command, study file and line of Python of docs/studies.md with the stand-in for the program."""
     shutil.copytree(ROOT / "examples", tmp_path / "examples", ignore=shutil.ignore_patterns("shapes", "ct"))
     environment = {**ENVIRONMENT, "MACADAM_PROGRAM": stand_in(tmp_path)[0]}
     shutil.copy(tmp_path / "examples/study/scene.toml", tmp_path)
@@ -59,7 +59,8 @@ def test_commands_of_the_page(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
 def test_the_example(tmp_path: Path, monkeypatch) -> None:
-    """Its file has 48 points; the two corners with the most aggregate and the most holes are computed."""
+    """The example's file has 48 points. The test computes the two corners with the most aggregate and the most
+    holes."""
     monkeypatch.setenv("MACADAM_PROGRAM", PROGRAM)
     example = ROOT / "examples/study/study.toml"
     assert len(read_design(example, "1").jobs) == 48

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies on a Slurm cluster: a real one, of this machine alone; wrong options, and jobs that Slurm refuses."""
+"""Studies on a Slurm cluster: on a real one, which consists of this machine alone; wrong options; jobs that Slurm
+refuses."""
 
 from __future__ import annotations
 
@@ -50,11 +51,12 @@ def test_the_same_file_runs_on_slurm(tmp_path: Path) -> None:
             text=True,
             timeout=280,
         )
-    assert done.returncode == 1, done.stderr  # 13 fails
+    assert done.returncode == 1, done.stderr  # the stand-in fails for 13
     assert "expected better luck" in done.stderr and "5 results, 1 failed" in done.stdout
     assert sorted(lines(log, "begin")) == [11.0, 12.0, 13.0, 14.0, 15.0, 16.0]
     records = [json.loads(f.read_text()) for f in (out / "results").glob("*/study.json")]
-    assert len(records) == 5 and all(int(r["machine"]["slurm_job_id"]) > 0 for r in records)  # by a job of the cluster
+    # computed by a job of the cluster
+    assert len(records) == 5 and all(int(r["machine"]["slurm_job_id"]) > 0 for r in records)
 
 
 @pytest.mark.long
@@ -72,7 +74,7 @@ def test_a_stopped_study_leaves_no_job(tmp_path: Path) -> None:
             running.process.communicate(timeout=280)
             assert running.process.returncode == 130
             while subprocess.run(["squeue", "-h"], env=environment, capture_output=True, timeout=280).stdout:
-                pass  # jobs that are being ended
+                pass  # waits until all jobs have ended
             assert len(list((tmp_path / "out/results").iterdir())) == 1
             assert "the study was stopped" in (tmp_path / "out/report.html").read_text("utf-8")
         finally:
@@ -120,7 +122,7 @@ def test_a_machine_without_slurm_is_told(tmp_path: Path) -> None:
 
 
 def test_the_words_of_slurm_are_told(tmp_path: Path) -> None:
-    """A partition that Slurm refuses: its message, and no further attempts."""
+    """Slurm refuses the partition: the study reports Slurm's message and does not try again."""
     programs = tmp_path / "programs"
     programs.mkdir()
     (programs / "sbatch").write_text(REFUSED)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies in which two places touch one key, points lack a value, or points are equal: refused, or told."""
+"""Studies in which two places set one key or points lack a value are refused; points that are equal are reported."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def contacts(job) -> dict[str, dict]:
 
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
 def test_fitted_laws_by_delta(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The file replaces the pair M-A; delta of the grid is set in the new entry."""
+    """The file replaces the pair M-A, and delta of the grid is set in the new entry."""
     monkeypatch.setenv("MACADAM_PROGRAM", PROGRAM)
     asked = {
         "scene": "scene.toml",
@@ -72,7 +72,7 @@ def test_fitted_laws_by_delta(folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
     }
     found = study(asked, folder / "out", on="threads", workers=1).table
     got = {(row["binder"], row[DELTA]): row["e_star_pa"] for _, row in found.iterrows()}
-    modulus = {  # of delta times E of M-A
+    modulus = {  # of the specimen, by the formula above, with delta times E of M-A
         (name, delta): 1 / (0.25 / 1e10 + 0.5 / (delta * e) + 0.25 / 1e10)
         for name, e in (("fitted", 2e9), ("old", 1e9))
         for delta in (2, 3)
@@ -182,7 +182,8 @@ def test_the_command_refuses_with_exit_2(folder: Path, monkeypatch, capsys) -> N
 
 
 def test_equal_points_have_a_row_each_and_are_told(folder: Path, monkeypatch, capsys) -> None:
-    """Two names of one scene: computed once, two rows. The same values again: one row. Both are named."""
+    """Two points with the same scene are computed once and have two rows. A point with the same values has no second
+    row. Both are reported."""
     scene(folder)
     program, log = stand_in(folder)
     monkeypatch.setenv("MACADAM_PROGRAM", program)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies that a signal stops: they end, leave no process, and write table and report of the results so far."""
+"""Studies that are stopped by a signal: they end, leave no process, and write table and report of the results so
+far."""
 
 from __future__ import annotations
 
@@ -19,7 +20,7 @@ psutil = pytest.importorskip("psutil")
 pytest.importorskip("parsl")
 from study_running import Running  # noqa: E402
 
-LONG = 300  # s after which a test fails; nothing is expected to take that long
+LONG = 300  # seconds after which a test fails, far more than it should need
 
 
 @pytest.fixture(params=["local", "threads"])
@@ -49,7 +50,7 @@ def test_a_signal_ends_the_study(running: Running, number: int, to_group: bool) 
     assert "2 of 3 results are missing: the study was stopped" in page
     assert not list((running.out / "failures").iterdir())  # a stopped point has not failed
     if to_group or number == signal.SIGTERM:
-        return  # one case goes on: it takes its time
+        return  # only one case continues the study, because that is slow
     running.go.touch()
     done = subprocess.run(running.line, capture_output=True, timeout=LONG, **running.how)
     assert done.returncode == 0 and "3 results, 0 failed" in done.stdout, done.stderr
@@ -92,5 +93,5 @@ def test_a_shutdown_that_never_ends_is_left_after_a_bounded_time() -> None:
         forever.set()
         worker.kill()
         interchange.kill()
-    # the waits of a stopped study are bounded well below five seconds
+    # a stopped study waits much less than five seconds
     assert parsl_pool.AFTER_INTERRUPT <= 2 and programs.GRACE <= 2

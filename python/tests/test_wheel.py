@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All that a wheel needs is listed, and has a licence: without one being built."""
+"""Everything that a wheel needs is listed and has a licence. No wheel is built for these tests."""
 import ast
 import importlib
 import re
@@ -22,7 +22,7 @@ DEPENDENCIES = (ROOT / "scripts" / "dependencies").read_text()
 
 @pytest.fixture(scope="module")
 def licences():
-    """scripts/wheel-licences as a module."""
+    """Loads scripts/wheel-licences as a module."""
     module = ModuleType("wheel_licences")
     SourceFileLoader("wheel_licences", str(ROOT / "scripts" / "wheel-licences")).exec_module(module)
     return module
@@ -38,13 +38,13 @@ def imports_of(files):
 
 
 def named(requirements):
-    """Projects that requirements name, as modules are called."""
+    """Returns the projects that the requirements name, spelt like modules."""
     return {re.match(r"[A-Za-z0-9_.-]+", text)[0].replace("-", "_").lower() for text in requirements}
 
 
 @pytest.mark.parametrize("part", ["", "report", "study"])
 def test_every_module_that_is_imported_is_a_dependency(part):
-    """Reports do without what only pictures of fields need."""
+    """The extra `report` need not list packages that only pictures of fields need; the extra `fields` does."""
     folder = ROOT / "python" / "macadam" / part
     project = PROJECT["project"]
     extras = project["optional-dependencies"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a user may write, for mypy: types are known, and wrong ones are told."""
+"""A user's script, for mypy: the types in it must be known, and wrong types must be reported."""
 import numpy as np
 import numpy.typing as npt
 

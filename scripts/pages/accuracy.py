@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/accuracy.md: from bench/accuracy's accuracy.csv and accuracy-full.csv, all rows of a study; what to use when,
-and each setting."""
+"""Marks of docs/accuracy.md on what to use when and on each setting, from all rows of the studies in accuracy.csv and
+accuracy-full.csv, which bench/accuracy writes."""
 from pages import (accuracy_asked, accuracy_device, accuracy_elsewhere, accuracy_iterations, accuracy_linear,
                    accuracy_rounding, stability)
 from pages.accuracy_rows import (E, FILES, PHI, TRUE_E, TRUE_PHI, both, done, scene, scenes, signed, study, tried,
@@ -11,19 +11,19 @@ from pages.marks import mark
 
 DOCUMENT = "docs/accuracy.md"
 PARTS = (accuracy_asked, accuracy_device, accuracy_elsewhere, accuracy_iterations, accuracy_linear,
-         accuracy_rounding)  # more functions of this document
+         accuracy_rounding)  # modules with more marks of this document
 
 
 @mark
 def machine(which):
-    """Of the standard studies (0) or of the full specimen's (1)."""
+    """Returns machine and date of the standard studies (0) or of the full specimen's studies (1)."""
     about = dict(line.split(": ", 1) for line in head(FILES[int(which)]))
     return f"{about['machine']}, {about['date']}"
 
 
 @mark
 def sizes():
-    """Scenes and contacts."""
+    """Returns the scenes with their numbers of contacts."""
     found = done(tried("front", "tolerance"))
     contacts = {scene(r): int(r["contacts"]) for r in reversed(found)}
     return ", ".join(f"{name} ({contacts[name]:,} contacts)" for name in scenes(found))
@@ -45,7 +45,7 @@ def scaled():
 
 @mark
 def inertia(name):
-    """Error of inertia at a scaling of 1e4 and 20 Hz."""
+    """Returns the error by inertia at a density scaling of 1e4 and 20 Hz."""
     row = one(scaled(), scene=name, density_scaling=1e4)
     return f"{signed(row[TRUE_E])} of \\|E\\*\\| and {row[TRUE_PHI]:+.2f}°"
 
@@ -77,7 +77,7 @@ def steady_scenes():
 
 
 def rest(ramp, cycles):
-    """From rest, with steps below the computed one."""
+    """Returns the rows of runs from rest whose time steps are below the computed critical step."""
     return study("rest", "step_share", start="rest", ramp_cycles=float(ramp), cycles=cycles,
                  step_share=lambda s: s < 1)
 
@@ -94,7 +94,7 @@ def no_ramp_error(cycles):
 
 @mark
 def forms():
-    """Largest difference of the two forms in double precision."""
+    """Returns the largest difference between the two forms of contacts (condensed, points) in double precision."""
     def key(r):
         return tuple(r[k] for k in ("scene", "mix", "precision", "geometry", "density_scaling", "frequency_hz"))
     double = study("front", precision="double")
@@ -106,7 +106,8 @@ def forms():
 
 
 def bent():
-    """The longest runs of each scene: in one cycle the second harmonic still shows."""
+    """Returns the rows of the longest runs of each scene, because in a single cycle the second harmonic is still
+    visible."""
     found = study("strain", geometry="updated")
     most = {scene(r): max(x["cycles"] for x in found if scene(x) == scene(r)) for r in found}
     return [r for r in found if r["cycles"] == most[scene(r)]]
@@ -119,7 +120,8 @@ def strain_scenes():
 
 @mark
 def strain_factor():
-    """|E*| over the square of the strain, where rounding is far below."""
+    """Returns the largest error of |E*| divided by the square of the strain, for strains at which rounding is
+    negligible."""
     return plain(upto(max(abs(r[E]) / r["strain"] ** 2 for r in bent() if r["strain"] >= 1e-3)))
 
 
@@ -135,7 +137,8 @@ def shaken():
 
 
 def damped(kind, value):
-    """What damping alone does, at 20 Hz and a scaling of 1e4: against the same start without it."""
+    """Returns the effect of damping alone on |E*| and phase, at 20 Hz and a density scaling of 1e4: the difference from
+    a run with the same start without damping."""
     row = one(shaken(), damping_kind=kind, damping=float(value))
     base = one(shaken(), damping_kind="none") if row["start"] == "rest" else one(scaled(), scene="t8",
                                                                                  density_scaling=1e4)
@@ -150,7 +153,7 @@ def damping(kind, value):
 
 @mark
 def damping_noise():
-    """What the waves of the start leave without any damping."""
+    """Returns the error that the waves of the start leave without damping."""
     row = one(shaken(), damping_kind="none")
     return f"{minus(power(abs(row[E])))} and {abs(row[PHI]):.4f}°"
 
@@ -195,7 +198,7 @@ def shares(**wanted):
 
 @mark
 def rest_share():
-    """From rest without ramp, whatever the share of the critical step."""
+    """Returns the errors of runs from rest without a ramp, over all shares of the critical step."""
     of = shares(start="rest", scene="t8", mix="AM1")
     e, phi = ([abs(r[key]) for r in of] for key in (E, PHI))
     steps = [r["step_share"] for r in of]
@@ -206,7 +209,8 @@ def rest_share():
 
 @mark
 def step_to_inertia():
-    """Error of the step over that of inertia, steady start, at the largest step below the computed one."""
+    """Returns the ratio of the error by the time step to that by inertia, for the steady start and the largest step
+    below the computed one."""
     ratio = []
     for name in scenes(shares()):
         of = [r for r in shares(start="steady") if scene(r) == name and r["step_share"] < 1]
@@ -217,7 +221,7 @@ def step_to_inertia():
 
 @mark
 def stable_share():
-    """How far runs were stable; a step that diverged is said."""
+    """Returns up to which share of the critical step the runs were stable, and at which they diverged."""
     found, words = tried("step_share"), []
     for name in scenes(found):
         of = [r for r in found if scene(r) == name]
@@ -234,14 +238,14 @@ def share_scenes():
 
 @mark
 def true_limit():
-    """The true limit over the computed step."""
+    """Returns the range of the ratio of the true stability limit to the computed step."""
     low, high = stability.computed()
     return f"{1 / high:.2f} to {1 / low:.2f}"
 
 
 @mark
 def filters():
-    study("quadrature", "filter")  # no failure but those that the table shows
+    study("quadrature", "filter")  # raises an error for failures that the table does not show
     changed = where(tried("quadrature", "filter"), frequency_hz=20.0)
     base = {scene(r): r["contacts"] for r in changed if r["gap_max"] is None and r["area_min"] is None}
     lines, seen = [], set()
@@ -252,7 +256,7 @@ def filters():
         if what is None or (scene(r), what) in seen:
             continue
         seen.add((scene(r), what))
-        if r["status"] != "done":  # without so many gaps the network may fall apart
+        if r["status"] != "done":  # without these contacts the specimen may not be connected
             lines.append((scene(r), what, "–", "–", r["status"].partition(":")[0].replace("|", "\\|"), "–"))
             continue
         dropped = base[scene(r)] - r["contacts"]
@@ -270,7 +274,8 @@ def gap_zero():
 
 @mark
 def area_saved():
-    """What area_min = 0.026 drops and saves, and the largest change of |E*| by it."""
+    """Returns the fraction of contacts that area_min = 0.026 drops, the time that it saves, and the largest change of
+    |E*|."""
     of = study("filter", area_min=0.026)
     base = {scene(r): r for r in study("filter") if r["gap_max"] is None and r["area_min"] is None}
     saved = [1 - r["seconds"] / r["steps"] / (base[scene(r)]["seconds"] / base[scene(r)]["steps"]) for r in of]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/accuracy.md: `[solver] tolerance`, what was asked, predicted and achieved."""
+"""Marks of docs/accuracy.md on `[solver] tolerance`: the error asked for, predicted and achieved."""
 import math
 
 from pages.accuracy_rows import E, PHI, TRUE_E, TRUE_PHI, done, scene, scenes, study, tried
@@ -16,7 +16,8 @@ def achieved(r):
 
 
 def off(r):
-    """Achieved minus predicted: the prediction is the harmonic solution's with the inertia of the run."""
+    """Returns the difference between achieved and predicted result; the prediction is the harmonic solution with the
+    inertia of the run."""
     predicted = (1 + r[TRUE_E]) / (1 + r[E]) - 1
     return max(abs(r[TRUE_E] - predicted), math.radians(abs(r[PHI])))
 
@@ -58,7 +59,7 @@ def by_hand_worst():
 
 
 def prediction_off(of):
-    """The largest difference from the prediction, % of what was asked."""
+    """Returns the largest difference from the prediction, in % of the tolerance asked for."""
     return plain(100 * upto(max(off(r) / r["tolerance"] for r in of))) + " %"
 
 

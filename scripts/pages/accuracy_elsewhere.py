@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/accuracy.md: what other programs measured or assert: runs on a GPU, tests, the paper's specimens."""
+"""Marks of docs/accuracy.md with numbers that other programs measured or assert: runs on a GPU, tests, the paper's
+specimens."""
 from pages import common, stability
 from pages.accuracy_rows import both, signed
 from pages.data import head, listed, mean, minus, one, percents, plain, power, rows, table, thousands, upto, where
@@ -19,7 +20,7 @@ def whole_tests():
 
 @mark
 def whole_command(scene, frequency):
-    """From the start of the command to its end."""
+    """Returns the time from the start of the command to its end."""
     of = one(rows(WHOLE), scene=scene.replace("_", " "), frequency_hz=float(frequency), geometry="fixed")
     return f"{of['command_s']:.1f} s"
 
@@ -84,7 +85,7 @@ def second_moments():
 
 @mark
 def lighter():
-    """How much the sum of the spheres' volumes is below the box in the specimens of clusters."""
+    """Returns by how much the sum of the spheres' volumes is smaller than the box in the specimens of clusters."""
     import paper_runs
     from paper_tables import CLUSTERS, PAPER
     return percents(1 - run.to_box for name in CLUSTERS for run in paper_runs.committed(PAPER[name].scene))

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/accuracy.md: iterations of the frequency domain against size, from bench/iterations/run."""
+"""Marks of docs/accuracy.md on the number of iterations of the frequency domain over size, from
+bench/iterations/run."""
 from pages.data import head, plain, rows, table, thousands
 from pages.marks import mark
 
 FILE = "iterations.csv"
-MANY = 640  # boxes, asked for whatever the size
+MANY = 640  # number of boxes that is tried for all sizes
 
 
 def usual(boxes):
@@ -16,7 +17,8 @@ def sizes():
 
 
 def of(particles, boxes):
-    """A row, or None where this number of boxes was not tried."""
+    """Returns the row with this number of boxes (a number, or a function that accepts it), or None if it was not
+    tried."""
     fits = boxes if callable(boxes) else lambda number: number == boxes
     return next((r for r in rows(FILE) if r["particles"] == particles and fits(r["boxes"])), None)
 
@@ -49,7 +51,7 @@ def iterations_machine():
 
 @mark
 def iterations_growth(which):
-    """From the smallest specimen to the largest."""
+    """Returns by which factor the height or the iterations grow from the smallest specimen to the largest."""
     if which == "height":
         return f"{(sizes()[-1] / sizes()[0]) ** (1 / 3):.1f}"
     boxes = {"alone": 0, "boxes": usual}[which]
@@ -66,6 +68,6 @@ def iterations_sizes():
 
 @mark
 def iterations_saved():
-    """How many times fewer iterations boxes take, least and most."""
+    """Returns the range of the factor by which boxes reduce the iterations."""
     of_both = [of(n, 0)["iterations"] / of(n, usual)["iterations"] for n in sizes()]
     return f"{min(of_both):.1f} to {max(of_both):.1f}"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/accuracy.md: the frequency domain by iteration and with factors, from bench/linear_solvers."""
+"""Marks of docs/accuracy.md on the frequency domain with the iterative and the direct solver, from
+bench/linear_solvers."""
 from pages.data import downto, head, listed, memory, minus, plain, power, rows, table, thousands, upto
 from pages.marks import mark
 
@@ -11,7 +12,7 @@ def runs():
 
 
 def pairs():
-    """Scenes that ran both ways: (by iteration, with factors)."""
+    """Returns (iterative, direct) of all scenes that ran with both solvers."""
     by = {(r["scene"], r["linear"]): r for r in runs()}
     return [(r, by[r["scene"], "direct"]) for r in runs()
             if r["linear"] == "iterative" and (r["scene"], "direct") in by]
@@ -33,14 +34,16 @@ def linear_solvers():
 
 @mark
 def linear_faster():
-    """Scenes of more than 30,000 particles: time with factors over that by iteration."""
+    """Returns the range of the direct solver's time over the iterative solver's, for scenes of more than 30,000
+    particles."""
     of = [d["solve_s"] / i["solve_s"] for i, d in pairs() if i["particles"] > 30000]
     return f"{downto(min(of)):.1f} to {upto(max(of)):.1f}"
 
 
 @mark
 def linear_difference():
-    """The largest difference of |E*| and of the phase angle, no less than the file's digits show."""
+    """Returns the largest differences of |E*| and of the phase angle, but at least what the digits of the file can
+    show."""
     e = max(abs(i[f"e_star_pa_{hz}"] / d[f"e_star_pa_{hz}"] - 1) for i, d in pairs() for hz in HZ)
     phi = max(abs(i[f"phase_deg_{hz}"] - d[f"phase_deg_{hz}"]) for i, d in pairs() for hz in HZ)
     return f"{power(upto(max(e, 1e-12)))} of \\|E\\*\\| and {power(upto(max(phi, 1e-8)))}°"
@@ -48,7 +51,7 @@ def linear_difference():
 
 @mark
 def linear_largest():
-    """The largest scene by iteration alone."""
+    """Returns time and memory of the largest scene, which ran with the iterative solver only."""
     r = max(runs(), key=lambda r: r["particles"])
     return (f"{r['scene']}, {thousands(r['particles'])} particles: {plain(r['solve_s'], 2)} s and "
             f"{memory([r['memory_gb']])}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/accuracy.md: what rounding leaves, by precision."""
+"""Marks of docs/accuracy.md on errors by rounding, by precision."""
 import math
 
 from pages.accuracy_rows import E, PHI, both, drift_differences, scene, scenes, signed, study
@@ -16,15 +16,15 @@ def rounding(precision):
 
 
 def single_steps():
-    """Single precision up to any number of steps: the drift study's differences, and of runs with `tolerance` those
-    from the harmonic solution of the same inertia."""
+    """Returns (row, difference) of all runs in single precision: the differences of the drift study and, for runs with
+    `tolerance`, those from the harmonic solution with the same inertia."""
     asked = [(r, {E: r[E], PHI: r[PHI]}) for r in study("tolerance", precision="single", geometry="fixed")]
     return drift_differences("single") + asked
 
 
 @mark
 def single(steps):
-    """The largest difference up to so many steps."""
+    """Returns the largest difference in runs of at most this number of steps."""
     return both([d for r, d in single_steps() if r["steps"] <= float(steps)])
 
 
@@ -66,7 +66,8 @@ def drift():
 # ---- precision.csv: mixed and single against double at the same settings
 
 def off(row):
-    """|E*| (relative) or φ (radians), the larger: what the program estimates."""
+    """Returns the larger of the errors of |E*| (relative) and φ (radians), which is the quantity that the program
+    estimates."""
     return max(abs(row["e_star"]), abs(row["phase_rad"]))
 
 
@@ -107,7 +108,7 @@ def precision_range():
 
 @mark
 def precision_stiff(precision):
-    """Where something was made stiffer."""
+    """Returns the largest error of runs in which something was made stiffer."""
     return rounded_up(max(off(r) for r in of(precision) if r["factor"] > 1))
 
 

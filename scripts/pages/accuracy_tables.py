@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bench/results/accuracy-tables.md, the whole page: accuracy.csv and accuracy-full.csv by studies, for reading."""
+"""Writes the page bench/results/accuracy-tables.md, which shows accuracy.csv and accuracy-full.csv by study."""
 import math
 
 from pages.accuracy_rows import E, FILES, PHI, TRUE_E, TRUE_PHI, drift_differences, scene, study, tried
@@ -21,7 +21,7 @@ def cost(r):
 
 
 def name(r, *keys):
-    """Scene, frequency and more, as short as they are."""
+    """Returns scene, frequency and the columns `keys` of a row as short texts."""
     return (scene(r), f"{r['frequency_hz']:g}", *(r[k] if isinstance(r[k], str) else f"{r[k]:g}" for k in keys))
 
 

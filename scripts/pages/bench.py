@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bench/README.md."""
+"""Marks of bench/README.md."""
 import csv
 import math
 
@@ -8,12 +8,12 @@ from pages.data import head, one, opened, rows, span, table, text
 from pages.marks import mark
 
 DOCUMENT = "bench/README.md"
-PARTS = (bench_command,)  # more functions of this document
+PARTS = (bench_command,)  # modules with more marks of this document
 GPU = "gpu-step-h200-2026-11-23.csv"
 
 
 def cpu_rows():
-    """Rows of `macadam bench` on a processor."""
+    """Returns the rows of `macadam bench` on a processor."""
     found = []
     for r in rows("bench-cpu-2026-11-23.csv"):
         _, _, _, form, precision, geometry, threads = r["row"].split("/")
@@ -47,7 +47,7 @@ def more_cores_machine():
 
 @mark
 def more_cores():
-    """Steps by more and more threads; geometry fixed."""
+    """Returns the table of times per step over the number of threads, for fixed geometry."""
     threads = (1, 2, 4, 8, 16)
     lines = []
     for precision in ("single", "mixed", "double"):
@@ -61,6 +61,7 @@ def two_thread_shares():
     return span([r["share"] for r in cpu_rows() if r["threads"] == "2"], "{:.1f}", " to ")
 
 
+# Yields (condensed, points) of rows with the same settings.
 def pairs(threads=None):
     for r in cpu_rows():
         if r["form"] == "condensed" and threads in (None, r["threads"]):
@@ -86,7 +87,7 @@ def us(row):
     return "" if row is None else f"{row['us']:.1f}" if row["us"] < 50 else f"{row['us']:,.0f}"
 
 
-STEPS = [  # of the bench, how the table calls it, the bar that was set for it
+STEPS = [  # name in the benchmark, name in the table, target time [µs]
     ("full/condensed/single", "full specimen, condensed, single", "6.0"),
     ("full/condensed/mixed", "… mixed", "6.3"),
     ("full, elastic/condensed/mixed", "… mixed, all contacts elastic", "5.5"),
@@ -106,7 +107,7 @@ STEPS = [  # of the bench, how the table calls it, the bar that was set for it
 
 
 def judged(bar, measured):
-    """The bar that was set, and whether it is missed."""
+    """Returns the target time, and whether the measured time misses it."""
     if not bar:
         return ""
     return bar if measured["us"] <= float(bar.replace(",", "")) else f"{bar}: missed"
@@ -136,7 +137,7 @@ def held():
 
 @mark
 def share_of_copy():
-    """Of steps that run as two kernels on the full specimen with AM1."""
+    """Returns the numbers of steps that run as two kernels, on the full specimen with AM1."""
     of = [r["share_of_copy"] for r in rows(GPU) if r["step"].startswith("full/") and "two kernels" in r["path"]]
     return f"{min(of):.2f} to {max(of):.2f}"
 
@@ -152,7 +153,7 @@ def double_share():
 
 
 def tried(name, *columns):
-    """As it was written down: words and numbers."""
+    """Returns columns of a table as the texts in the file."""
     with opened(name) as f:
         return [tuple(r[c] for c in columns) for r in csv.DictReader(line for line in f if not line.startswith("#"))]
 
@@ -191,7 +192,7 @@ def bench_machine():
 
 @mark
 def parts():
-    """What the parts of a step take; on one device."""
+    """Returns the table of times of the parts of a step, on one device."""
     cases = [(TEAM, "ac14_ss_am1", p, label) for p, label in (("single", "full specimen, single"), ("mixed", "… mixed"), ("double", "… double"))]
     cases += [(TEAM, "ac14_ms_ico_fine", p, label) for p, label in (("mixed", "MS-Ico-fine, mixed"), ("double", "… double"))]
     cases += [(BENCH, "lattice:1e6", p, label) for p, label in (("single", "lattice of 10⁶, single"), ("double", "… double"))]
@@ -227,7 +228,7 @@ def chip_machine():
 
 @mark
 def chip_steps():
-    """Steps over tiles, measured anew after a change."""
+    """Returns the table of times of steps over tiles, measured again after a change of the program."""
     scenes = {"ac14_ss_am1": "full specimen", "ac14_ms_ico_fine": "MS-Ico-fine",
               **{f"lattice:1e{n}": f"lattice of 10{power}" for n, power in ((3, "³"), (5, "⁵"), (6, "⁶"))}}
     lines = []
@@ -326,14 +327,14 @@ def preparation_machine():
 
 
 def preparation_of(table, scene):
-    """The row, and seconds of each part."""
+    """Returns the row of a scene, and the seconds of each part of the preparation."""
     r = one(rows(table), row=f"preparation/{scene}/cuda/condensed/mixed/fixed")
     return r, {name: float(us) / 1e6 for name, us in (part.rsplit(" ", 1) for part in r["parts"].split(", "))}
 
 
 @mark
 def preparation_before():
-    """Of a tessellation of 10⁷ particles with a triangulation by one thread, and its machine."""
+    """Returns the time of a tessellation of 10⁷ particles with a triangulation by one thread, and the machine."""
     return f"{preparation_of(BY_ONE_THREAD, 'lattice:1e7')[1]['tessellation']:.0f} s ({head(BY_ONE_THREAD)[0]})"
 
 
@@ -368,6 +369,7 @@ def peers():
 
 @mark
 def peers_factors():
-    """Of the others to Macadam on one thread, with the precision and geometry that all have."""
+    """Returns the ratio of other programs' times to Macadam's on one thread, with the precision and geometry that all
+    have."""
     of = {r["program"]: r["ms_a_step"] for r in rows(PEERS) if r["threads"] == 1 and r["settings"] == "double, geometry updated"}
     return " and ".join(f"{ms / of['Macadam']:.2g} ({name})" for name, ms in of.items() if name != "Macadam")

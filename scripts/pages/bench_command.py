@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bench/README.md: the whole command by phases, from bench/command/run."""
+"""Marks of bench/README.md on the phases of the whole command, from bench/command/run."""
 from pages.data import RESULTS, Missing, head, listed, rows, table, thousands
 from pages.marks import mark
 
@@ -14,7 +14,7 @@ def files():
 
 
 def cases():
-    """Each case of each machine, with the seconds of its phases in the order of a run."""
+    """Returns each case of each machine, with the seconds of its phases in the order of a run."""
     out = {}
     for name in files():
         for r in rows(name):
@@ -37,7 +37,7 @@ def command_phases():
 
 @mark
 def command_phases_machines():
-    """Of each file what was measured where and when, and what its first line says of it."""
+    """Returns, for each file, what was measured, where and when, and the text of the file's first line."""
     said = []
     for name in files():
         r = rows(name)[0]

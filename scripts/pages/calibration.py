@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/calibration.md: from bench/calibration/run's calibration-*.csv, a row a case."""
+"""Marks of docs/calibration.md, from calibration-*.csv of bench/calibration/run, which have one row per case."""
 from pages.data import rows, table
 from pages.marks import mark
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What several pages say."""
+"""Functions that the marks of several pages use."""
 import functools
 import re
 from pathlib import Path
@@ -13,7 +13,8 @@ def source(file):
 
 
 def asserted(file, test, name, literal):
-    """A number that a test, or a function of its file, asserts: the literal, if one expectation has it and the name."""
+    """Returns a number that a test, or a helper function in its file, asserts: the literal, if one EXPECT or ASSERT
+    statement contains both it and the name. Otherwise raises LookupError."""
     body = re.search(rf"^( *)(?:TEST\w*\(\w+, |static void ){re.escape(test)}\b(.*?)^\1}}", source(f"tests/{file}.cpp"),
                      re.M | re.S)
     if not body:

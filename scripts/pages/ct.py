@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/ct.md: from bench/ct/run's ct.csv, a row a seed and recipe, and bench/ct/large's ct-large.csv, one row."""
+"""Marks of docs/ct.md, from ct.csv of bench/ct/run (one row per seed and recipe) and ct-large.csv of bench/ct/large
+(one row)."""
 from pages.data import minus, one, rows, table
 from pages.marks import mark
 

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/aggregate-cube.md: from bench/shapes/run-cube's aggregate-cube.csv, a row a cube."""
+"""Marks of docs/aggregate-cube.md, from aggregate-cube.csv of bench/shapes/run-cube, which has one row per cube."""
 from pages.data import between, half_range, mean, minus, rows, table, upto_percent, where
 from pages.marks import mark
 
 DOCUMENT = "docs/aggregate-cube.md"
-TARGET, WALL = 60.0, 115.1  # GPa
+TARGET, WALL = 60.0, 115.1  # moduli of the rock and of the paper's walls [GPa]
 GROUPS = [(s, f) for s in ("fine", "coarse") for f in ("shape", "recipe")]
 
 
+# Returns the rows of cubes with these properties; edge in mm, wall in GPa.
 def cubes(spheres, filling, seeds=3, porosity=0.0, edge=20.0, wall=WALL, sides="free"):
     return where(rows("aggregate-cube.csv"), spheres=spheres, filling=filling, porosity=porosity, edge_mm=edge,
                  wall_gpa=wall, sides=sides, seed=lambda s: s <= seeds)
@@ -101,7 +102,7 @@ def gauge_off(spheres, filling):
 
 @mark
 def one_cube_off():
-    """The cube farthest from 60 GPa by gauge."""
+    """Returns the largest deviation from 60 GPa of all cubes, measured by gauge."""
     return upto_percent(abs(r["gauge_gpa"] / TARGET - 1) for g in GROUPS for r in cubes(*g, seeds=20))
 
 
@@ -122,7 +123,8 @@ def contact(spheres, key):
 
 @mark
 def soft_walls():
-    """Walls of 60 GPa against the gauge of the paper's walls, %."""
+    """Returns the largest deviation of the modulus by walls of 60 GPa from the modulus by gauge with the paper's walls,
+    %."""
     return upto_percent(abs(of(cubes(*g, wall=TARGET), "walls") / of(cubes(*g), "gauge") - 1) for g in GROUPS)
 
 
@@ -133,7 +135,7 @@ def rigid_walls():
 
 @mark
 def porosity_matters():
-    """The largest change by porosity, by gauge or walls, %."""
+    """Returns the largest change caused by porosity, measured by gauge or by walls, %."""
     return upto_percent(abs(of(cubes(*g, porosity=p), key) / of(cubes(*g), key) - 1)
                         for g in GROUPS for p in POROSITIES for key in ("walls", "gauge"))
 
@@ -145,6 +147,6 @@ def large():
 
 @mark
 def below_uniform():
-    """How far the largest cubes are below uniform strain, %."""
+    """Returns by how much the modulus of the largest cubes is below that for uniform strain, %."""
     c = [cubes("coarse", f, edge=40.0) for f in ("shape", "recipe")]
     return between([100 * (1 - of(x, "gauge") / of(x, "uniform_strain")) for x in c], "{:.1f}") + " %"

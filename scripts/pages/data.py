@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows of bench/results/ and how numbers are written."""
+"""Reads the files of bench/results/, and writes numbers as text in the same way on all pages."""
 import csv
 import functools
 import math
@@ -10,11 +10,11 @@ RESULTS = Path(__file__).resolve().parents[2] / "bench" / "results"
 
 
 class Missing(LookupError):
-    """A result that is not there."""
+    """A file of results does not exist."""
 
 
 def opened(name):
-    """A committed result."""
+    """Opens a committed file of results. Raises Missing if it does not exist."""
     if not (RESULTS / name).is_file():
         raise Missing(f"bench/results/{name} is not there: bench/README.md says which command makes it")
     return open(RESULTS / name, encoding="utf-8")
@@ -22,19 +22,20 @@ def opened(name):
 
 @functools.cache
 def head(name):
-    """The comment lines before a table."""
+    """Returns the comment lines of a file."""
     with opened(name) as f:
         return [line[1:].strip() for line in f if line.startswith("#")]
 
 
 @functools.cache
 def rows(name):
-    """A table of bench/results/, numbers as numbers; an empty cell is None."""
+    """Returns the rows of a table in bench/results/, with numbers as numbers; an empty cell is None."""
     with opened(name) as f:
         table = list(csv.DictReader(line for line in f if not line.startswith("#")))
     return [{key: converted(value) for key, value in row.items()} for row in table]
 
 
+# Returns a cell as a number if it is one, otherwise as text; None if it is empty.
 def converted(value):
     if value is None or value == "":
         return None
@@ -45,13 +46,15 @@ def converted(value):
 
 
 def text(name):
-    """Lines of a committed output, without its comments."""
+    """Returns the lines of a committed output without its comments."""
     with opened(name) as f:
         return [line.rstrip() for line in f if not line.startswith("#")]
 
 
 def where(table, **wanted):
-    """Rows with these values; a tuple names several, a function judges."""
+    """Returns the rows with these values; a tuple lists several allowed values, a function returns whether a value is
+    allowed.
+    Raises LookupError if there are none."""
     def fits(value, want):
         return want(value) if callable(want) else value in want if isinstance(want, tuple) else value == want
     found = [r for r in table if all(fits(r[key], want) for key, want in wanted.items())]
@@ -61,11 +64,12 @@ def where(table, **wanted):
 
 
 def listed(words):
-    """a, b and c"""
+    """Returns "a, b and c"."""
     *first, last = words
     return f"{', '.join(first)} and {last}" if first else last
 
 
+# Returns the only row with these values. Raises LookupError if there is not exactly one.
 def one(table, **wanted):
     found = where(table, **wanted)
     if len(found) != 1:
@@ -74,7 +78,7 @@ def one(table, **wanted):
 
 
 def largest(table, *keys):
-    """The largest magnitude of some columns."""
+    """Returns the largest magnitude in some columns."""
     return max(abs(r[key]) for r in table for key in keys)
 
 
@@ -84,18 +88,19 @@ def mean(values):
 
 
 def half_range(values):
-    """The one measure of spread in all tables."""
+    """Returns half the difference between largest and smallest value, the measure of spread in all tables."""
     values = list(values)
     return (max(values) - min(values)) / 2
 
 
 def minus(written):
-    """Minus signs before numbers, which hyphens in names are not."""
+    """Replaces hyphens before numbers by minus signs; hyphens in names stay."""
     return re.sub(r"(?<![\w)])-(?=[\d.])", "−", written)
 
 
 def power(x, digits=2, sign=False):
-    """6.8e-8: so many significant digits, plainly where that is as short."""
+    """Returns a number with this many significant digits as a power of ten (6.8e-8), or without one if that is as
+    short."""
     if x == 0:
         return "0"
     written = f"{x:{'+' if sign else ''}.{digits - 1}e}"
@@ -107,7 +112,7 @@ def power(x, digits=2, sign=False):
 
 
 def upto(x, digits=2):
-    """A bound of x that may be written: rounded up to so many significant digits."""
+    """Returns an upper bound of |x|: rounded up to this many significant digits."""
     if x == 0:
         return 0.0
     step = 10.0 ** (math.floor(math.log10(abs(x))) - digits + 1)
@@ -115,7 +120,7 @@ def upto(x, digits=2):
 
 
 def downto(x, digits=2):
-    """The least magnitude that may be written of x: rounded down to so many significant digits."""
+    """Returns a lower bound of |x|: rounded down to this many significant digits."""
     if x == 0:
         return 0.0
     step = 10.0 ** (math.floor(math.log10(abs(x))) - digits + 1)
@@ -123,12 +128,12 @@ def downto(x, digits=2):
 
 
 def upto_percent(shares, digits=2):
-    """The largest of some shares as a bound in percent."""
+    """Returns an upper bound of some shares in per cent."""
     return f"{upto(100 * max(shares), digits):g} %"
 
 
 def plain(x, digits=2):
-    """So many significant digits without a power of ten."""
+    """Returns a number with this many significant digits, without a power of ten."""
     decimals = max(0, digits - 1 - math.floor(math.log10(abs(x)))) if x else 0
     return f"{round(x, decimals):.{decimals}f}"
 
@@ -138,7 +143,8 @@ def thousands(x):
 
 
 def span(values, form, join=" … "):
-    """Least and largest, one number where they are written alike; form is a function or a format."""
+    """Returns smallest and largest value as text, or one number if both have the same text. form: a function or a
+    format."""
     write = form.format if isinstance(form, str) else form
     values = list(values)
     low, high = write(min(values)), write(max(values))
@@ -150,21 +156,21 @@ def between(values, form="{:.0f}"):
 
 
 def percents(shares):
-    """A range of shares in whole percents."""
+    """Returns the range of some shares in whole per cent."""
     return between(100 * share for share in shares) + " %"
 
 
 def memory(gigabytes):
-    """What a run needs at most: one rounding, upwards, on every page."""
+    """Returns the largest memory of some runs, rounded up in the same way on every page."""
     return f"{upto(max(gigabytes)):g} GB"
 
 
 def line(cells):
-    """A row of a Markdown table."""
+    """Returns a row of a Markdown table."""
     return "| " + " | ".join(str(cell) for cell in cells) + " |"
 
 
 def table(heads, lines, right=()):
-    """A Markdown table; columns in `right` are aligned so."""
+    """Returns the lines of a Markdown table. right: numbers of the columns that are aligned to the right."""
     rule = ["---:" if k in right else "---" for k in range(len(heads))]
     return [line(heads), "|" + "|".join(rule) + "|", *(line(cells) for cells in lines)]

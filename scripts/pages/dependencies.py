@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/dependencies.md: the rows of scripts/supply.csv."""
+"""Marks of docs/dependencies.md, from scripts/supply.csv."""
 import csv
 import re
 
@@ -19,13 +19,13 @@ def supply(*lists):
 
 
 def compiler_of(text):
-    """Its name and version, of the first line that it says of itself."""
+    """Returns a compiler's name and version, from the first line that its --version prints."""
     return f"{'clang' if 'clang' in text else 'gcc'} {re.search(r'[0-9]+[.][0-9]+[.][0-9]+', re.sub(r'[(].*?[)]', '', text))[0]}"
 
 
 @mark
 def distributions():
-    """What scripts/chroot-build --table measured."""
+    """Returns the table of other distributions, from scripts/chroot-build --table."""
     return table(["distribution", "compiler", "CGAL", "HDF5", "ITK", "{fmt}", "passed", "failed", "skipped", "commit"],
                  [(r["distribution"], compiler_of(r["compiler"]), *(r[c] for c in ("cgal", "hdf5", "itk", "fmt")),
                    *(thousands(r[c]) for c in ("passed", "failed", "skipped")), r["commit"]) for r in rows("distributions.csv")], range(6, 9))

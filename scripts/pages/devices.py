@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/devices.md: one specimen on several GPUs, several specimens on one or more."""
+"""Marks of docs/devices.md: one specimen on several GPUs, several specimens on one GPU or more."""
 from pages.data import head, one, rows, span, table
 from pages.marks import mark
 
@@ -53,7 +53,7 @@ def team_harmonic(loads):
 
 @mark
 def team_huge():
-    """Twice the particles on two GPUs against one."""
+    """Returns the times of twice the particles on two GPUs and of the particles on one."""
     alone = one(rows(TEAM), row="step/lattice:8e6/cuda/condensed/single/fixed")["us"]
     both = one(rows(TEAM), row="step/lattice:1.6e7/cuda/condensed/single/fixed/devices:2")["us"]
     return f"{both / 1e3:.2f} ms, and of half of it on one {alone / 1e3:.2f} ms: {100 * alone / both:.0f} %"
@@ -88,8 +88,8 @@ def many_machine():
 
 
 def many_rows(tried=True):
-    """Mean times by number of GPUs, of each commit in the order of the rows: first of the program before, last as it is now. `tried`: and
-    what was tried and not kept."""
+    """Returns the mean times by number of GPUs of each version of the program, in the order of the rows: the first is
+    the program before the changes, the last the current one. tried: include versions that were tried and not kept."""
     out = {}
     for r in rows(MANY):
         if not tried and r["how"].startswith("tried: "):
@@ -100,26 +100,26 @@ def many_rows(tried=True):
 
 @mark
 def many(program):
-    """`before` or `now`."""
+    """Returns the times on one GPU and on two, of the program `before` the changes or `now`."""
     found = many_rows()[{"before": 0, "now": -1}[program]]
     return f"{found[1]:.1f} s on one GPU and {found[2]:.1f} s on two"
 
 
 @mark
 def many_factors():
-    """Of two GPUs to one, of all but the program before."""
+    """Returns the range of the speed-up by a second GPU, of all versions after the first."""
     return span([times[1] / times[2] for times in many_rows(tried=False)[1:]], "{:.2f}", " to ")
 
 
 @mark
 def many_factor():
-    """Of two GPUs to one, of the program as it is now."""
+    """Returns the speed-up by a second GPU, of the current program."""
     times = many_rows()[-1]
     return f"{times[1] / times[2]:.2f}"
 
 
 def courses(devices):
-    """One list for each run on so many GPUs: of each GPU a row."""
+    """Returns a list for each run on this number of GPUs, with one row per GPU."""
     runs = {}
     for r in rows("many-course.csv"):
         if r["devices"] == devices:
@@ -128,20 +128,20 @@ def courses(devices):
 
 
 def of_one_gpu():
-    """Seconds to the first steps, of a specimen, and behind the last steps, on one GPU."""
+    """Returns the seconds on one GPU before the first steps, for each specimen, and after the last steps."""
     ((r,),) = courses(1)
     return r["first_steps_s"], (r["last_steps_s"] - r["first_steps_s"]) / r["specimens"], r["process_s"] - r["last_steps_s"]
 
 
 @mark
 def many_step(devices):
-    """Of each GPU, from its first step to its last one."""
+    """Returns the range of the mean time per step of each GPU, from its first step to its last one [µs]."""
     return span([1e6 * (r["last_steps_s"] - r["first_steps_s"]) / r["steps"] for run in courses(int(devices)) for r in run], "{:.1f}", " to ")
 
 
 @mark
 def many_idle():
-    """Of two GPUs, between their first and last steps."""
+    """Returns the range of the idle times of two GPUs between their first and last steps."""
     return span([r["idle_s"] for run in courses(2) for r in run], "{:.1f}", " to ")
 
 
@@ -152,20 +152,21 @@ def many_parts(part):
 
 @mark
 def many_limit():
-    """Two GPUs to one, of twenty specimens, if both began and ended at the same time."""
+    """Returns the speed-up by a second GPU for twenty specimens that would result if both GPUs began and ended at the
+    same time."""
     first, specimen, end = of_one_gpu()
     return f"{(first + 20 * specimen + end) / (first + 10 * specimen + end):.2f}"
 
 
 @mark
 def many_apart(part):
-    """How far two GPUs begin or end apart, at the most."""
+    """Returns the largest difference between the times at which two GPUs begin or end."""
     column = {"begin": "first_steps_s", "end": "last_steps_s"}[part]
     return f"{max(abs(a[column] - b[column]) for a, b in courses(2)):.1f} s"
 
 
 @mark
 def many_worst():
-    """Of all but the program before, with one GPU and with two."""
+    """Returns the largest times with one GPU and with two, of all versions after the first."""
     one_gpu, two = (max(times[n] for times in many_rows()[1:]) for n in (1, 2))
     return f"{one_gpu:.0f} s and {two:.0f} s"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""examples/ac14_ss_am2/README.md."""
+"""Marks of examples/ac14_ss_am2/README.md."""
 from pages import single_spheres
 
 DOCUMENT = "examples/ac14_ss_am2/README.md"

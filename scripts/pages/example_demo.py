@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""examples/demo/README.md: what its command prints, and the times that several pages give."""
+"""Marks of examples/demo/README.md, from the output of its command, and times that several pages give."""
 import re
 
 from pages import readme
@@ -31,7 +31,7 @@ def step_range():
 
 @mark
 def moduli():
-    """The table of frequencies as the program prints it."""
+    """Returns the table of frequencies that the program prints."""
     found = [m for m in (re.match(r" +([\d.]+) +([\d.]+) +([\d.]+) +(\S+) +(\S+) +\S+ +\d+", row) for row in text("demo-output.txt")) if m]
     return table(["f (Hz)", "\\|E\\*\\| (GPa)", "φ (degrees)", "against the harmonic solution"],
                  [[m[1], f"{float(m[2]):.3f}", f"{float(m[3]):.3f}", f"{m[4].replace('-', '−', 1)}, {m[5]} rad"] for m in found],
@@ -40,5 +40,5 @@ def moduli():
 
 @mark
 def wall(method):
-    """Seconds of the whole command on two threads of a processor, from bench/command/run."""
+    """Returns the seconds of the whole command on two threads of a processor, from bench/command/run."""
     return f"{one(rows('command-cpu.csv'), scene='demo', method=method, phase='wall')['seconds']:.1f} s"

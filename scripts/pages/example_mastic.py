@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""examples/mastic/README.md: what its command prints, beside one contact of its law."""
+"""Marks of examples/mastic/README.md: the output of its command compared with a single contact of its law."""
 import cmath
 import functools
 import math
@@ -19,13 +19,14 @@ def law():
 
 
 def contact(frequency):
-    """Complex modulus of one contact, Pa."""
+    """Returns the complex modulus of one contact [Pa]."""
     s = 2j * math.pi * frequency
     return 1 / (1 / law()["E_m"] + 1 / (law()["C_m"] * s) + sum(1 / (e + c * s) for e, c in zip(law()["E"], law()["C"])))
 
 
 def found():
-    """Frequency, |E*| in GPa, phase in degrees, difference from the harmonic solution of both."""
+    """Returns rows of frequency, |E*| in GPa, phase in degrees, and the differences of both from the harmonic
+    solution."""
     rows = [m for m in (re.match(r" +([\d.]+) +([\d.]+) +([\d.]+) +(\S+) +(\S+) +\S+ +\d+", row) for row in text("mastic-output.txt")) if m]
     return [[float(m[k]) for k in range(1, 6)] for m in rows]
 
@@ -49,7 +50,7 @@ def contact_phase():
 
 @mark
 def fraction():
-    """|E*| of the specimen over that of one contact."""
+    """Returns the range of the ratio of the specimen's |E*| to that of one contact."""
     return between([1e9 * e / abs(contact(f)) for f, e, *_ in found()], "{:.2f}")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""examples/shapes/README.md: from the tables that `macadam shapes measure examples/shapes` writes."""
+"""Marks of examples/shapes/README.md, from the tables that `macadam shapes measure examples/shapes` writes."""
 import csv
 import functools
 from pathlib import Path
@@ -54,7 +54,8 @@ def differences():
 
 @mark
 def largest_difference():
-    """The second largest: the largest is that of SI and F, which the sentence names."""
+    """Returns the second largest difference of a correlation. The largest is that of SI and F, which the sentence names
+    itself."""
     found = differences()
     assert max(found, key=found.get) == ("shape_index", "flatness")
     return f"{sorted(found.values())[-2]:.2f}"

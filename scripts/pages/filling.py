@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/filling.md: from bench/shapes/run's fill-study.csv (porosity 0.12) and fill-porosity-0.csv."""
+"""Marks of docs/filling.md, from fill-study.csv (porosity 0.12) and fill-porosity-0.csv of bench/shapes/run."""
 from paper_tables import PAPER
 from pages.data import between, mean, percents, plain, rows, table, thousands, upto_percent, where
 from pages.marks import mark
@@ -7,7 +7,7 @@ from pages.marks import mark
 DOCUMENT = "docs/filling.md"
 EQUAL = (0.5, 0.75, 1.0, 1.5, 2.0)
 RANGES = [(r, r) for r in EQUAL] + [(0.75, 1.0), (1.0, 2.0)]
-PUBLISHED = {0.5: 1568, 2.0: 24}  # the paper's Fig. 5
+PUBLISHED = {0.5: 1568, 2.0: 24}  # number of spheres by radius [mm], from the paper's Fig. 5
 RADII = {"fine": (0.75, 1.0), "coarse": (1.0, 2.0)}
 DIAMETER = 12.59  # D^I of the shapes, mm
 LENGTHS = ("long", "intermediate", "short")
@@ -22,7 +22,7 @@ def shapes():
 
 
 def kept(found, length):
-    """Mean of the clusters' dimension over the shape's."""
+    """Returns the mean ratio of a dimension of the clusters to that of their shapes."""
     return mean(r[f"d_{length}_mm"] / r[f"shape_d_{length}_mm"] for r in found)
 
 
@@ -63,7 +63,7 @@ def shorter():
 
 @mark
 def off_from(spheres):
-    """The largest deviation of a dimension over all means of clusters with so many spheres or more."""
+    """Returns the largest deviation of a mean dimension, over all clusters with at least this number of spheres."""
     of = []
     for shape in [*shapes(), "icosahedron"]:
         for low, high in sorted({(r["radius_min_mm"], r["radius_max_mm"]) for r in rows("fill-study.csv")}):
@@ -75,7 +75,7 @@ def off_from(spheres):
 
 @mark
 def papers_piece(filling):
-    """Spheres of an icosahedron of the paper's largest class."""
+    """Returns the paper's mean number of spheres per icosahedron of its largest class."""
     paper = PAPER[f"MS-Ico-{filling}"]
     return f"{paper.spheres[0] / paper.particles[0]:.0f}"
 
@@ -87,8 +87,8 @@ def papers_size(filling):
 
 @mark
 def a_piece(filling, porosity):
-    """What an icosahedron of that class's mean L^I takes: the number at 12.59 mm without voids, times the ratio of the
-    volumes and what voids leave."""
+    """Returns our number of spheres in an icosahedron with the mean L^I of that class: the number at 12.59 mm without
+    voids, times the ratio of the volumes, times the fraction 1 - porosity."""
     low, high = RADII[filling]
     found = where(rows("fill-porosity-0.csv"), shape="icosahedron", d_intermediate_mm=DIAMETER, radius_min_mm=low,
                   radius_max_mm=high)
@@ -99,7 +99,7 @@ def a_piece(filling, porosity):
 # ---- without voids
 
 def library(spheres=lambda n: n > 1):
-    """All shapes at D^I = 9 mm that are clusters."""
+    """Returns the rows of all shapes with D^I = 9 mm that are filled as clusters."""
     return where(rows("fill-porosity-0.csv"), d_intermediate_mm=9.0, spheres=spheres)
 
 
@@ -144,5 +144,5 @@ def covered():
 
 @mark
 def covered_range():
-    """Least and most of any shape covered without voids."""
+    """Returns the range of the covered fraction of a shape without voids."""
     return percents(r["covered"] for r in rows("fill-porosity-0.csv") if r["spheres"] > 1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/forecast.md: what macadam check foretells, from bench/forecast/run's forecast.csv."""
+"""Marks of docs/forecast.md: the forecasts of macadam check compared with runs, from forecast.csv of
+bench/forecast/run."""
 from pages.data import head, rows, table, thousands
 from pages.marks import mark
 
@@ -33,7 +34,7 @@ def where_measured():
 
 @mark
 def foretold_large():
-    """Gigabytes and seconds as found, each with the ratio behind it."""
+    """Returns the table of measured gigabytes and seconds, each followed by its ratio to the forecast."""
     lines = []
     for r in rows("forecast-large.csv"):
         line = [r["scene"], r["method"], r["device"] or f"{r['threads']:.0f} threads", thousands(r["particles"])]
@@ -47,6 +48,6 @@ def foretold_large():
 
 @mark
 def filled_host():
-    """Foretold of the host beside the fullest GPU, in GB."""
+    """Returns the host memory that was predicted for the run with the most GPU memory [GB]."""
     fullest = max(rows("forecast-large.csv"), key=lambda r: r["device_mb"])
     return f"{fullest['memory_foretold_mb'] / 1e3:.0f}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/index.md: what its picture shows."""
+"""Marks of docs/index.md on its picture."""
 from pages.data import one, rows
 from pages.marks import mark
 
@@ -7,7 +7,7 @@ DOCUMENT = "docs/index.md"
 
 
 def pictured():
-    """The specimen of docs/pictures/ac14_ms_poly_fine_view.png."""
+    """Returns the row of the specimen in docs/pictures/ac14_ms_poly_fine_view.png."""
     return one(rows("paper-specimens.csv"), scene="ac14_ms_poly_fine", seed=1)
 
 

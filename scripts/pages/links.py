@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links of documents to files of the repository and to headings in them."""
+"""Checks the links of documents to files of the repository and to headings in them."""
 import functools
 import posixpath
 import re
@@ -12,14 +12,14 @@ ELSEWHERE = re.compile(r"[a-z]+:")  # https:, mailto:
 
 
 def anchor(heading):
-    """GitHub's name of a heading: lower case without punctuation, blanks as hyphens."""
+    """Returns GitHub's anchor of a heading: lower case without punctuation, blanks as hyphens."""
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", VALUE.sub(r"\2", heading)).replace("\\", "")
     return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")
 
 
 @functools.lru_cache(maxsize=None)
 def anchors(text):
-    """Those of a page; of several equal headings all but the first are numbered."""
+    """Returns the anchors of a page. Of several equal headings, all but the first are numbered."""
     found, fenced = [], False
     for line in text.splitlines():
         fenced ^= line.startswith("```")
@@ -31,7 +31,7 @@ def anchors(text):
 
 
 def broken(name, lines, roots):
-    """Links to what is in none of the folders."""
+    """Returns messages for links to files or headings that are in none of the folders."""
     def file(path):
         return next((root / path for root in roots if (root / path).exists()), None)
 

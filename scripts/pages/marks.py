@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks in Markdown: the places that a script writes, and how what they write is made."""
+"""Finds marks in Markdown, which are the places that scripts/documents writes, and fills them. A mark names a function
+of the document's module, which returns the text."""
 import re
 
 from pages.data import Missing
@@ -13,19 +14,20 @@ WITHIN = re.compile(r"<!--(?:(?!-->).)*?<!--", re.S)
 
 
 def mark(function):
-    """A function whose name may stand in a mark; it returns text, or lines where it is a table."""
+    """Decorator of functions whose name may be in a mark. Such a function returns text or, for a table, a list of
+    lines."""
     function.is_mark = True
     return function
 
 
 def functions(module):
-    """Those of a document's module and of its parts."""
+    """Returns the functions for marks of a document's module and of its parts, by name."""
     return {name: f for part in (module, *getattr(module, "PARTS", ())) for name, f in vars(part).items()
             if getattr(f, "is_mark", False) and f.__module__ == part.__name__}
 
 
 def compared(name, found, expected):
-    """Lines of a page that differ."""
+    """Returns messages for the lines of a page that differ from the expected ones."""
     found, expected, wrong = found.splitlines(), expected.splitlines(), []
     for k in range(max(len(found), len(expected))):
         here, there = (lines[k] if k < len(lines) else "no line" for lines in (found, expected))
@@ -37,14 +39,14 @@ def compared(name, found, expected):
 
 
 def hidden(name, text):
-    """Marks within a comment: they would be filled, and nobody would see it."""
+    """Returns messages for marks inside an HTML comment, which would be filled without being visible."""
     return [f"{name}:{text.count(chr(10), 0, m.start()) + 1}: a mark within an HTML comment"
             for m in WITHIN.finditer(text)]
 
 
 def filled(module, modules, text, used, check):
-    """The text with its marks written anew; what is wrong, differences too if they are asked for; the lines without
-    what marks write; and what they write."""
+    """Fills the marks of a document. Returns the new text; messages about faults, and about differences if `check` is
+    set; the lines with the contents of tables removed; and the values written, each with its mark."""
     name, wrong, out, outside, written = module.DOCUMENT, hidden(module.DOCUMENT, text), [], [], {}
     lines, k = text.splitlines(), 0
 
@@ -58,11 +60,11 @@ def filled(module, modules, text, used, check):
         used.add(function)
         try:
             return function(*words[1:])
-        except Missing as error:  # said once, however many marks need it
+        except Missing as error:  # reported once, even if several marks need the file
             if not any(str(error) in line for line in wrong):
                 wrong.append(f"{name}:{number}: {error}")
             return None
-        except Exception as error:  # its reason belongs to the place of the mark
+        except Exception as error:  # reported with the position of the mark
             wrong.append(f"{name}:{number}: mark '{what}': {type(error).__name__}: {error}")
             return None
 
@@ -90,7 +92,7 @@ def filled(module, modules, text, used, check):
             continue
 
         def value(m):
-            # a line that begins with a comment is HTML to its end: nothing in it would be Markdown
+            # Markdown takes a line that begins with a comment for HTML up to its end
             if not re.sub(r"^(\s|[-*>]\s|\d+\.\s)*", "", line[:m.start()]):
                 wrong.append(f"{name}:{number}: a mark begins the line, which Markdown then takes for HTML")
             new = made(m[1], number)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the paper's figures are met: one sentence for the README, the index and the tutorial."""
+"""Marks for the sentence in the README, the index and the tutorial on how well the paper's figures are reproduced."""
 from pages.data import between, mean, minus, rows
 from pages.marks import mark
 from paper_document import deviations
@@ -11,14 +11,14 @@ COARSE = [name for name in CLUSTERS if name.endswith("coarse")]
 
 
 def beside(names, index, key):
-    """Mean deviations from the single spheres in %, ours and the paper's."""
+    """Returns mean deviations from the single spheres in %, ours and the paper's."""
     runs = {name: committed(p.scene) for name, p in PAPER.items()}
     ours = [mean(d[-1] for d in deviations(runs, name, "SS", key)) for name in names]
     return minus(f"{between(ours, '{:+.0f}')} % (paper {between([DEVIATION[name][index] for name in names], '{:+.0f}')} %)")
 
 
 def fewer_contacts():
-    """A-A contacts below the paper's, %."""
+    """Returns by how much our numbers of A-A contacts are below the paper's, %."""
     runs = {name: committed(p.scene) for name, p in PAPER.items()}
     return between([100 * (1 - mean(run.contacts[0] for run in runs[name]) / PAPER[name].contacts[0]) for name in CLUSTERS],
                    "{:.0f}")

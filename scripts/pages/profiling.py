@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/profiling.md: the operations of a step, from bench/steps/operations, and their rate."""
+"""Marks of docs/profiling.md on the operations of a step and their rate, from bench/steps/operations."""
 import re
 
 from pages.data import head, one, rows, table
@@ -16,7 +16,8 @@ def operations_machine():
 
 
 def most():
-    """Operations a second that the device can do, in single and in double precision: two of a fused one on 128 and on 64 lanes."""
+    """Returns the operations per second that the device can do in single and in double precision. Each multiprocessor
+    has 128 lanes for single and 64 for double precision, and a fused multiply-add counts as two operations."""
     multiprocessors, mhz = map(int, re.search(r"(\d+) multiprocessors at (\d+) MHz", head(COUNTED)[0]).groups())
     return 256e6 * multiprocessors * mhz, 128e6 * multiprocessors * mhz
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/python.md: from bench/python/run's python-cpu.csv."""
+"""Marks of docs/python.md, from python-cpu.csv of bench/python/run."""
 from pages.data import head, one, rows, table, thousands
 from pages.marks import mark
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""README.md."""
+"""Marks of README.md."""
 import re
 
 from pages import accuracy_asked, accuracy_elsewhere, common, data, paper_met
@@ -11,7 +11,7 @@ PARTS = (paper_met,)
 
 
 def without_times(lines):
-    """The table of a run without its last column, which is of whatever else the machine did."""
+    """Returns the table of a run without its last column, the times, which depend on the load of the machine."""
     out, cut = [], None
     for line in lines:
         if line.rstrip().endswith("time (s)"):
@@ -26,7 +26,7 @@ def without_times(lines):
 
 
 def shown(name, patterns):
-    """Lines of a committed output that match one of the patterns; `…` where a pattern is that."""
+    """Returns the lines of a committed output that match each pattern in turn; the pattern `…` gives a line `…`."""
     lines, out = without_times(text(name)), []
     for pattern in patterns:
         found = [pattern] if pattern in ("…", "") else [line for line in lines if re.match(pattern, line)]
@@ -109,14 +109,14 @@ def design_particles():
 
 @mark
 def paper_minutes():
-    """What the runs of scripts/paper-specimens took one after another."""
+    """Returns the total time of the runs of scripts/paper-specimens."""
     every = rows("paper-specimens.csv")
     return f"{plain(upto(sum(r['wall_s'] or 0 for r in every) / 60))} minutes"
 
 
 @mark
 def prediction():
-    """Largest difference of a run with `tolerance` from what was predicted, % of what was asked."""
+    """Returns the largest difference between a run with `tolerance` and its prediction, in % of the tolerance."""
     return accuracy_asked.prediction_off(accuracy_asked.asked())
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/relaxation.md: from bench/relaxation/run's relaxation.csv, a row a scene, and relaxation-curves.csv, and from
-bench/relaxation/stepped's stepped-loads.csv, a row a test."""
+"""Marks of docs/relaxation.md, from relaxation.csv (one row per scene) and relaxation-curves.csv of
+bench/relaxation/run, and from stepped-loads.csv (one row per test) of bench/relaxation/stepped."""
 from pages.data import one, power, rows, table, thousands, upto
 from pages.marks import mark
 

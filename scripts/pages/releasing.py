@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/releasing.md: the same bytes again, from scripts/reproducible --table."""
+"""Marks of docs/releasing.md on reproducible builds, from scripts/reproducible --table."""
 from pages.data import head, rows, table
 from pages.marks import mark
 

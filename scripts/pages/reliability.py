@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/reliability.md: campaigns of faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours of runs
-(tests/soak), races (scripts/races --table, scripts/gpu-sanitizers --table), mistakes on purpose (tests/mutation/campaign
---table), the same bits (tests/same_bits/run --table)."""
+"""Marks of docs/reliability.md: injected faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours
+of runs (tests/soak), races (scripts/races --table, scripts/gpu-sanitizers --table), deliberate mistakes in the code
+(tests/mutation/campaign --table), bitwise equal results (tests/same_bits/run --table)."""
 import collections
 
 from pages.data import head, rows, table
@@ -20,7 +20,7 @@ READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specim
 
 @mark
 def measured(name):
-    """When and where, as the file of results says first."""
+    """Returns the first line of a file of results, which says when and where it was measured."""
     return head(f"{name}.csv")[0]
 
 
@@ -50,7 +50,7 @@ def faults_long():
 
 @mark
 def soak():
-    """The most that was held until two thirds of the time, and in the last third."""
+    """Returns the largest memory in the first two thirds of the time and in the last third."""
     out = []
     for backend, file in SOAK:
         all_ = rows(file)
@@ -71,7 +71,7 @@ def soak():
 
 @mark
 def checked():
-    """Tests in builds with sanitizers."""
+    """Returns the table of tests in builds with sanitizers."""
     return table(["build", "ran", "failed", "left out"],
                  [(r["what"], f"{r['tests'] - r['skipped']:,.0f}", f"{r['failed']:.0f}", f"{r['skipped']:.0f}") for r in rows("checked.csv")], right=(1, 2, 3))
 
@@ -88,7 +88,7 @@ def races_programs():
 
 
 def ended_under_sanitizers(name):
-    """Tests that ended of those that use the GPU, by program and check."""
+    """Returns the table of tests that ended, out of those that use the GPU, by program and check."""
     programs = collections.defaultdict(dict)
     for r in rows(f"{name}.csv"):
         programs[r["program"]][r["check"]] = f"{r['ended']:.0f} of {r['tests'] - r['unused']:.0f}"
@@ -109,7 +109,7 @@ def gpu_sanitizers_again():
 
 @mark
 def mutation():
-    """By folder of the sources, all draws together."""
+    """Returns the table of verdicts by folder of the sources, over all samples of mistakes."""
     folders = collections.defaultdict(collections.Counter)
     for r in (r for name in MUTATION for r in rows(f"{name}.csv")):
         folder = r["file"].split("/")[:-1][:2]
@@ -120,10 +120,12 @@ def mutation():
     return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
 
 
+# Returns how many deliberate mistakes have each verdict: killed (a test noticed it), survived, and others.
 def verdicts(name):
     return collections.Counter(r["verdict"] for r in rows(f"{name}.csv"))
 
 
+# Returns how many of the mistakes that no test noticed were found to be of each kind.
 def looked_at(name):
     return collections.Counter(r["looked_at"] for r in rows(f"{name}-survivors.csv"))
 
@@ -135,20 +137,21 @@ def drawn(name):
 
 @mark
 def noticed(name):
-    """Share of the mistakes that a test comes by."""
+    """Returns the share of mistakes that were noticed, of those in code that a test runs."""
     count = verdicts(name)
     return f"{100 * count['killed'] / (count['killed'] + count['survived']):.0f} %"
 
 
 @mark
 def noticed_at_once(name):
-    """Share of those that change anything, whether or not a test comes by, without the tests that were written for them."""
+    """Returns the share of mistakes that were noticed, of all that change a result, whether or not a test runs the
+    code; tests written later because of these mistakes do not count."""
     return f"{100 * verdicts(name)['killed'] / (len(rows(f'{name}.csv')) - looked_at(name)['same']):.1f} %"
 
 
 @mark
 def chance_of_draw(name):
-    """Standard deviation of noticed_at_once()."""
+    """Returns the standard deviation of noticed_at_once() due to the random sample."""
     number = len(rows(f"{name}.csv")) - looked_at(name)["same"]
     share = verdicts(name)["killed"] / number
     return f"{100 * (share * (1 - share) / number) ** 0.5:.1f} %"
@@ -156,14 +159,14 @@ def chance_of_draw(name):
 
 @mark
 def noticed_since(name):
-    """The same, with them."""
+    """Returns noticed_at_once() including the tests that were written later because of these mistakes."""
     killed = verdicts(name)["killed"] + looked_at(name)["tested since"]
     return f"{100 * killed / (len(rows(f'{name}.csv')) - looked_at(name)['same']):.1f} %"
 
 
 @mark
 def survivors():
-    """What was seen when those that no test noticed were looked at, by draw."""
+    """Returns the table of reasons found when the mistakes that no test noticed were examined, by sample."""
     said = {"same": "no result differs, or only where two numbers are the same (`<` for `<=`)",
             "shown": "words, pictures and progress that people read", "start": "first guesses and the order of work: the end is the same",
             "beyond": "read or written beyond an array, which only the tests with sanitizers can see",
@@ -175,7 +178,8 @@ def survivors():
 
 @mark
 def not_looked_at():
-    """Mistakes that no test noticed or came by, and that nobody examined, by draw."""
+    """Returns the numbers of mistakes that no test noticed, in code that no test runs, and that nobody examined, by
+    sample."""
     left = {draw: len(rows(f"{name}.csv")) - verdicts(name)["killed"] - sum(looked_at(name).values()) for name, draw in zip(MUTATION, DRAWS)}
     return " and ".join(f"{number} of the {draw} draw, which no test comes by" for draw, number in left.items() if number)
 

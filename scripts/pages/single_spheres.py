@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the pages of examples/ac14_ss_am1 and _am2 say of their specimen, which is the same: from the output of their commands."""
+"""Marks of the pages of examples/ac14_ss_am1 and _am2 on their specimen, which is the same, from the output of their
+commands."""
 import re
 
 from pages.data import table, text
@@ -21,7 +22,7 @@ def composition():
 
 @mark
 def size():
-    """Particles and contacts by pair."""
+    """Returns the numbers of particles and of contacts, also by pair."""
     m = line(r"(\d+) particles, (\d+) contacts \(([^)]*)\)")
     pairs = re.sub(r"\d+", lambda n: f"{int(n[0]):,}", m[3])
     return f"{int(m[1]):,} particles, {int(m[2]):,} contacts ({pairs})"

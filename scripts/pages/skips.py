@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/skips.md: from bench/skips' skips.csv."""
+"""Marks of docs/skips.md, from skips.csv of bench/skips."""
 from pages.data import head, minus, power, rows, table, upto_percent
 from pages.marks import mark
 
@@ -28,7 +28,7 @@ def saved():
 
 @mark
 def twice():
-    """The same step measured in two rows: how far apart."""
+    """Returns the largest difference between two measurements of the same step in different rows."""
     times = {}
     for r in rows("skips.csv"):
         for way in ("with", "without"):

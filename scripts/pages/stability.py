@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/stability.md, the whole page: from bench/stability's table."""
+"""Writes the page docs/stability.md from the table of bench/stability."""
 import math
 import re
 
@@ -10,7 +10,7 @@ COLUMNS = ["case", "backend, precision", "measured quantity", "expected", "becau
 
 
 def file():
-    """The committed table, named after its machine."""
+    """Returns the name of the committed table, which contains the machine's name. Exits if there is not exactly one."""
     files = sorted(f.name for f in RESULTS.glob("stability-*.csv"))
     if len(files) != 1:
         raise SystemExit(f"bench/results/ has {len(files)} tables stability-*.csv: of one machine the page is made")
@@ -31,13 +31,12 @@ def expected(row):
 
 
 def cell(text):
-    """A pipe within a cell would end it."""
+    """Returns the text of a cell with escaped pipes, which would otherwise end the cell."""
     return text.replace("|", "\\|")
 
 
 def computed():
-    """Every computed step against the true limit: the least and the largest, the worst and the best networks among
-    them."""
+    """Returns the smallest and the largest ratio of the computed step to the true limit, over all networks."""
     found = [r["measured"] for r in rows(file()) if r["quantity"].endswith("computed / true limit")
              and not r["quantity"].startswith("mean")]
     return min(found), max(found)
@@ -94,7 +93,7 @@ def failures(table_of):
 
 
 def shown(found):
-    """All lines but details that pass."""
+    """Returns all lines except details that pass."""
     return [r for r in found if r["detail"] != 1 or r["verdict"] != "pass"]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/start.md: what its command prints."""
+"""Marks of docs/start.md, from the output of its command."""
 import re
 
 from pages.data import text
@@ -25,7 +25,7 @@ def number(pattern):
 
 @mark
 def took():
-    """The whole command, from the comment of the committed output."""
+    """Returns the time of the whole command, from the comment in the committed output."""
     return f"{number(r'^the whole command: ([0-9.]+) s'):.0f} seconds"
 
 
@@ -36,5 +36,5 @@ def aggregates():
 
 @mark
 def single():
-    """Aggregates that are one sphere."""
+    """Returns the number of aggregates that are a single sphere."""
     return f"{number(r'^of these single spheres: ([0-9]+)'):.0f}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/studies.md: from bench/study/run's study.csv, a row a result, and study-time.csv."""
+"""Marks of docs/studies.md, from study.csv (one row per result) and study-time.csv of bench/study/run."""
 from pages.data import between, mean, rows, table, where
 from pages.marks import mark
 
@@ -7,7 +7,7 @@ DOCUMENT = "docs/studies.md"
 
 
 def of(voids, binder):
-    """|E*| of the seeds of a mix, MPa."""
+    """Returns |E*| of a mix for each seed [MPa]."""
     return [r["e_star_mpa"] for r in where(rows("study.csv"), air_voids_percent=voids, binder_percent=binder)]
 
 
@@ -16,7 +16,7 @@ def values(name):
 
 
 def scatter(found):
-    """Standard deviation of the seeds of each mix over their mean, pooled."""
+    """Returns the standard deviation of the seeds of a mix relative to their mean, pooled over all mixes."""
     spread = [sum((e / mean(es) - 1) ** 2 for e in es) / (len(es) - 1) for es in found]
     return mean(spread) ** 0.5
 
@@ -55,13 +55,13 @@ def particles():
 
 @mark
 def seeds():
-    """Pooled standard deviation of single seeds, %."""
+    """Returns the pooled standard deviation of single seeds, %."""
     return f"{100 * scatter([of(v, b) for v in values('air_voids_percent') for b in values('binder_percent')]):.1f}"
 
 
 @mark
 def lost(name):
-    """|E*| from the least to the most of one factor, the mean over the other, %."""
+    """Returns the loss of |E*| from the lowest to the highest value of one factor, averaged over the other, %."""
     other = values("binder_percent" if name == "air_voids_percent" else "air_voids_percent")
     first, last = (mean(mean(of(v, o) if name == "air_voids_percent" else of(o, v)) for o in other)
                    for v in (values(name)[0], values(name)[-1]))

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/ct-twin.md: from bench/ct/twin.py's ct-twin.csv, a row a specimen and frequency."""
+"""Marks of docs/ct-twin.md, from ct-twin.csv of bench/ct/twin.py, which has one row per specimen and frequency."""
 from pages.data import mean, minus, one, rows, table, where
 from pages.marks import mark
 
 DOCUMENT = "docs/ct-twin.md"
 KINDS = {"truth": "twin of the truth", "segmented": "twin of the segmentation", "repacked": "another of the mixture"}
-REPACKED = 1000  # as in twin.py
+REPACKED = 1000  # offset of the seeds of repacked specimens, the same as in bench/ct/twin.py
 CASES = ("whole", "sawn")
 
 
@@ -18,7 +18,7 @@ def frequencies():
 
 
 def differences(case, kind, frequency, key):
-    """From the source: of |E*| in %, of the phase angle in degrees."""
+    """Returns the differences of twins from their sources: of |E*| in %, of the phase angle in degrees."""
     out = []
     for source in sources(case, frequency):
         seed = source["seed"] + (REPACKED if kind == "repacked" else 0)
@@ -62,7 +62,7 @@ def seeds(case):
 
 @mark
 def worst(kind, key):
-    """Over all cases, seeds and frequencies."""
+    """Returns the largest difference over all cases, seeds and frequencies."""
     values = [abs(d) for case in CASES for hz in frequencies() for d in differences(case, kind, hz, key)]
     return f"{max(values):.1f} %" if key == "e_star_pa" else f"{max(values):.2f}°"
 
@@ -74,7 +74,7 @@ def lower_frequency():
 
 @mark
 def phase_difference(case):
-    """Mean over the seeds of the segmentation's twins, and its standard error."""
+    """Returns the mean difference over the seeds of the twins of the segmentation, and its standard error."""
     of = differences(case, "segmented", frequencies()[0], "phase_deg")
     error = (sum((d - mean(of)) ** 2 for d in of) / (len(of) - 1) / len(of)) ** 0.5
     if abs(mean(of)) > 2 * error:
@@ -84,6 +84,6 @@ def phase_difference(case):
 
 @mark
 def stiffer(kind):
-    """|E*| of twins of sawn specimens over that of their sources."""
+    """Returns the mean deviation of |E*| of twins of sawn specimens from that of their sources."""
     of = [d for hz in frequencies() for d in differences("sawn", kind, hz, "e_star_pa")]
     return minus(f"{mean(of):+.1f} %")

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of documents that stand in no mark: tables, sentences, and values that a mark writes elsewhere."""
+"""Finds numbers in documents that are not in a mark: in tables, in sentences, and values that a mark writes at another
+place."""
 import csv
 import re
 import subprocess
 
 from pages.marks import ANY, BY_HAND, VALUE
 
-# A table's delimiter row, in a quote or a list too
+# The delimiter row of a Markdown table, also in a quote or a list
 DELIMITER = re.compile(r"^[\s>]*([-*+] +|\d+[.)] +)?(?=.*\|)\|?( *:?-+:? *\|)* *:?-*:? *$")
 CODE = re.compile(r"`[^`]*`")
 LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
@@ -15,13 +16,15 @@ UNITS = set("""a about above and at below by contacts cycle cycles day days each
 kg least less many MB MiB m minute minutes mm more most MPa ms ns µs of or over Pa particles per s second seconds
 several spheres step steps TB than the times to up within x e""".split())
 CLAIM = re.compile(r"\b(?:no chance|by chance alone|negligib\w+|insignificant)\b|\bis (?:low|high)\b(?! enough)")
-DEFINES = ("default", "key")  # heads of columns that define and do not measure
-STRICT = ("README.md", "bench/README.md", "docs/accuracy.md", "docs/skips.md")  # whose sentences are looked at too
+DEFINES = ("default", "key")  # heads of columns with definitions instead of measured numbers
+# documents whose sentences are checked too
+STRICT = ("README.md", "bench/README.md", "docs/accuracy.md", "docs/skips.md")
 MEASURED = re.compile(r"(?<![\w.])\d[\d.,]*(?:e[+\-−]?\d+|[  ]?(?:%|°|s\b|ms\b|µs\b|GB\b))")
 
 
 def documents(root):
-    """Every Markdown file: those that git knows or would add; without git, all but what is built."""
+    """Returns every Markdown file: those that git tracks or would add; without git, all except those in build
+    folders."""
     if (root / ".git").exists():
         try:
             found = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "*.md"], cwd=root, check=True,
@@ -34,12 +37,12 @@ def documents(root):
 
 
 def plain(text):
-    """Without marks, code and links."""
+    """Returns a text without its marks, code and links."""
     return LINK.sub(r"\1", CODE.sub("", VALUE.sub("", text)))
 
 
 def is_number(cell):
-    """A digit, and beside numbers nothing but units."""
+    """Whether a cell contains a digit, and other than numbers only units."""
     cell = plain(cell)
     if not re.search(r"\d", cell):
         return False
@@ -51,7 +54,7 @@ def cells(line):
 
 
 def tables(name, lines):
-    """Tables with numbers. One of which a comment says that it is by hand, and why, is passed over."""
+    """Returns messages for tables with numbers outside marks. A table after a comment `by hand: REASON` is ignored."""
     wrong = []
     for k in range(1, len(lines)):
         if not DELIMITER.match(lines[k]) or "|" not in lines[k - 1] + lines[k]:
@@ -73,13 +76,13 @@ def tables(name, lines):
 
 
 def allowed(file):
-    """Of scripts/pages/by-hand.csv: document, text and why its numbers are not measured here."""
+    """Reads scripts/pages/by-hand.csv: document, text, and the reason why the text's numbers are not measured here."""
     with open(file, encoding="utf-8") as f:
         return list(csv.DictReader(line for line in f if not line.startswith("#")))
 
 
 def sentences(name, lines, by_hand):
-    """What looks measured in a sentence: a power of ten, or a number with a unit."""
+    """Returns messages for numbers in sentences that look measured: a power of ten, or a number with a unit."""
     wrong, entries = [], [e for e in by_hand if e["document"] == name]
     missing = {e["text"] for e in entries}
     for k, line in enumerate(lines):
@@ -95,7 +98,7 @@ def sentences(name, lines, by_hand):
 
 
 def claims(name, text):
-    """Sentences that judge a size without a number: "φ is low, and this is no chance"."""
+    """Returns messages for sentences that judge a size without a number: "φ is low, and this is no chance"."""
     wrong = []
     for paragraph in re.split(r"\n\s*\n", text):
         if paragraph.lstrip().startswith(("|", "    ")):
@@ -108,17 +111,18 @@ def claims(name, text):
 
 
 def copied(name, lines, written):
-    """Values that a mark writes at one place and a hand at another."""
+    """Returns messages for values that a mark writes at one place and that are typed by hand at another."""
     wrong, lines = [], ["" if line.startswith("    ") else plain(line) for line in lines]
     for value, what in written.items():
         if len(re.findall(r"\d", value)) < 2 or len(value) < 4 or "asserted" in what:
-            continue  # too short to be told from another number, or one that the text may ask for as well
+            continue  # too short to be distinguished from other numbers, or a limit that the text may name as well
         place = re.compile(rf"(?<![\w.,·]){re.escape(value)}(?![\w,.]*\d)")
         wrong += [f"{name}:{k + 1}: '{value}' is typed by hand; the mark '{what}' writes it elsewhere"
                   for k, line in enumerate(lines) if value in line and place.search(line)]
     return wrong
 
 
+# Returns messages for marks in a document that has no module.
 def without_module(name, lines):
     return [f"{name}:{k + 1}: a mark, but scripts/pages/ has no module of this document: '{line.strip()}'"
             for k, line in enumerate(lines) if ANY.search(line) and not BY_HAND.match(line)]

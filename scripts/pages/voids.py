@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/voids.md: from bench/voids/run's voids.csv, a row a specimen and frequency."""
+"""Marks of docs/voids.md, from voids.csv of bench/voids/run, which has one row per specimen and frequency."""
 from pages.data import between, mean, minus, rows, table, where
 from pages.marks import mark
 
@@ -21,7 +21,7 @@ def found(size, fraction, frequency):
 
 
 def over_none(size, fraction, frequency):
-    """Mean of |E*| over that of the same seeds without voids, %."""
+    """Returns the mean deviation of |E*| from that of the same seeds without voids, %."""
     none = {r["seed"]: r["e_star_pa"] for r in found(size, 0, frequency)}
     return mean(100 * (r["e_star_pa"] / none[r["seed"]] - 1) for r in found(size, fraction, frequency))
 
@@ -50,7 +50,7 @@ def moduli():
 
 @mark
 def a_point():
-    """Loss of |E*| for each point of voids up to the most, %."""
+    """Returns the loss of |E*| per percentage point of voids, up to the largest fraction, %."""
     most = fractions()[-1]
     return between([-over_none(s, most, hz) / (100 * most) for s in radii() for hz in FREQUENCIES], "{:.1f}") + " %"
 
@@ -73,13 +73,13 @@ def smallest_fraction():
 
 @mark
 def first_points():
-    """Loss of |E*| for each point of the smallest fraction, %."""
+    """Returns the loss of |E*| per percentage point of voids, up to the smallest fraction, %."""
     least = fractions()[1]
     return between([-over_none(s, least, hz) / (100 * least) for s in radii() for hz in FREQUENCIES], "{:.1f}") + " %"
 
 
 def risen():
-    """Change of the phase angle, and the fraction at which it is."""
+    """Returns changes of the phase angle, each with the fraction of voids."""
     return [(turned(s, f, hz), f) for s in radii() for hz in FREQUENCIES for f in fractions()[1:]]
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reports: one self-contained HTML file from any result folders of macadam.
 
-The module can be called as its function `report`. matplotlib is imported when a report is asked for."""
+The module itself can be called like its function `report`. matplotlib is imported when a report is made."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["ReportError", "report"]
 
 
+# The module's type. It makes `macadam.report(...)` callable, and imports the other names when they are first used.
 class _Callable(types.ModuleType):
     def __call__(self, dirs: str | Path | Iterable[str | Path], out: str | Path, title: str | None = None) -> Path:
         from macadam.report.document import report

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""macadam report DIR [DIR…] --out report.html"""
+"""The command `macadam report DIR [DIR…] --out report.html`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from macadam.report import ReportError, report
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command; its exit code: 0 written, 1 it could not be written, 2 the input is wrong."""
+    """Runs the command. Returns its exit code: 0 the report was written, 1 it could not be written, 2 wrong input."""
     parser = argparse.ArgumentParser(
         prog="macadam report",
         description="One HTML file of what is in result folders: mix, "

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contacts by type, the share of the stiffness that each carries, and what |E*| and the phase angle depend on."""
+"""Section of the report on contacts: their number and area by type, the share of E* that each type carries, and the
+sensitivities of |E*| and phase angle to the parameters of the laws."""
 
 from __future__ import annotations
 
@@ -19,9 +20,10 @@ NAMES = {
     "A-W": "aggregate – wall",
     "M-W": "mastic – wall",
 }
-MOST = 10  # parameters shown
+MOST = 10  # largest number of parameters in the picture of sensitivities
 
 
+# Adds the sections on contacts and sensitivities for the folders that are runs.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run" and f.summary.get("contacts")]
     if runs:
@@ -50,6 +52,7 @@ def add(page: Page, folders: list[Folder]) -> None:
         _sensitivities(page, folder)
 
 
+# Draws the number of contacts of each type.
 def _numbers(folders: list[Folder]) -> Any:
     pairs = [p for p in NAMES if any(f.summary["contacts"].get(p) for f in folders)]
     figure, axes = look.figure(look.WIDE, 0.6 + 0.2 * len(pairs) * (1 + 0.5 * len(folders)))
@@ -92,6 +95,7 @@ def _numbers_caption(folders: list[Folder]) -> str:
     return " ".join(words)
 
 
+# Adds a table of the facets' areas by type of contact.
 def _areas(page: Page, folder: Folder) -> None:
     table = folder.table("contacts.csv", ["pair", "area", "distance"])
     rows = []
@@ -115,6 +119,7 @@ def _areas(page: Page, folder: Folder) -> None:
     )
 
 
+# Adds a picture of the share of E* that each type of contact carries, for at most 12 frequencies.
 def _shares(page: Page, folder: Folder) -> None:
     rows = _at_first_temperature([r for r in folder.by_frequency if r.get("shares")])[:12]
     if not rows:
@@ -140,6 +145,8 @@ def _shares(page: Page, folder: Folder) -> None:
     )
 
 
+# Adds a picture of the change of |E*| and phase angle by 10 % of each parameter, at the lowest and the highest
+# frequency.
 def _sensitivities(page: Page, folder: Folder) -> None:
     rows = _at_first_temperature([r for r in folder.by_frequency if r.get("sensitivities")])
     ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
@@ -150,7 +157,7 @@ def _sensitivities(page: Page, folder: Folder) -> None:
         }
         for r in ends
     ]
-    # delta of a pair is all its moduli together and would repeat them
+    # a pair's delta scales all its moduli, so its sensitivity would repeat theirs
     names = [n for n in effects[0] if not n.endswith(".delta")]
     names.sort(key=lambda n: -max(abs(e.get(n, (0, 0))[0]) for e in effects))
     names = names[:MOST]
@@ -181,12 +188,14 @@ def _sensitivities(page: Page, folder: Folder) -> None:
 
 
 def _at_first_temperature(results: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Returns the results at the first one's temperature, by frequency, so that only the frequency differs between them."""
+    """Returns the results at the temperature of the first one, sorted by frequency, so that only the frequency
+    differs."""
     return sorted(
         (r for r in results if r.get("temperature_c") == results[0].get("temperature_c")), key=lambda r: r["frequency_hz"]
     )
 
 
+# Returns frequency and temperature of a result as text.
 def _at(result: dict[str, Any]) -> str:
     t = result.get("temperature_c")
     return look.hertz(result["frequency_hz"]) + ("" if t is None else f", {t:g} °C")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the program decided and skipped and why, its warnings, where the time went, version and machine."""
+"""Sections of the report on the run: the program's decisions and skips with their reasons, its warnings, wall times,
+version and machine."""
 
 from __future__ import annotations
 
@@ -24,6 +25,7 @@ _TIMES = {
 }
 
 
+# Adds the section on decisions and skips.
 def add_decisions(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     page.section("What was decided and left out, and why")
@@ -46,6 +48,7 @@ def add_decisions(page: Page, folders: list[Folder]) -> None:
             )
 
 
+# Returns the skipped computations of a run as an HTML list.
 def _skips(folder: Folder) -> str:
     return (
         "<ul>"
@@ -58,6 +61,7 @@ def _skips(folder: Folder) -> str:
     )
 
 
+# Adds the section on method, wall times, version and machine.
 def add_run(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     if not runs:
@@ -78,11 +82,13 @@ def add_run(page: Page, folders: list[Folder]) -> None:
         )
 
 
+# Returns the wall time of a stage as text; a dash if the run did not record it.
 def _time(folder: Folder, name: str) -> str:
     value = (folder.summary.get("timing_s") or {}).get(name)
     return "–" if value is None else look.seconds(value)
 
 
+# Returns names and values of the facts about a run.
 def _facts(folder: Folder) -> list[tuple[str, Any]]:
     s = folder.summary
     solver, machine = s.get("solver") or {}, s.get("machine") or folder.of_study.get("machine")
@@ -110,7 +116,8 @@ def _facts(folder: Folder) -> list[tuple[str, Any]]:
 
 
 def add_warnings(page: Page, folders: list[Folder]) -> None:
-    """What a reader must know before any number; nothing where all is well."""
+    """Adds paragraphs that a reader must see before any number: an incomplete run, warnings, a tolerance not kept. Adds
+    nothing if there is no such thing."""
     for f in folders:
         of = f"{f.label}: " if len(folders) > 1 else ""
         status = f.summary.get("status")

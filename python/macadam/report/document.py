@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report: reads folders, adds every section, writes one file."""
+"""Makes the report: reads the folders, adds every section and writes one file."""
 
 from __future__ import annotations
 
@@ -26,16 +26,18 @@ _KINDS = {
 
 
 def report(dirs: str | Path | Iterable[str | Path], out: str | Path, title: str | None = None) -> Path:
-    """Writes one self-contained HTML file of what is in the result folders.
+    """Writes one self-contained HTML file about the contents of the result folders.
 
-    dirs: one folder or several, which then stand side by side. out: the file; its folder is made. title: of the page.
-    Returns the file. Raises ReportError where a folder is not one of results, or a file in it cannot be read."""
+    dirs: one folder, or several, which are shown side by side. out: the file; its folder is made if needed. title:
+    title of the page. Returns the file. Raises ReportError if a folder is not a results folder, or a file in it cannot
+    be read."""
     folders = read_all([dirs] if isinstance(dirs, (str, Path)) else list(dirs))
     with look.style():
         page = _page(folders)
     return write(page, out, title or _title(folders), _subtitle(folders))
 
 
+# Returns the page with the sections of all modules. A section without content is not shown.
 def _page(folders: list[Folder]) -> Page:
     page = Page(len(folders) > 1)
     _overview(page, folders)
@@ -57,7 +59,8 @@ def _page(folders: list[Folder]) -> Page:
 
 
 def write(page: Page, out: str | Path, title: str, subtitle: str) -> Path:
-    """The page as a file, whole or not at all."""
+    """Writes the page to a file and returns the file. After an error there is no incomplete file. Raises ReportError if
+    `out` is a folder."""
     out = Path(out)
     if out.is_dir():
         raise ReportError(f"{out}: found a folder, expected the name of a file to write")
@@ -87,7 +90,8 @@ def _title(folders: list[Folder]) -> str:
 
 
 def _name(folder: Folder) -> str:
-    """Returns the name of the scene's file, or of its folder if the file is called scene.toml. Without a scene: the label."""
+    """Returns the name of the scene's file, or of its folder if the file is called scene.toml. If the folder has no
+    scene, returns its label."""
     scene = Path(str(folder.summary.get("scene") or ""))
     name = scene.parent.name if scene.stem == "scene" else scene.stem
     return name or folder.label
@@ -103,6 +107,7 @@ def _subtitle(folders: list[Folder]) -> str:
     )
 
 
+# Adds warnings, and sentences about a single folder or a table of several.
 def _overview(page: Page, folders: list[Folder]) -> None:
     page.section("In short")
     decisions.add_warnings(page, folders)
@@ -117,6 +122,7 @@ def _overview(page: Page, folders: list[Folder]) -> None:
     )
 
 
+# Returns the kind of the folder, or the test of a run, for the table of several folders.
 def _what(f: Folder) -> str:
     if f.kind != "run":
         return _KINDS[f.kind]
@@ -125,6 +131,7 @@ def _what(f: Folder) -> str:
     return f.in_time["kind"] if f.in_time else f"|E*| by method {(f.summary.get('solver') or {}).get('method', '–')}"
 
 
+# Returns the most important results of a folder on one line; a dash if there are none.
 def _found(f: Folder) -> str:
     if f.by_frequency:
         rows = sorted(f.by_frequency, key=lambda r: (r.get("temperature_c") or 0, r["frequency_hz"]))
@@ -148,6 +155,7 @@ def _found(f: Folder) -> str:
     return "–"
 
 
+# Returns |E*| and phase angle at one frequency as text.
 def _point(r: dict[str, Any]) -> str:
     t = r.get("temperature_c")
     return (
@@ -157,13 +165,13 @@ def _point(r: dict[str, Any]) -> str:
 
 
 def _strength(f: Folder) -> str:
-    """Peak stress and its strain of a test of a specimen that can break."""
+    """Returns peak stress and the strain at it, for a test of a specimen that can break."""
     stress, strain = f.in_time["strength_pa"], f.in_time["strain_at_peak"]
     return f"strength of {look.modulus(stress)} at a strain of {look.number(1e6 * strain, 3)} µm/m"
 
 
 def _broken(f: Folder) -> str:
-    """How many contact points broke, by pair; empty where none can."""
+    """Returns how many contact points broke, by pair, in a sentence; empty if no law can break."""
     pairs = {pair: c for pair, c in (f.summary.get("cracks") or {}).items() if c["points"]}
     if "cracks" not in f.summary:
         return ""
@@ -177,6 +185,7 @@ def _broken(f: Folder) -> str:
     return f"Broken contact points: {each}."
 
 
+# Returns the sentences that summarise one folder.
 def _words(f: Folder) -> list[str]:
     s, words = f.summary, []
     if f.in_time and f.in_time.get("strength_pa") is not None:
@@ -194,7 +203,8 @@ def _words(f: Folder) -> list[str]:
         words.append(f"Its |E*| and phase angle are {' and '.join(_point(r) for r in ends)}.")
     elif f.in_time:
         words.append(f"Test: {f.in_time['kind']}. Found: {_found(f)}.")
-        rupture = f.in_time.get("rupture") if f.in_time["kind"] == "monotonic" else None  # a warning says it of the others
+        # other tests report it as a warning
+        rupture = f.in_time.get("rupture") if f.in_time["kind"] == "monotonic" else None
         words += [w for w in ((rupture or {}).get("words"), _broken(f)) if w]
     elif f.kind == "run":
         words.append("The folder holds the specimen and its contacts; no test was run in it.")

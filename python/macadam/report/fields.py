@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of field files (docs/fields.md) by PyVista, without a screen: particles as spheres, contacts as tubes, cells."""
+"""Draws pictures of field files (docs/fields.md) with PyVista, without a screen: particles as spheres, contacts as
+tubes, cells as polygons."""
 
 from __future__ import annotations
 
@@ -17,9 +18,10 @@ from macadam.report import look
 from macadam.report.folders import Folder, ReportError
 from macadam.report.page import Page
 
-MOST = 4  # folders whose fields are drawn
-STRONGEST = 0.06  # of the contacts are drawn
-# of a file by its name: arrays of which the first that is there is drawn, factor, what it is with its unit
+MOST = 4  # largest number of folders whose fields are drawn
+STRONGEST = 0.06  # fraction of the contacts that is drawn, those with the largest forces
+# by kind of file: names of arrays, the first of which that the file has is drawn; factor of its numbers; its label with
+# unit
 _SHOWN = {
     "particles": (("displacement_amplitude", "displacement"), 1e6, "displacement (µm)"),
     "contacts": (("normal_force_amplitude", "normal_force"), 1.0, "normal force (N)"),
@@ -27,7 +29,8 @@ _SHOWN = {
 
 
 def add(page: Page, folders: list[Folder]) -> None:
-    """Of each run that wrote fields: its particles and its contacts at the first frequency or at the last time."""
+    """Adds pictures of particles and contacts for each run that wrote fields, at its first frequency or its last
+    time."""
     found = [(f, _files(f)) for f in folders if f.kind == "run"]
     found = [(f, files) for f, files in found if files]
     if not found:
@@ -58,8 +61,8 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def cannot_draw() -> str:
-    """Why no picture of fields can be made here; empty where one can. Tried in a process of its own: where no library
-    of OpenGL draws without a screen, VTK ends the process."""
+    """Returns why pictures of fields cannot be drawn on this machine; empty if they can. This is tried in a separate
+    process, because VTK ends the process if no OpenGL library can draw without a screen."""
     if importlib.util.find_spec("pyvista") is None:
         return "the Python package PyVista is not installed"
     line = "import pyvista as p; t = p.Plotter(off_screen=True); t.add_mesh(p.Cube()); t.screenshot(return_img=True)"
@@ -71,7 +74,8 @@ def cannot_draw() -> str:
 
 
 def _files(folder: Folder) -> dict[str, Path]:
-    """One file of particles and one of contacts: those of the lowest frequency, of a series of .vtp the last frame."""
+    """Returns one file of particles and one of contacts, by kind: those of the lowest frequency, and of a series of
+    .vtp files the last frame."""
     chosen = {}
     for kind in _SHOWN:
         files = [p for end in ("vtkhdf", "vtp") for p in (folder.path / "fields").glob(f"{kind}*.{end}")]
@@ -82,7 +86,7 @@ def _files(folder: Folder) -> dict[str, Path]:
 
 
 def _frequency(file: Path) -> float:
-    """That in the name, such as particles_20Hz.vtkhdf."""
+    """Returns the frequency in a file's name, such as particles_20Hz.vtkhdf; 0 if there is none."""
     try:
         return float(file.stem.split("_")[1].removesuffix("Hz"))
     except (IndexError, ValueError):
@@ -102,18 +106,21 @@ def figure(
     limits: tuple[float, float] | None = None,
     size: tuple[float, float] = (look.WIDE / 2, 3.3),
 ) -> tuple[Any, str]:
-    """A matplotlib figure of a .vtkhdf or .vtp file, coloured by an array, and what it shows.
+    """Returns a matplotlib figure of a .vtkhdf or .vtp file, coloured by an array, and a sentence that says what it
+    shows.
 
-    names: of the array; of several the first that the file has. Vectors are shown by their length. factor: multiplies the
-    numbers, 1e6 for micrometres. frame: of a file with time, from 0, or from the end. half: without what lies in front
-    of the middle of the box. least: without what has less. strongest: the share of those that have most which is drawn.
-    limits: of the colours. size: inches."""
+    names: name of the array; if several are given, the first that the file has. Vectors are shown by their length.
+    factor: multiplies the numbers, 1e6 for micrometres. frame: number of the frame in a file with time, from 0, or
+    negative from the end. half: leave out everything in front of the middle of the box. least: leave out everything
+    with a smaller value. strongest: draw only this fraction, that with the largest values. limits: range of the
+    colours. size: [inches]."""
     data = _read(Path(file), frame)
     name, of_points = _array(data, Path(file), (names,) if isinstance(names, str) else names)
     values = (data.point_data if of_points else data.cell_data)[name]
     values = factor * (np.linalg.norm(values, axis=1) if values.ndim > 1 else np.asarray(values, float))
     (data.point_data if of_points else data.cell_data)["shown"] = values
-    low, high = limits or (float(values.min()), float(np.quantile(values, 0.999)))  # few that have most hide no others
+    # not the maximum: a few very large values would hide the others
+    low, high = limits or (float(values.min()), float(np.quantile(values, 0.999)))
     words, box = [f"{label or name}, {Path(file).name}"], data.bounds
     if half:
         words.append("what lies in front of the middle is taken away")
@@ -132,11 +139,12 @@ def figure(
     return made, f"{text[:1].upper()}{text[1:]}."
 
 
+# Reads one frame of a field file as a PyVista mesh. Raises ReportError if that is impossible.
 def _read(file: Path, frame: int) -> Any:
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
 
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # what is wrong with a file is said below
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # errors are reported below
     try:
         reader = pyvista.get_reader(file)
         frames = _frames(reader)
@@ -145,7 +153,7 @@ def _read(file: Path, frame: int) -> Any:
         if frames > 1:
             reader.reader.SetStep(frame % frames)
         data = reader.read()
-    except Exception as error:  # VTK's and PyVista's have no class of their own
+    except Exception as error:  # errors of VTK and PyVista have no common class
         raise ReportError(f"{file}: {' '.join(str(error).split())}") from None
     if not data.n_points:
         raise ReportError(f"{file}: found no points, expected a file of particles, contacts or cells")
@@ -153,7 +161,7 @@ def _read(file: Path, frame: int) -> Any:
 
 
 def _frames(reader: Any) -> int:
-    """Returns the number of frames. PyVista's reader of .vtkhdf does not know times; the VTK reader within it does."""
+    """Returns the number of frames. PyVista's reader of .vtkhdf cannot read times, but the VTK reader within it can."""
     vtk = reader.reader
     if not hasattr(vtk, "GetNumberOfSteps"):
         return 1
@@ -161,6 +169,7 @@ def _frames(reader: Any) -> int:
     return max(1, vtk.GetNumberOfSteps())
 
 
+# Returns the name of the first array that the mesh has, and whether it belongs to points (otherwise to cells).
 def _array(data: Any, file: Path, names: tuple[str, ...]) -> tuple[str, bool]:
     for name in names:
         if name in data.point_data or name in data.cell_data:
@@ -170,7 +179,7 @@ def _array(data: Any, file: Path, names: tuple[str, ...]) -> tuple[str, bool]:
 
 
 def _those(data: Any, chosen: np.ndarray, of_points: bool) -> Any:
-    """What is left of it, with its arrays."""
+    """Returns the chosen points (of_points) or cells of a mesh, with their arrays."""
     import pyvista
 
     if of_points:
@@ -181,6 +190,7 @@ def _those(data: Any, chosen: np.ndarray, of_points: bool) -> Any:
     return data.extract_cells(np.flatnonzero(chosen)).extract_surface(algorithm=None)
 
 
+# Returns the half of a mesh that is farther from the eye: larger y than the middle of the box.
 def _behind(data: Any) -> Any:
     low, high = data.bounds[2:4]
     middle = 0.5 * (low + high)
@@ -190,7 +200,7 @@ def _behind(data: Any) -> Any:
 
 
 def _shapes(data: Any) -> Any:
-    """Spheres of the particles' radii, tubes, or the polygons themselves."""
+    """Returns the surfaces to draw: spheres with the particles' radii, tubes for lines, or the polygons themselves."""
     import pyvista
 
     if "radius" in data.point_data:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results of `macadam calibrate` and `macadam fit`: parameters found, and measured beside predicted moduli."""
+"""Sections of the report on results of `macadam calibrate` and `macadam fit`: the parameters found, and measured and
+predicted moduli in one picture."""
 
 from __future__ import annotations
 
@@ -14,6 +15,7 @@ from macadam.report.modulus import decades
 from macadam.report.page import Page
 
 
+# Adds a section for each folder that is a calibration or a fit.
 def add(page: Page, folders: list[Folder]) -> None:
     for f in folders:
         if f.kind == "calibration":
@@ -42,12 +44,13 @@ def found(f: Folder) -> str:
     return ""
 
 
+# Returns the table of measured and fitted moduli of a fit.
 def _fitted(f: Folder) -> pd.DataFrame:
     return f.table("fit.csv", ["frequency_hz", "e_star_pa", "phase_deg", "fitted_e_star_pa", "fitted_phase_deg"])
 
 
 def _errors_of_fit(table: pd.DataFrame) -> tuple[float, float]:
-    """Root mean squares of the relative differences of |E*|, and of those of φ [degrees]."""
+    """Returns the root mean square of the relative differences of |E*|, and of the differences of φ [degrees]."""
     e_star = np.sqrt(np.mean((table["fitted_e_star_pa"] / table["e_star_pa"] - 1) ** 2))
     return float(e_star), float(np.sqrt(np.mean((table["fitted_phase_deg"] - table["phase_deg"]) ** 2)))
 
@@ -117,6 +120,8 @@ def _fit(page: Page, f: Folder) -> None:
     )
 
 
+# Draws measured and predicted |E*| and phase over frequency, one colour per temperature. scatter: columns with the
+# standard deviations between seeds, drawn as bands.
 def _measured(table: pd.DataFrame, e_star: str, phase: str, scatter: str = "", phase_scatter: str = "") -> Any:
     figure, (left, right) = look.figure(look.WIDE, 2.8, 1, 2)
     if "temperature_c" not in table.columns:

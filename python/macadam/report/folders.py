@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Result folders as the program leaves them: what kind they are, and their tables, read when they are asked for."""
+"""Reads result folders of macadam: the kind of a folder, its summary, and its tables, which are read when they are
+used."""
 
 from __future__ import annotations
 
@@ -13,7 +14,7 @@ import pandas as pd
 
 from macadam.report import look
 
-# which file says what a folder is; the first that is there counts
+# the file by which a folder of each kind is known; the first one that the folder has counts
 KINDS = {
     "summary.json": "run",
     "calibration.json": "calibration",
@@ -31,7 +32,8 @@ class ReportError(ValueError):
 
 @dataclass
 class Folder:
-    """One result folder. `label` tells it from the others of a report, `colour` is that of its curves."""
+    """One result folder. `label` is its name in the report, different from those of the others; `colour` is the colour
+    of its curves."""
 
     path: Path
     kind: str
@@ -43,7 +45,8 @@ class Folder:
         return (self.path / name).is_file()
 
     def table(self, name: str, columns: list[str]) -> pd.DataFrame:
-        """A CSV file of the folder, lines with # left out; an error where it has not the columns, or no row."""
+        """Reads a CSV file of the folder without its lines that begin with #. Raises ReportError if a column is missing
+        or the table has no rows."""
         file = self.path / name
         try:
             table = pd.read_csv(file, comment="#")
@@ -60,24 +63,25 @@ class Folder:
 
     @cached_property
     def specimen(self) -> pd.DataFrame | None:
-        """Particles (x, y, z, radius [m], phase, body), or nothing where the folder has none."""
+        """The particles (x, y, z, radius [m], phase, body); None if the folder has no specimen.csv."""
         return (
             self.table("specimen.csv", ["x", "y", "z", "radius", "phase", "body"]) if self.has("specimen.csv") else None
         )
 
     @cached_property
     def aggregates(self) -> pd.DataFrame | None:
-        """Aggregates as generated (body, size_class, class, size [m], volume [m3]), or nothing."""
+        """The aggregates as generated (body, size_class, class, size [m], volume [m3]); None if there are none."""
         if not self.has("aggregates.csv"):
             return None
         file = self.path / "aggregates.csv"
-        if file.read_text(encoding="utf-8").count("\n") < 2:  # mastic alone: a header
+        if file.read_text(encoding="utf-8").count("\n") < 2:  # only a header: the specimen has no aggregates
             return None
         return self.table("aggregates.csv", ["body", "size_class", "class", "size", "volume"])
 
     @cached_property
     def of_study(self) -> dict[str, Any]:
-        """What a study wrote beside the result: values of its factors, machine; empty where none did."""
+        """The data that a study added to the result: values of its factors, machine; empty if it is not a study's
+        result."""
         return _json(self.path / "study.json") if self.has("study.json") else {}
 
     @property
@@ -86,7 +90,7 @@ class Folder:
 
     @property
     def by_frequency(self) -> list[dict[str, Any]]:
-        """Results at one frequency each; |E*| [Pa] and phase angle [degrees] are there."""
+        """The results at single frequencies that have |E*| [Pa] and phase angle [degrees]."""
         return [
             r
             for r in self.results
@@ -95,12 +99,12 @@ class Folder:
 
     @property
     def in_time(self) -> dict[str, Any] | None:
-        """The result of relaxation, creep or a monotonic test, or nothing."""
+        """The result of a relaxation, creep or monotonic test; None if there is none."""
         return next((r for r in self.results if r.get("kind") in ("relaxation", "creep", "monotonic")), None)
 
 
 def read(path: str | Path) -> Folder:
-    """The folder of results at `path`; a ReportError where it is none."""
+    """Reads the results folder at `path`. Raises ReportError if it is not a results folder."""
     path = Path(path)
     if not path.exists():
         raise ReportError(f"{path}: no such folder")
@@ -123,7 +127,8 @@ def read(path: str | Path) -> Folder:
 
 
 def read_all(paths: list[str | Path]) -> list[Folder]:
-    """The folders with labels that differ, as short as they can be, and a colour each."""
+    """Reads the folders and gives each a colour and a label. Labels are the ends of the paths, as short as possible and
+    all different."""
     if not paths:
         raise ReportError("no result folder given")
     folders = [read(path) for path in paths]
@@ -140,6 +145,7 @@ def read_all(paths: list[str | Path]) -> list[Folder]:
     return folders
 
 
+# Reads a JSON file that holds an object. Raises ReportError for anything else.
 def _json(file: Path) -> dict[str, Any]:
     try:
         value = json.loads(file.read_text(encoding="utf-8"))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests in time: relaxation, creep with recovery, a constant rate of strain; and the Prony series of the mixture."""
+"""Sections of the report on tests in time (relaxation, creep with recovery, constant strain rate) and on the mixture's
+Prony series."""
 
 from __future__ import annotations
 
@@ -14,6 +15,7 @@ from macadam.report.modulus import decades
 from macadam.report.page import Page
 
 
+# Adds a section for each kind of test in time, and one for Prony series.
 def add(page: Page, folders: list[Folder]) -> None:
     for kind, title, draw in (
         ("relaxation", "Relaxation", _relaxation),
@@ -37,18 +39,20 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def _points(folder: Folder, *keys: str) -> list[np.ndarray]:
-    """Columns of the test's points; what a point has not (a compliance after the release) is no number."""
+    """Returns columns of the test's points. A value that a point does not have (a compliance after the release) is
+    NaN."""
     return [
         np.array([float("nan") if p[k] is None else float(p[k]) for p in folder.in_time["points"]]) for k in keys
     ]
 
 
 def _errors(folder: Folder) -> np.ndarray:
-    """Relative error of each point: its own of a stepped test, that of the test otherwise."""
+    """Returns the relative error of each point: the point's own error in a stepped test, otherwise the error of the
+    test."""
     whole = folder.in_time.get("error") or 0
     errors = np.array([float(p.get("error") or whole) for p in folder.in_time["points"]])
     if folder.in_time.get("rupture"):
-        errors[-1] = 0  # of a specimen in two pieces, which has no equilibrium
+        errors[-1] = 0  # the specimen is in two pieces, without equilibrium, so the difference is not an error
     return errors
 
 
@@ -57,10 +61,11 @@ def _is_stepped(folder: Folder) -> bool:
 
 
 def _bars(folder: Folder) -> np.ndarray:
-    """Of a stepped test; of the others they would be smaller than the line."""
+    """Returns the error bars of a stepped test, and NaN for other tests, whose bars would be smaller than the line."""
     return _errors(folder) if _is_stepped(folder) else np.full(len(folder.in_time["points"]), np.nan)
 
 
+# Returns the sentences of a caption on errors and on sides that are held.
 def _known(found: list[Folder]) -> str:
     words = ""
     for stepped, what in (
@@ -78,8 +83,8 @@ def _axes(found: list[Folder], columns: int = 2) -> tuple[Any, Any]:
 
 
 def _finish(figure: Any, first: Any, found: list[Folder], along: list[Any], up: list[Any]) -> None:
-    """Logarithmic axes where the numbers take them: times (`along`) over a decade and a half, moduli (`up`) over a factor
-    of four. And who is who."""
+    """Makes axes logarithmic if their numbers cover a wide range: times (`along`) more than a factor of 30, moduli
+    (`up`) more than a factor of four. Adds a legend if there are several folders."""
     times = np.concatenate([_points(f, "time_s")[0] for f in found])
     if times.min() > 0 and times.max() > 30 * times.min():
         for axes in along:
@@ -101,6 +106,7 @@ def _finish(figure: Any, first: Any, found: list[Folder], along: list[Any], up: 
         figure.legend(*first.get_legend_handles_labels(), loc="outside lower center", ncols=min(4, len(found)))
 
 
+# Draws relaxation modulus and stress over time. Returns figure and caption.
 def _relaxation(found: list[Folder]) -> tuple[Any, str]:
     figure, (left, right) = _axes(found)
     factor, unit = look.modulus_unit(p["modulus_pa"] for f in found for p in f.in_time["points"])
@@ -124,6 +130,7 @@ def _relaxation(found: list[Folder]) -> tuple[Any, str]:
     )
 
 
+# Draws strain and creep compliance over time. Returns figure and caption.
 def _creep(found: list[Folder]) -> tuple[Any, str]:
     figure, (left, right) = _axes(found)
     words = []
@@ -151,6 +158,7 @@ def _creep(found: list[Folder]) -> tuple[Any, str]:
     )
 
 
+# Draws stress over strain, and the secant modulus over time. Returns figure and caption.
 def _monotonic(found: list[Folder]) -> tuple[Any, str]:
     figure, (left, right) = _axes(found)
     factor, unit = look.modulus_unit(p["secant_pa"] for f in found for p in f.in_time["points"])
@@ -187,6 +195,7 @@ def _monotonic(found: list[Folder]) -> tuple[Any, str]:
     )
 
 
+# Draws the moduli of the units of Prony series over their relaxation times.
 def _spectrum(found: list[Folder]) -> Any:
     figure, axes = look.figure(look.WIDE, 2.3)
     for f in found:

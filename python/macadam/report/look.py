@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How pictures and numbers look: colours, matplotlib's settings, a figure as text to embed, numbers with units."""
+"""The look of pictures and numbers: colours, matplotlib's settings, figures as text to embed, numbers with units."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ from matplotlib import colormaps
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-COLOURS = ["#1f5a8a", "#c4532f", "#3c8558", "#80569b", "#b98a1d", "#2f979e", "#a83f70", "#6b6f76"]  # of folders
+COLOURS = ["#1f5a8a", "#c4532f", "#3c8558", "#80569b", "#b98a1d", "#2f979e", "#a83f70", "#6b6f76"]  # colours of folders
 MASTIC, VOID, INK = "#33363d", "#ffffff", "#22252b"
-CLASSES = ["#d9c7a0", "#a9b0b8", "#c49558", "#a9654b", "#8da787", "#7390ae", "#b498ad", "#e0b79b"]  # of size classes
+# colours of size classes
+CLASSES = ["#d9c7a0", "#a9b0b8", "#c49558", "#a9654b", "#8da787", "#7390ae", "#b498ad", "#e0b79b"]
 PAIRS = {"M-M": "#33363d", "M-A": "#1f5a8a", "A-A": "#c4532f", "inner": "#b98a1d", "A-W": "#8f959d", "M-W": "#c3c7cc"}
 _WARMTH = LinearSegmentedColormap.from_list("warmth", ["#1d4f91", "#3f8fb0", "#9a76b0", "#d1673f", "#a31621"])
-WIDE, THIRD = 7.0, 2.27  # inches: the width of the text, and of one of three pictures side by side
+WIDE, THIRD = 7.0, 2.27  # [inches] width of the text, and of one of three pictures side by side
 
 _RC = {
     "font.family": "DejaVu Sans",
@@ -58,18 +59,20 @@ _RC = {
 
 
 def style() -> Any:
-    """A context in which figures have the report's look; matplotlib's settings are afterwards what they were."""
+    """Returns a context manager in which figures have the report's look. It restores matplotlib's settings at its
+    end."""
     return matplotlib.rc_context(_RC)
 
 
 def figure(width: float, height: float, rows: int = 1, columns: int = 1, **more: Any) -> tuple[Any, Any]:
-    """A matplotlib figure and its axes; inches. It needs no window and no display."""
+    """Returns a matplotlib figure, width and height in inches, and its axes. It needs no window and no display."""
     made = Figure(figsize=(width, height), layout="constrained")
     return made, made.subplots(rows, columns, **more)
 
 
 def embed(made, raster: bool = False) -> str:
-    """The figure as the text of an address that holds it whole: SVG, or PNG where it has very many parts."""
+    """Returns the figure as a data URL, which contains the whole picture: as SVG, or as PNG (raster) for figures with
+    very many parts."""
     data = io.BytesIO()
     form = "png" if raster else "svg"
     made.savefig(data, format=form, metadata={} if raster else {"Date": None})
@@ -78,19 +81,20 @@ def embed(made, raster: bool = False) -> str:
 
 
 def modulus_unit(values: Any) -> tuple[float, str]:
-    """Factor and name of the unit in which moduli [Pa] are read best."""
+    """Returns factor and name of the unit in which the largest of these moduli [Pa] is at least 1."""
     largest = max((abs(v) for v in values), default=0)
     return next(((f, n) for f, n in ((1e-9, "GPa"), (1e-6, "MPa"), (1e-3, "kPa")) if largest * f >= 1), (1, "Pa"))
 
 
 def modulus(value: float) -> str:
-    """A modulus or stress [Pa] with its unit, three digits."""
+    """Returns a modulus or stress [Pa] as text with its unit and three digits."""
     factor, name = modulus_unit([value])
     return f"{number(value * factor, 3)} {name}"
 
 
 def number(value: Any, digits: int = 4) -> str:
-    """A number for people: digits that count, thousands parted, a true minus; an en dash where there is none."""
+    """Returns a number as readable text: `digits` significant digits, thousands separated by commas, a true minus sign;
+    an en dash if there is no number."""
     if value is None or isinstance(value, float) and math.isnan(value):
         return "–"
     if isinstance(value, bool):
@@ -117,29 +121,29 @@ def percent(share: Any, digits: int = 3) -> str:
 
 
 def bound(value: float, unit: str = "") -> str:
-    """A small error to two digits, or that it is below a thousandth of its unit."""
+    """Returns a small error as text with two digits, or "below 0.001" if it is smaller."""
     if value != value:
         return "–"
     return f"below 0.001{unit}" if abs(value) < 1e-3 else f"{number(float(value), 2)}{unit}"
 
 
 def warmth(k: int, of: int) -> Any:
-    """Colour of the k-th of some temperatures, cold to warm."""
+    """Returns the colour of the k-th of several temperatures, from cold to warm."""
     return _WARMTH(k / max(1, of - 1))
 
 
 def steps(k: int, of: int) -> Any:
-    """Colour of the k-th of some frequencies, low to high."""
+    """Returns the colour of the k-th of several frequencies, from low to high."""
     return colormaps["viridis"](0.9 * k / max(1, of - 1))
 
 
 def length(value: float) -> str:
-    """A length [m] in millimetres, without needless digits."""
+    """Returns a length [m] as text in millimetres with at most five digits."""
     return f"{1e3 * float(value):.5g}"
 
 
 def seconds(value: float) -> str:
-    """A time span [s] as people say it."""
+    """Returns a duration [s] as text in a suitable unit, µs to h."""
     if value < 1e-3:
         return f"{number(value * 1e6, 2)} µs"
     if value < 1:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Loops of stress over strain, and the master curve of a sweep over temperatures."""
+"""Sections of the report on loops of stress over strain, and on the master curve of a sweep over temperatures."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from macadam.report.folders import Folder
 from macadam.report.modulus import decades
 from macadam.report.page import Page
 
-MOST = 6  # loops of one folder
+MOST = 6  # largest number of loops drawn of one folder
 
 
+# Adds the loops of all runs over frequencies, then their master curves.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run" and f.by_frequency]
     for folder in runs:
@@ -30,7 +31,7 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def _stepped(folder: Folder) -> tuple[Any, str]:
-    """The last cycle of each frequency as it was observed."""
+    """Draws the last cycle of each frequency as it was recorded during stepping. Returns figure and caption."""
     table = folder.table("response.csv", ["frequency_hz", "time_s", "strain", "stress_pa"])
     figure, axes = look.figure(look.THIRD, 2.2)
     groups = list(table.groupby("frequency_hz"))
@@ -54,7 +55,8 @@ def _stepped(folder: Folder) -> tuple[Any, str]:
 
 
 def _from_moduli(folder: Folder) -> tuple[Any, str]:
-    """The ellipses that |E*| and the phase angle make, with a strain of amplitude one."""
+    """Draws the ellipses that follow from |E*| and the phase angle for a strain of amplitude one. Returns figure and
+    caption."""
     warm = sorted({r.get("temperature_c") for r in folder.by_frequency}, key=lambda t: -1e9 if t is None else t)
     shown = warm[len(warm) // 2]
     rows = sorted((r for r in folder.by_frequency if r.get("temperature_c") == shown), key=lambda r: r["frequency_hz"])
@@ -79,12 +81,13 @@ def _from_moduli(folder: Folder) -> tuple[Any, str]:
 
 
 def _choice(groups: list[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
-    """All, or some evenly among many."""
+    """Returns all groups, or MOST of them at even distances if there are more."""
     if len(groups) <= MOST:
         return groups
     return [groups[round(k)] for k in np.linspace(0, len(groups) - 1, MOST)]
 
 
+# Adds the master curve of a run at several temperatures, or the reason why there is none.
 def _master(page: Page, folder: Folder) -> None:
     rows = folder.by_frequency
     temperatures = sorted({r["temperature_c"] for r in rows if r.get("temperature_c") is not None})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mix: what it is made of, by volume and by mass, and its gradation."""
+"""Section of the report on the mix: its composition by volume and by mass, and its gradation."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from macadam.report import look
 from macadam.report.folders import Folder
 from macadam.report.page import Page, facts
 
-ABREAST = 4  # folders that one table has as columns
-SIZES = re.compile(r"([\d.]+)-([\d.]+) mm$")  # of a class without a name of its own
+ABREAST = 4  # largest number of folders that one table shows as columns
+SIZES = re.compile(r"([\d.]+)-([\d.]+) mm$")  # name of a size class that the scene gives no other name
 
 
+# Adds the section on the mix of all runs.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     if not runs:
@@ -71,6 +72,7 @@ def _facts(folder: Folder) -> list[tuple[str, Any]]:
     return rows
 
 
+# Adds tables of the size classes: one table for at most ABREAST folders, otherwise one per folder.
 def _composition(page: Page, folders: list[Folder]) -> None:
     with_classes = [f for f in folders if f.summary.get("composition")]
     for folder in (f for f in folders if f not in with_classes):
@@ -116,7 +118,8 @@ def _composition(page: Page, folders: list[Folder]) -> None:
 
 
 def _from_coarse_to_fine(names: Iterable[str]) -> list[str]:
-    """Classes of several mixes; what has no sizes, such as mastic, comes behind in its own order."""
+    """Returns the classes of several mixes, the coarsest first. Classes without sizes, such as mastic, follow in the
+    given order."""
     return sorted(names, key=lambda name: -float(sizes[2]) if (sizes := SIZES.match(name)) else 0.0)
 
 
@@ -124,6 +127,7 @@ def _class(name: str) -> str:
     return name.replace("-", "–")
 
 
+# Draws the gradation curve of a mix design, the curve reached and the envelope.
 def _gradation(folder: Folder) -> Any:
     recipe = folder.summary["recipe"]
     rows, cut = recipe["gradation"], recipe["cut_m"]
@@ -154,7 +158,9 @@ def _gradation(folder: Folder) -> Any:
 
 
 def _between_sieves(folder: Folder, recipe: dict[str, Any], at_cut: float) -> tuple[np.ndarray, np.ndarray]:
-    """Sizes [m], and the share of the aggregate's mass below them, a step for every aggregate above the cut."""
+    """Returns sizes [m] and the fraction of the aggregate's mass that passes each, one step per aggregate above the
+    cut.
+    at_cut: the fraction that passes at the cut."""
     density = {c["class"]: float(c["density"]) for c in recipe["classes"]}
     grains = folder.aggregates.sort_values("size")
     mass = grains["volume"].to_numpy() * grains["class"].map(density).fillna(np.mean(list(density.values()))).to_numpy()
@@ -178,6 +184,7 @@ def _gradation_caption(folder: Folder) -> str:
     return words
 
 
+# Draws the size distribution by volume, for specimens without a mix design.
 def _sizes(folders: list[Folder]) -> Any:
     figure, axes = look.figure(look.WIDE, 2.3)
     for f in folders:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""|E*| and phase angle over frequency: the table, curves with error bars, Cole–Cole and black diagrams."""
+"""Section of the report on |E*| and phase angle over frequency: table, curves with error bars, Cole–Cole and black
+diagram."""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ _OF_SEEDS = {"color": "black", "marker": "_", "lw": 0.9, "ms": 6, "zorder": 3}
 
 @dataclass
 class Curve:
-    """One folder at one temperature: frequencies [Hz], |E*| [Pa], phase [degrees], errors (relative, degrees)."""
+    """The results of one folder at one temperature: frequencies [Hz], |E*| [Pa], phase [degrees], their errors
+    (relative and in degrees)."""
 
     folder: Folder
     temperature: float | None
@@ -33,6 +35,7 @@ class Curve:
     label: str = ""
 
 
+# Adds the section on |E*| and phase angle, and notes the runs that have none.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     for f in runs:
@@ -60,7 +63,7 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def curves(folders: list[Folder]) -> list[Curve]:
-    """One a folder and temperature, with the colours and labels that they have in all pictures."""
+    """Returns one curve per folder and temperature, with the colours and labels that they have in all pictures."""
     found: list[Curve] = []
     for folder in folders:
         rows = folder.by_frequency
@@ -85,8 +88,9 @@ def curves(folders: list[Folder]) -> list[Curve]:
 
 
 def error(result: dict[str, Any]) -> tuple[float, float]:
-    """What is known of a result's error: of |E*| relative, of the phase in degrees. A stepped one is held against the
-    harmonic solution; a harmonic one has the reactions of two walls, which would be the same."""
+    """Returns the known error of a result: of |E*| (relative) and of the phase (degrees); NaN if it is unknown. For a
+    stepped result it is the difference from the harmonic solution, for a harmonic result the difference between the
+    reactions of the two walls, which are equal in exact equilibrium."""
     known = result.get("difference_from_harmonic") or result.get("predicted_error")
     if known and known.get("e_star") is not None:
         return abs(known["e_star"]), float(np.degrees(abs(known.get("phase_rad") or 0)))
@@ -99,7 +103,8 @@ def error(result: dict[str, Any]) -> tuple[float, float]:
 
 
 def decades(axis: Any, most: int = 9) -> None:
-    """At most so many plain numbers along a logarithmic axis, between the decades too where there are few of these."""
+    """Labels a logarithmic axis with at most `most` plain numbers; if it covers few decades, also between the
+    decades."""
     low, high = sorted(axis.get_view_interval())
     few = np.log10(high / low) < 2.2
     axis.set_major_locator(LogLocator(base=10, subs=(1, 2, 5) if few else (1,), numticks=most))
@@ -109,6 +114,7 @@ def decades(axis: Any, most: int = 9) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
+# Draws |E*| and phase angle over frequency, with error bars and the means over seeds.
 def _over_frequency(found: list[Curve]) -> Any:
     factor, unit = look.modulus_unit(e for c in found for e in c.e_star)
     figure, (left, right) = look.figure(look.WIDE, 2.7, 1, 2)
@@ -176,6 +182,7 @@ def _caption(found: list[Curve]) -> str:
     return " ".join(words)
 
 
+# Returns storage and loss modulus, E′ and E″ [Pa].
 def _parts(c: Curve) -> tuple[np.ndarray, np.ndarray]:
     return c.e_star * np.cos(np.radians(c.phase)), c.e_star * np.sin(np.radians(c.phase))
 
@@ -215,7 +222,7 @@ def _black(found: list[Curve]) -> Any:
 
 
 def _wide(found: list[Curve]) -> bool:
-    """Whether |E*| takes a logarithmic axis."""
+    """Whether |E*| covers more than a factor of four, so that its axis is logarithmic."""
     return max(c.e_star.max() for c in found) > 4 * min(c.e_star.min() for c in found)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The page: sections with text, tables and pictures, put together into one HTML file that asks for nothing else."""
+"""The page: sections with text, tables and pictures, combined into one HTML file that needs no other file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 from macadam.report import look
 
-# Nothing may be loaded from anywhere, and no script runs: the file shows the same in ten years.
+# The browser may load nothing from elsewhere and run no script, so the file looks the same in ten years.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 
@@ -22,10 +22,10 @@ class _Section:
 
 
 class Page:
-    """Sections in the order in which they are begun. A section without a part is not written."""
+    """A page with sections in the order in which they were begun. Empty sections are not written."""
 
     def __init__(self, several: bool = False) -> None:
-        self.several = several  # folders: each says its name
+        self.several = several  # whether there are several folders, so that blocks show the folder's name
         self._sections: list[_Section] = []
         self._figures = 0
         self.left_out: list[tuple[str, str, str]] = []  # folder, what, why
@@ -34,14 +34,15 @@ class Page:
         self._sections.append(_Section(title))
 
     def text(self, words: str, kind: str = "") -> None:
-        """A paragraph; `kind` "warning" or "failure" makes it stand out."""
+        """Adds a paragraph; `kind` "warning" or "failure" makes it stand out."""
         self._add(f'<p class="{kind}">{escape(words)}</p>' if kind else f"<p>{escape(words)}</p>")
 
     def heading(self, words: str) -> None:
         self._add(f"<h3>{escape(words)}</h3>")
 
     def figure(self, made: Any, caption: str, alt: str, third: bool = False, raster: bool = False) -> None:
-        """A matplotlib figure with a numbered caption; three thirds that follow one another stand side by side."""
+        """Adds a matplotlib figure with a numbered caption. third: a third of the width, so that three consecutive
+        figures stand side by side. raster: embed as PNG."""
         width, height = made.get_size_inches()
         share = 100 if third else round(100 * width / look.WIDE)
         self._picture(
@@ -53,7 +54,7 @@ class Page:
         )
 
     def picture(self, source: str, caption: str, alt: str) -> None:
-        """A picture that is there already, as an address that holds it whole."""
+        """Adds an existing picture. source: a data URL, which contains the whole picture."""
         self._picture(source, caption, alt, "whole given", "")
 
     def _picture(self, source: str, caption: str, alt: str, kind: str, size: str) -> None:
@@ -64,7 +65,7 @@ class Page:
         )
 
     def table(self, head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "", words: int = 1) -> None:
-        """A table; its first `words` columns hold text, the others numbers, which stand to the right."""
+        """Adds a table. Its first `words` columns hold text; the others hold numbers and are aligned to the right."""
 
         def cells(row: Sequence[Any], tag: str) -> str:
             return "".join(
@@ -73,8 +74,8 @@ class Page:
             )
 
         rows = list(rows)
-        keep = " keep" if len(rows) < 16 else ""  # a short one is not parted by the end of a page
-        keep += " many" if len(head) > 7 else ""  # columns: smaller, so that the page holds them
+        keep = " keep" if len(rows) < 16 else ""  # a short table is not broken at the end of a page
+        keep += " many" if len(head) > 7 else ""  # many columns: smaller text, so that they fit on the page
         body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
         title = f'<p class="title">{escape(caption)}</p>' if caption else ""
         self._add(
@@ -83,7 +84,8 @@ class Page:
         )
 
     def columns(self, blocks: Sequence[tuple[str, str, str]]) -> None:
-        """Blocks beside one another: title, colour, and HTML that is safe already. One alone needs no title."""
+        """Adds blocks side by side: title, colour, and HTML that is already escaped. A single block gets no title,
+        unless the page has several folders."""
         if len(blocks) == 1 and not self.several:
             self._add(f'<div class="block">{blocks[0][2]}</div>')
             return
@@ -101,7 +103,7 @@ class Page:
         self._sections[-1].parts.append(html)
 
     def html(self, title: str, subtitle: str, foot: str) -> str:
-        """The whole file."""
+        """Returns the text of the HTML file."""
         shown = [s for s in self._sections if s.parts]
         style = (Path(__file__).parent / "style.css").read_text(encoding="utf-8")
         links = " · ".join(f'<a href="#s{k}">{escape(s.title)}</a>' for k, s in enumerate(shown))
@@ -119,7 +121,7 @@ class Page:
 
 
 def facts(pairs: Iterable[tuple[str, Any]]) -> str:
-    """A list of names and values as HTML."""
+    """Returns a list of names and values as HTML."""
     return (
         "<dl>"
         + "".join(f"<dt>{escape(name)}</dt><dd>{escape(look.number(value))}</dd>" for name, value in pairs)

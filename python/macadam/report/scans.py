@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results of `macadam ct` and of `macadam shapes measure`: grains of a scan, twins, phantoms, shapes of a library."""
+"""Sections of the report on results of `macadam ct` and `macadam shapes measure`: grains of a scan, twins, phantoms,
+shapes of a library."""
 
 from __future__ import annotations
 
@@ -20,6 +21,7 @@ _TITLES = {
 }
 
 
+# Adds a section for each folder of a scan, twin, phantom or library of shapes.
 def add(page: Page, folders: list[Folder]) -> None:
     for f in folders:
         if f.kind not in _TITLES:
@@ -49,9 +51,10 @@ def _cell(value: Any) -> Any:
 
 
 def _rounded(value: Any) -> Any:
-    return 0.0 if isinstance(value, float) and abs(value) < 1e-15 else value  # what rounding left of a zero
+    return 0.0 if isinstance(value, float) and abs(value) < 1e-15 else value  # a zero with a rounding error
 
 
+# Returns the entries of a summary as names and values; entries of nested tables have the table's name before theirs.
 def _facts(summary: dict[str, Any], before: str = "") -> list[tuple[str, Any]]:
     rows: list[tuple[str, Any]] = []
     for key, value in summary.items():
@@ -66,6 +69,7 @@ def _facts(summary: dict[str, Any], before: str = "") -> list[tuple[str, Any]]:
     return rows
 
 
+# Adds gradation, sphericity and pictures of the grains of a scan.
 def _scan(page: Page, f: Folder) -> None:
     grains = f.table("grains.csv", ["volume_m3", "d_intermediate_m", "sphericity"])
     size = 1e3 * np.sort(grains["d_intermediate_m"].to_numpy(float))

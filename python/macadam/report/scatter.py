@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scatter between specimens of one mix: mean and standard deviation over runs of one scene with several seeds."""
+"""Computes the scatter between specimens of one mix: mean and standard deviation over runs of one scene with several
+seeds."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ class Seeds:
 
 
 def scatter(curves: list[Curve]) -> list[Seeds]:
-    """One for every scene and temperature that two seeds or more were run of, at the same frequencies."""
+    """Returns one entry for each scene, method and temperature that was run with two seeds or more at the same
+    frequencies."""
     groups: dict[tuple, list[Curve]] = {}
     for c in curves:
         s = c.folder.summary
@@ -35,7 +37,7 @@ def scatter(curves: list[Curve]) -> list[Seeds]:
     found = []
     for (_, _, temperature, frequency), of in groups.items():
         if len({c.folder.summary["specimen"]["seed"] for c in of}) < max(2, len(of)):
-            continue  # one seed, or one twice: no other specimen
+            continue  # a single seed, or a seed that occurs twice: the runs are not all of different specimens
         e_star, phase = np.array([c.e_star for c in of]), np.array([c.phase for c in of])
         at = "" if temperature is None else f", {temperature:g} °C"
         found.append(

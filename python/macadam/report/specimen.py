@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of the specimen: the block as if sawn, its aggregates, and a section. Cells are Laguerre cells."""
+"""Section of the report with pictures of the specimen: the block as if sawn, a cross section, and the aggregates. Cells
+are Laguerre cells."""
 
 from __future__ import annotations
 
@@ -17,13 +18,14 @@ from macadam.report.folders import Folder
 from macadam.report.page import Page
 from macadam.report.spheres import frame, outline, spheres
 
-MOST = 8  # folders whose specimens are drawn
-HEIGHT = 3.0  # inches of each of the three pictures
-SAWN = 0.22  # of each edge, taken off in the picture of the block
-PIXELS = 420  # along the longest edge of the box
-Paint = Callable[[np.ndarray], np.ndarray]  # rows of specimen.csv to colours
+MOST = 8  # largest number of folders whose specimens are drawn
+HEIGHT = 3.0  # height of each of the three pictures [inches]
+SAWN = 0.22  # fraction of each edge that is removed in the picture of the block
+PIXELS = 420  # pixels along the longest edge of the box
+Paint = Callable[[np.ndarray], np.ndarray]  # returns the colours of rows of specimen.csv
 
 
+# Adds block, section and aggregates of each specimen.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind in ("run", "twin")]
     drawn = []
@@ -56,6 +58,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             page.figure(grains, words, "the aggregates in the specimen", third=True, raster=True)
 
 
+# Returns the edges of the box [m]; without a summary, those of the volume that the spheres fill.
 def _box(folder: Folder) -> np.ndarray:
     edges = folder.summary.get("box_m")
     s = folder.specimen
@@ -69,7 +72,8 @@ def class_colours(folders: list[Folder]) -> dict[str, str]:
 
 
 def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
-    """Colour of each particle: mastic dark, air white, aggregates by size class, each a little lighter or darker."""
+    """Returns a function from rows of specimen.csv to colours: mastic dark, air white, aggregates by size class, each a
+    little lighter or darker."""
     s = folder.specimen
     body = s["body"].to_numpy(int)
     colour = np.tile(to_rgb(look.MASTIC), (len(s), 1))
@@ -80,11 +84,13 @@ def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
     base = np.array([to_rgb(of_class[n]) for n in _names(folder).values()] or [to_rgb(look.CLASSES[0])])
     rows = {size_class: row for row, size_class in enumerate(_names(folder))}
     of = np.array([rows.get(classes.get(b), 0) for b in body[grain]], int)
-    shade = 1 + 0.22 * ((body[grain] * 0.6180339887) % 1 - 0.5)  # the golden ratio keeps neighbours in number apart
+    # golden ratio: consecutive numbers get different shades
+    shade = 1 + 0.22 * ((body[grain] * 0.6180339887) % 1 - 0.5)
     colour[grain] = np.clip(base[of] * shade[:, None], 0, 1)
     return lambda rows: colour[rows]
 
 
+# Returns the names of the size classes by their numbers.
 def _names(folder: Folder) -> dict[int, str]:
     table = folder.aggregates
     if table is None:
@@ -99,11 +105,12 @@ def _legend_words(folder: Folder) -> str:
 
 
 def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
-    """Which particle's Laguerre cell holds each point (u, v) of a grid in the plane, rows of v: that of least power
-    distance |x − c|² − r². `centre`: (n, 3), the third coordinate from the plane; metres.
+    """Returns the particle whose Laguerre cell contains each point (u, v) of a grid in a plane, one row per v: the
+    particle with the least power distance |x − c|² − r². centre: (n, 3), u, v and the distance from the plane; metres.
 
-    A sphere's power distance is below a bound only within √(bound + r²) of its centre. So each sphere is held against
-    the points that near, and where a point found none below the bound, all is done again with a larger one."""
+    A sphere's power distance is below a bound only within √(bound + r²) of its centre. So each sphere is compared only
+    with the points within that distance. If no sphere is below the bound at some point, everything is repeated with a
+    bound four times as large."""
     own = radius**2 - centre[:, 2] ** 2
     bound = 0.25 * float(np.median(radius)) ** 2
     while True:
@@ -124,7 +131,8 @@ def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarra
 
 
 def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Paint) -> np.ndarray:
-    """Picture of the cells in a plane: rows from low to high of the second other axis."""
+    """Returns the picture of the cells in the plane axis = value. Columns and rows are the two other axes in their
+    order, from low to high."""
     u, v = [k for k in range(3) if k != axis]
     step = box.max() / PIXELS
     nu, nv = max(1, round(box[u] / step)), max(1, round(box[v] / step))
@@ -133,7 +141,7 @@ def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pain
     cell = cells_at(*along, centre, folder.specimen["radius"].to_numpy(float))
     body = folder.specimen["body"].to_numpy(int)[cell]
     picture = paint(cell)
-    rim = np.zeros(body.shape, bool)  # a dark line where two aggregates meet
+    rim = np.zeros(body.shape, bool)  # pixels where two aggregates meet, which become a dark line
     for a, b in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):
         rim[a] |= (body[a] != body[b]) & (body[a] >= 0) & (body[b] >= 0)
     picture[rim] *= 0.45
@@ -141,7 +149,8 @@ def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pain
 
 
 def _section(folder: Folder, box: np.ndarray, paint: Paint, of_class: dict[str, str]) -> tuple[Any, str]:
-    """A section through the middle, or the first that the program wrote."""
+    """Draws the first cross section that the program wrote or, if it wrote none, one through the middle. Returns figure
+    and caption."""
     written = sorted(folder.path.glob("section_*.csv"))
     figure, axes = look.figure(look.THIRD, HEIGHT)
     axes.grid(False)
@@ -184,7 +193,7 @@ def _section(folder: Folder, box: np.ndarray, paint: Paint, of_class: dict[str, 
 
 
 def _view() -> np.ndarray:
-    """Rows: right, up, towards the eye."""
+    """Returns the directions of view as rows of a matrix: right, up, towards the eye."""
     a, e = np.radians([-60, 24])
     towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
     right = np.array([-np.sin(a), np.cos(a), 0])
@@ -192,8 +201,8 @@ def _view() -> np.ndarray:
 
 
 def _block(folder: Folder, box: np.ndarray, paint: Paint) -> Any:
-    """What is left when a share of the box is sawn off the three sides that are seen: three pictures, each sheared into
-    its place, in the outline of the box."""
+    """Draws the block that is left after the fraction SAWN is removed from the three visible sides: three pictures of
+    cells, each sheared to the view, in the outline of the box."""
     turn = _view()
     corners = np.array(list(product(*([0, e] for e in box)))) @ turn.T
     low, high = corners.min(axis=0), corners.max(axis=0)

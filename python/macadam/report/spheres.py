@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A picture of the aggregates as spheres in the box, those behind first."""
+"""Draws the aggregates as spheres in the box, from back to front."""
 
 from __future__ import annotations
 
@@ -13,17 +13,18 @@ from matplotlib.collections import EllipseCollection, LineCollection
 
 from macadam.report import look
 
-# circles of one sphere: radius and shift towards the light in radii, and brightness; together they look round
+# A sphere is drawn as several circles, which together look round. Each has its radius and its shift towards the light,
+# both in radii of the sphere, and its brightness.
 _SHADES = [(1.0, 0.0, 0.42), (0.955, 0.02, 0.72), (0.82, 0.10, 0.86), (0.62, 0.20, 0.97), (0.36, 0.30, 1.08)]
 _LIGHT = np.array([-0.6, 0.8])
-_MOST = 30_000  # spheres; of more the largest are drawn
+_MOST = 30_000  # largest number of spheres drawn; if there are more, only the largest spheres are drawn
 
 
 def spheres(
     specimen: pd.DataFrame, box: np.ndarray, paint: Callable[[np.ndarray], np.ndarray], view: np.ndarray, height: float
 ) -> tuple[Any, str]:
-    """The figure, and what it shows. `view`: rows right, up and towards the eye; lengths in metres,
-    `height` of the picture in inches."""
+    """Returns the figure and its caption. view: rows right, up and towards the eye. Lengths are in metres, the `height`
+    of the picture in inches."""
     rows = np.flatnonzero((specimen["phase"] == "aggregate").to_numpy())
     words = "The aggregates in the box"
     words += "; the mastic between them is taken away." if (specimen["phase"] == "mastic").any() else "."
@@ -35,7 +36,7 @@ def spheres(
     order = np.argsort(place[:, 2])
     place, radius, colour = place[order], radius[rows][order], paint(rows)[order]
     near = (place[:, 2] - place[:, 2].min()) / max(np.ptp(place[:, 2]), 1e-12)
-    colour = colour * (0.62 + 0.38 * near)[:, None] + 0.30 * (1 - near)[:, None]  # what is far is paler
+    colour = colour * (0.62 + 0.38 * near)[:, None] + 0.30 * (1 - near)[:, None]  # distant spheres are paler
 
     corners = np.array(list(product(*([0, e] for e in box)))) @ view.T
     low, high = corners.min(axis=0), corners.max(axis=0)
@@ -64,7 +65,8 @@ def spheres(
 
 
 def outline(axes: Any, corners: np.ndarray, colour: str, behind: bool | None = None) -> None:
-    """Edges of the box of eight corners (right, up, towards the eye): all, those behind, or those in front."""
+    """Draws edges of the box. corners: eight, as (right, up, towards the eye). behind: True for the edges at the back,
+    False for those in front, None for all."""
     hidden = int(np.argmin(corners[:, 2]))
     edges = [(i, j) for i, j in product(range(8), repeat=2) if i < j and bin(i ^ j).count("1") == 1]
     chosen = [e for e in edges if behind is None or (hidden in e) == behind]
@@ -74,7 +76,7 @@ def outline(axes: Any, corners: np.ndarray, colour: str, behind: bool | None = N
 
 
 def frame(axes: Any, low: np.ndarray, high: np.ndarray) -> None:
-    """The picture's limits, without axes."""
+    """Sets the limits of the picture and hides the axes."""
     margin = 0.02 * (high - low)
     axes.set(xlim=(low[0] - margin[0], high[0] + margin[0]), ylim=(low[1] - margin[1], high[1] + margin[1]))
     axes.set_aspect("equal")

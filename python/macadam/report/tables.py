@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of |E*| and phase angle: of one folder, of several beside one another, of frequencies by temperatures."""
+"""Tables of |E*| and phase angle: of one folder, of several folders side by side, or of frequencies by temperatures."""
 
 from __future__ import annotations
 
@@ -12,14 +12,15 @@ from macadam.report import look
 from macadam.report.folders import Folder
 from macadam.report.page import Page
 
-ROWS = 40  # of one table; a longer one is cut
-ABREAST = 3  # folders that one table has beside one another
+ROWS = 40  # largest number of rows of a table; a longer one is cut
+ABREAST = 3  # largest number of folders that one table shows side by side
 
 Error = Callable[[dict[str, Any]], tuple[float, float]]
 
 
 def add(page: Page, folders: list[Folder], error: Error) -> None:
-    """Tables of folders that all have results over frequencies."""
+    """Adds tables of these folders, all of which have results over frequencies. error: returns the error of a
+    result."""
     if 1 < len(folders) <= ABREAST and not any(_temperatures(f)[1:] for f in folders):
         _abreast(page, folders)
         return
@@ -34,6 +35,7 @@ def _temperatures(folder: Folder) -> list[float]:
     return sorted({r["temperature_c"] for r in folder.by_frequency if r.get("temperature_c") is not None})
 
 
+# Returns the caption of a folder's table.
 def _of(folder: Folder) -> str:
     rows, s = folder.by_frequency, folder.summary
     warm = _temperatures(folder)
@@ -44,6 +46,7 @@ def _of(folder: Folder) -> str:
     return words + (". The sides are held: this is a confined modulus" if confined else "")
 
 
+# Returns the first ROWS rows, and notes on the page that the others were left out.
 def _cut(page: Page, label: str, rows: list[Any]) -> list[Any]:
     if len(rows) > ROWS:
         page.leave_out(
@@ -54,6 +57,7 @@ def _cut(page: Page, label: str, rows: list[Any]) -> list[Any]:
     return rows[:ROWS]
 
 
+# Adds the table of one folder: |E*|, phase angle, E′, E″ and errors over frequency.
 def _one(page: Page, folder: Folder, error: Error) -> None:
     factor, unit = look.modulus_unit(r["e_star_pa"] for r in folder.by_frequency)
     body = []
@@ -78,6 +82,7 @@ def _one(page: Page, folder: Folder, error: Error) -> None:
     )
 
 
+# Adds one table with |E*| and phase angle of several folders, and the differences of |E*| from the first folder.
 def _abreast(page: Page, folders: list[Folder]) -> None:
     factor, unit = look.modulus_unit(r["e_star_pa"] for f in folders for r in f.by_frequency)
     of = [{r["frequency_hz"]: r for r in f.by_frequency} for f in folders]
@@ -101,6 +106,7 @@ def _abreast(page: Page, folders: list[Folder]) -> None:
     page.table(head, rows, "; ".join(map(_of, folders)) + ".", words=0)
 
 
+# Adds two tables of a folder, |E*| and phase angle, with frequencies as rows and temperatures as columns.
 def _by_temperature(page: Page, folder: Folder) -> None:
     warm = _temperatures(folder)
     at = {(r["frequency_hz"], r.get("temperature_c")): r for r in folder.by_frequency}

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies: scenes varied over grids, Latin hypercubes and lists, computed on this machine or a cluster.
+"""Studies: computes a scene with many values of its keys (grids, Latin hypercubes, lists), on this machine or a
+cluster.
 
-The module can be called as its function `study`. What that takes is imported when asked for: workers need little."""
+The module itself can be called like its function `study`. Packages that only this function needs are imported when it
+is used, because workers need few of them."""
 
 from __future__ import annotations
 
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["Study", "StudyError", "study"]
 
 
+# The module's type. It makes `macadam.study(...)` callable, and imports the other names when they are first used.
 class _Callable(types.ModuleType):
     def __call__(self, *arguments: Any, **more: Any) -> Study:
         from macadam.study.driver import study

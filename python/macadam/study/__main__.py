@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""macadam study STUDY.toml --out DIR"""
+"""The command `macadam study STUDY.toml --out DIR`."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ import signal
 import sys
 from typing import Any
 
-_NOTES = 20  # lines about equal points that are printed
+_NOTES = 20  # largest number of printed lines about points with equal scenes
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class _Stop:
-    """Turns the first signal into a KeyboardInterrupt. Later ones do nothing: tables and report are being written."""
+    """A signal handler that raises KeyboardInterrupt at the first signal. It ignores later signals, because tables and
+    report are being written then."""
 
     asked = False
 
@@ -24,17 +25,17 @@ class _Stop:
             raise KeyboardInterrupt
 
     def check(self) -> None:
-        """Raises the KeyboardInterrupt that code of others may have swallowed."""
+        """Raises KeyboardInterrupt again after a signal, because a library may have caught the first one."""
         if self.asked:
             raise KeyboardInterrupt
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command. Returns its exit code: 0 all computed, 1 some failed or missing, 2 wrong input, 130 stopped."""
+    """Runs the command. Returns its exit code: 0 all computed, 1 some failed or missing, 2 wrong input, 130 stopped."""
     stop = _Stop()
     before = {}
     for number in _SIGNALS:
-        if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup sets it
+        if signal.getsignal(number) is not signal.SIG_IGN:  # nohup sets signals to be ignored; they stay so
             before[number] = signal.signal(number, stop)
     try:
         return _command(_options(arguments), stop)
@@ -46,6 +47,7 @@ def main(arguments: list[str] | None = None) -> int:
             signal.signal(number, handler)
 
 
+# Parses the command line.
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="macadam study",
@@ -71,6 +73,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
+# Runs, lists or checks a study, as the options say. Returns the exit code.
 def _command(options: argparse.Namespace, stop: _Stop) -> int:
     from macadam.study import StudyError, study
     from macadam.study.design import read_design
@@ -111,7 +114,7 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
 
 
 def _check(design: Any, program: str, asked: int | None) -> int:
-    """Checks all scenes and prints the wrong ones; the exit code."""
+    """Checks all scenes and prints the wrong ones. Returns the exit code."""
     from macadam.study.checks import wrong_scenes
     from macadam.study.executors import workers
 
@@ -130,7 +133,7 @@ def _print_notes(notes: list[str]) -> None:
 
 
 def _print_study(found: Any, out: str) -> int:
-    """Prints what a study found; the exit code."""
+    """Prints the results of a study. Returns the exit code."""
     _print_notes(found.notes)
     for failure in found.failures:
         values = ", ".join(f"{k} = {v}" for k, v in failure["values"].items())
@@ -152,7 +155,8 @@ def _print_study(found: Any, out: str) -> int:
 
 
 def end(code: int) -> None:
-    """Ends this process. After a stop it does not wait for Parsl's threads, which may wait for ended processes."""
+    """Ends this process. After a stop (130) it does not wait for Parsl's threads, which may wait forever for processes
+    that have ended."""
     if code == 130:
         sys.stdout.flush()
         sys.stderr.flush()

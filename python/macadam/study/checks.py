@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks the scenes of all points by `macadam check`, which computes nothing."""
+"""Checks the scenes of all points with `macadam check`, which computes nothing."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ from pathlib import Path
 
 from macadam.study.design import Design, Job
 
-# options of `macadam run` that `macadam check` has too, each with a value
+# options of `macadam run` that `macadam check` accepts too; each takes a value
 _OPTIONS = ("--backend", "--precision", "--method", "--linear", "--threads", "--device", "--devices")
 
 
 def wrong_scenes(design: Design, program: str, workers: int) -> list[tuple[Job, str]]:
-    """The jobs whose scene the program refuses, each with its message. workers: checks at a time."""
+    """Returns the jobs whose scene the program refuses, each with the program's message. workers: number of checks at a
+    time."""
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(workers) as pool:
 
         def message(job: Job) -> str:
@@ -33,7 +34,7 @@ def wrong_scenes(design: Design, program: str, workers: int) -> list[tuple[Job, 
 
 
 def _options(command: list[str]) -> list[str]:
-    """The options of a run that its check takes."""
+    """Returns the options of a run that `macadam check` accepts, with their values."""
     found = []
     for word, following in zip(command[1:], [*command[2:], ""], strict=False):
         if word in _OPTIONS:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The design of a study: its jobs, one for each experiment at each point."""
+"""Reads the design of a study: its jobs, one for each experiment at each point."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ __all__ = ["Design", "Job", "number_and_unit", "read_design"]
 
 _KEYS = {"scene", "command", "arguments", "grid", "latin_hypercube", "list", "choice", "experiment", "run", "report"}
 _COMMANDS = ("run", "specimen")
-# columns of the table beside the factors, named as in summary.json: where a result was found, and what
+# columns of the table other than the factors, named as in summary.json: AT says at which point a result was found,
+# MEASURED are the results
 AT = ("temperature_c", "frequency_hz", "time_s")
 MEASURED = (
     "e_star_pa",
@@ -34,27 +35,27 @@ COLUMNS = {"experiment", *AT, *MEASURED, "particles", "warnings", "macadam", "ke
 
 @dataclass
 class Job:
-    """One experiment at one point, as a worker gets it. Points with the same scene have the same key."""
+    """One experiment at one point, in the form that a worker gets. Points with the same scene have the same key."""
 
     key: str
     scene: str  # TOML
-    command: list[str]  # of macadam, without scene and folder
-    values: dict[str, Any]  # of the factors
+    command: list[str]  # arguments of macadam, without scene and folder
+    values: dict[str, Any]  # value of each factor
     experiment: str
 
     @property
     def label(self) -> str:
-        """The values of the factors and the experiment in words."""
+        """The values of the factors, and the experiment, as text."""
         words = [f"{key} = {value}" for key, value in self.values.items()]
         return ", ".join(words + [f"experiment {self.experiment}"] * bool(self.experiment)) or "the scene"
 
 
 @dataclass
 class Design:
-    """The jobs of a study, its factors and options. `jobs` has a job for each point, also if another point has the same
-    scene; `notes` names such points."""
+    """The jobs of a study, its factors and options. `jobs` has a job for each point, also for a point that has the same
+    scene as another; `notes` names such points."""
 
-    folder: Path  # that paths in it are relative to
+    folder: Path  # paths in the study are relative to it
     jobs: list[Job] = field(default_factory=list)
     factors: list[str] = field(default_factory=list)
     run: Table = field(default_factory=dict)
@@ -63,13 +64,14 @@ class Design:
 
     @property
     def results(self) -> list[Job]:
-        """The jobs to compute: one for each scene."""
+        """The jobs to compute: one for each different scene."""
         return list({job.key: job for job in reversed(self.jobs)}.values())[::-1]
 
 
 def read_design(source: str | Path | Table, version: str) -> Design:
-    """The design of a study: a TOML file, or its content as a dictionary, whose paths are relative to the current
-    folder. `version`: of macadam; another one makes other results."""
+    """Reads the design of a study from a TOML file or from its content as a dictionary, in which paths are relative to
+    the current folder. version: of macadam; it is part of each result's key, because another version may give other
+    results."""
     asked, folder = (source, Path.cwd()) if isinstance(source, dict) else (read_toml(Path(source)), Path(source).parent)
     _known(asked, _KEYS, "study")
     if not isinstance(asked.get("scene"), (str, dict)):
@@ -96,7 +98,7 @@ def read_design(source: str | Path | Table, version: str) -> Design:
         base,
     )
     design = Design(folder, run=table_of(asked, "run"), report=table_of(asked, "report"))
-    equal: dict[str, list[Job]] = {}  # by scene
+    equal: dict[str, list[Job]] = {}  # jobs with the same scene, by a key in which 1 and 1.0 are the same
     for values in points.crossed(sampled, axes | {name: list(of) for name, of in options.items()}):
         chosen = [options[name][value] for name, value in values.items() if name in options]
         factors = Changes("point", {key: value for key, value in values.items() if key not in options})
@@ -109,7 +111,8 @@ def read_design(source: str | Path | Table, version: str) -> Design:
 
 
 def _add(design: Design, job: Job, equal: list[Job]) -> None:
-    """Adds a job. equal: those with the same scene, whose result it shares; the same values have no second row."""
+    """Adds a job to the design. equal: earlier jobs with the same scene; the job then uses their result. A job with the
+    same values and experiment as one of these is not added."""
     if any(normal(job.values) == normal(o.values) and job.experiment == o.experiment for o in equal):
         design.notes.append(f"{job.label}: asked for more than once; it has one row")
         return
@@ -120,6 +123,7 @@ def _add(design: Design, job: Job, equal: list[Job]) -> None:
     design.jobs.append(job)
 
 
+# Returns the command and arguments of macadam that the study asks for.
 def _command(asked: Table) -> list[str]:
     command = asked.get("command", "run")
     if command not in _COMMANDS:
@@ -130,7 +134,8 @@ def _command(asked: Table) -> list[str]:
 
 
 def _experiments(asked: Table) -> dict[str, Changes]:
-    """The changes of each experiment; one without changes if the study has none."""
+    """Returns the changes of each experiment by its name; a single one without changes if the study has no
+    experiments."""
     found = table_of(asked, "experiment")
     for name, keys in found.items():
         if not isinstance(keys, dict):
@@ -138,6 +143,7 @@ def _experiments(asked: Table) -> dict[str, Changes]:
     return {name: Changes(f"experiment.{name}", keys) for name, keys in found.items()} or {"": Changes("experiment")}
 
 
+# Raises StudyError if a choice has the name of a factor or of a column of the table.
 def _refuse_names(options: dict[str, Any], keys: list[str]) -> None:
     for name in options:
         if name in keys:
@@ -146,6 +152,7 @@ def _refuse_names(options: dict[str, Any], keys: list[str]) -> None:
             raise StudyError(f"choice.{name}: found the name of a column of the table, expected another name")
 
 
+# Raises StudyError for an unknown key and suggests a similar known one.
 def _known(table: Table, names: set[str], where: str) -> None:
     for key in table:
         if key not in names:

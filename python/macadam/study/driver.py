@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A study from its file to its table: what is not there yet is computed, whatever ended earlier ones."""
+"""Runs a study from its file to its table. It computes only the results that its folder does not have yet, so a study
+that was interrupted in any way can be continued."""
 
 from __future__ import annotations
 
@@ -22,16 +23,16 @@ from macadam.study.locks import Taken, locked, taken
 from macadam.study.parsl_pool import Trouble
 from macadam.study.program import find_program, version_of
 
-_IDLE_ROUNDS = 3  # in which workers died and nothing was computed: then more rounds are useless
+_IDLE_ROUNDS = 3  # after so many consecutive rounds without a new result, the study gives up
 STOPPED = "the study was stopped"
 DIED = "their workers died; the logs are in the folder parsl"
 
 
 @dataclass
 class Study:
-    """What a study found. `table`: a row per frequency, temperature or time of each result, SI units; `failures`: key,
-    experiment, values and message of each; `missing`: number of results that were not computed, and `reason`: why not;
-    `notes`: points that have the scene of another one, in words."""
+    """The results of a study. `table`: one row per frequency, temperature or time of each result, SI units; `failures`:
+    key, experiment, values and message of each failed result; `missing`: number of results that were not computed, and
+    `reason`: why not; `notes`: sentences about points that have the same scene as another point."""
 
     folder: Path
     table: pd.DataFrame
@@ -52,13 +53,14 @@ def study(
     retry_failed: bool = False,
     progress: Callable[[int, int, int], None] | None = None,
 ) -> Study:
-    """Computes what a study asks for and is not in its folder yet; then writes its tables and its report.
+    """Computes the results of a study that are not in its folder yet; then writes its tables and its report.
 
-    source: STUDY.toml, or its content as a dictionary. out: the study's folder. executor: any of concurrent.futures, in
-    place of what [run] says; on, workers: in place of [run]'s. program: in place of the macadam that is found.
-    retry_failed: failures are tried again. progress: called every few seconds and after each result with the numbers
-    done, failed and asked. Raises StudyError if something is asked wrongly, or another study runs in the folder. After
-    a KeyboardInterrupt, workers end within seconds, tables and report are written, and the exception goes on."""
+    source: STUDY.toml, or its content as a dictionary. out: the study's folder. executor: any executor of
+    concurrent.futures; it replaces the one that [run] describes. on, workers: replace those of [run]. program: path of
+    macadam; by default it is searched for. retry_failed: compute failed results again. progress: called every few
+    seconds and after each result with the numbers of results that are done, failed and asked for. Raises StudyError if
+    the input is wrong or another study runs in the folder. After a KeyboardInterrupt, workers end within seconds,
+    tables and report are written, and the exception is raised again."""
     folder = Path(out).resolve()
     program = program or find_program()
     version = version_of(program)
@@ -98,7 +100,8 @@ def study(
 
 
 def _written(design: Design, folder: Path, reason: str) -> Study:
-    """Writes tables and report of the results that are in the folder, and returns them."""
+    """Writes tables and report of the results that are in the folder, and returns the results. reason: why some are
+    missing."""
     missing = sum(not _settled(folder, job) for job in design.results)
     found = Study(
         folder,
@@ -115,6 +118,7 @@ def _written(design: Design, folder: Path, reason: str) -> Study:
     return found
 
 
+# Whether the folder has the job's result or its failure.
 def _settled(folder: Path, job: Job) -> bool:
     return (folder / "results" / job.key).is_dir() or (folder / "failures" / f"{job.key}.json").is_file()
 
@@ -126,8 +130,8 @@ def _compute_all(
     given: concurrent.futures.Executor | None,
     progress: Callable[[int, int, int], None],
 ) -> str:
-    """In rounds: what a dead worker left is asked for again in the next one, with new workers. Returns why results are
-    missing; empty if none is."""
+    """Computes all results in rounds: jobs that a worker left unfinished when it died are given to new workers in the
+    next round. Returns why results are missing; empty if none are."""
     idle = 0
     limits = None if given is not None or design.run.get("on") == "threads" else executors.patience(design.run)
     while idle < _IDLE_ROUNDS:
@@ -141,7 +145,7 @@ def _compute_all(
             with _pool(given, design.run, folder) as (pool, asked):
                 died = _round(pool, jobs, lambda: _say(design, folder, progress), limits)
                 trouble = asked()
-        except (concurrent.futures.BrokenExecutor, RuntimeError):  # an executor of its own that takes no more jobs
+        except (concurrent.futures.BrokenExecutor, RuntimeError):  # the executor accepts no more jobs
             if given is not None:
                 return died or DIED
         idle = idle + 1 if all(not _settled(folder, job) for job in left) else 0
@@ -150,6 +154,7 @@ def _compute_all(
     return f"{DIED}{f' ({trouble.words or died})' if trouble.words or died else ''}"
 
 
+# A context with the caller's executor if there is one, otherwise with the executor that [run] describes.
 def _pool(given: concurrent.futures.Executor | None, run: dict[str, Any], folder: Path) -> Any:
     return contextlib.nullcontext((given, Trouble)) if given is not None else executors.executor(run, folder)
 
@@ -160,8 +165,9 @@ def _round(
     said: Callable[[], None],
     patience: tuple[float, float] | None,
 ) -> str:
-    """Until every job has ended, or nobody has worked at any for longer than is patient. Returns the last error of a
-    worker that died or never came to life; what the program said is in the folder."""
+    """Submits the jobs and waits until all have ended, or until no worker has been working for longer than `patience`
+    (seconds before the first worker begins, and afterwards; None: waits forever). said: reports progress. Returns the
+    last error of a worker that died or did not start; errors of the program are in the study's folder."""
     died = ""
     waiting = {pool.submit(compute, job) for job in jobs}
     locks = [Path(job["folder"]) / "running" / f"{job['key']}.lock" for job in jobs]
@@ -179,14 +185,15 @@ def _round(
                 quiet, begun = time.monotonic(), True
             elif patience and time.monotonic() - quiet > patience[begun]:
                 return died
-    except BaseException:  # an interrupt too: what waits is not begun
+    except BaseException:  # also KeyboardInterrupt: jobs that still wait must not begin
         for future in waiting:
-            with contextlib.suppress(NotImplementedError):  # Parsl's are not cancelled; its workers end with the pool
+            with contextlib.suppress(NotImplementedError):  # Parsl cannot cancel jobs; its workers end with the pool
                 future.cancel()
         raise
     return died
 
 
+# Returns the job as the dictionary that compute() of job.py expects.
 def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[str, Any]:
     command = [*job.command]
     if job.command[0] == "run" and "--threads" not in command:
@@ -203,6 +210,7 @@ def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[s
     }
 
 
+# Reports the numbers of results that are done, failed and asked for.
 def _say(design: Design, folder: Path, progress: Callable[[int, int, int], None]) -> None:
     done = sum((folder / "results" / job.key).is_dir() for job in design.results)
     failed = sum((folder / "failures" / f"{job.key}.json").is_file() for job in design.results)

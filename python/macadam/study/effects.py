@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of a study: one value a job of each quantity, main effects of factors, scatter over seeds."""
+"""Evaluates a study: one value per job of each quantity, main effects of the factors, scatter over seeds."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ import pandas as pd
 from macadam.study import table
 from macadam.study.design import Design
 
-FEW = 8  # different values up to which a factor has levels; one with more is continuous
+FEW = 8  # a factor with at most so many different values has levels; a numeric factor with more values is continuous
 
 
 @dataclass
 class Quantity:
-    """One number a job. `jobs`: a row a job, the factors' columns and `value`; `seeds`: names of the factors that draw
-    another specimen of the same mix; `factors`: the others that differ at all."""
+    """One number per job. `jobs`: one row per job, with the columns of the factors and `value`; `seeds`: names of the
+    factors that only choose another random specimen of the same mix; `factors`: the other factors whose values
+    differ."""
 
     name: str
     unit: str
@@ -35,18 +36,20 @@ class Quantity:
 
     @property
     def points(self) -> pd.DataFrame:
-        """Means over the seeds: a row a point."""
+        """Means over the seeds, one row per point."""
         if not self.factors:
             return pd.DataFrame({"value": [self.jobs["value"].mean()]})
         return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].mean().reset_index()
 
 
+# column of the table, key of [report], default value, and unit of what a quantity is shown at; infinity: the largest
+# value
 _AT = (
     ("frequency_hz", "frequency", 10.0, "Hz"),
     ("temperature_c", "temperature", 20.0, "°C"),
     ("time_s", "", np.inf, "s"),
 )
-# column of the table, and name, unit and factor of the report; larger values of a modulus are in GPa
+# column of the table, and name, unit and factor in the report; moduli of 1000 MPa or more are shown in GPa
 _SHOWN = (
     ("e_star_pa", "|E*|", "MPa", 1e-6),
     ("phase_deg", "phase angle", "°", 1.0),
@@ -57,8 +60,8 @@ _SHOWN = (
 
 
 def quantities(found: pd.DataFrame, design: Design) -> list[Quantity]:
-    """|E*| and phase angle at the frequency (and temperature) of [report], else next to 10 Hz (20 °C); for tests in time
-    the moduli and compliances at the last time."""
+    """Returns the quantities that the report shows: |E*| and phase angle at the frequency (and temperature) of [report]
+    or, by default, at those nearest to 10 Hz (20 °C); for tests in time the moduli and compliances at the last time."""
     units = table.units(design)
     names = {column: f"{f} ({units[f]})" if units[f] else f for f, column in table.columns(design).items()}
     experiments = found["experiment"].unique() if "experiment" in found else [None]
@@ -82,7 +85,7 @@ def quantities(found: pd.DataFrame, design: Design) -> list[Quantity]:
 
 
 def _nearest(rows: pd.DataFrame, report: dict[str, float]) -> tuple[pd.DataFrame, list[str]]:
-    """The rows at the frequency, temperature or time to show, and these in words."""
+    """Returns the rows at the frequency, temperature or time to show, and these values as texts."""
     at = []
     for column, key, default, unit in _AT:
         if column in rows and rows[column].notna().any():
@@ -95,7 +98,7 @@ def _nearest(rows: pd.DataFrame, report: dict[str, float]) -> tuple[pd.DataFrame
 
 
 def short(factor: str) -> str:
-    """The end of a factor's key, enough to know it by: `air voids (%)`, `M-A.delta`."""
+    """Returns the end of a factor's key, by which it can be recognised: `air voids (%)`, `M-A.delta`."""
     key, _, unit = factor.partition(" (")
     parts = key.split(".")
     name = ".".join(parts[-2:]) if parts[0] == "contacts" else parts[-1].replace("_", " ")
@@ -108,37 +111,40 @@ def numeric(points: pd.DataFrame, factor: str) -> bool:
 
 @dataclass
 class Effect:
-    """What a factor does to a quantity, the others averaged. `share`: of the variance between points (0 to 1)."""
+    """The main effect of a factor on a quantity: its means at the factor's levels, averaged over the other factors.
+    `share`: the fraction of the variance between points that the factor explains (0 to 1)."""
 
     factor: str
-    levels: list[Any]  # from where to where
-    means: list[float]
+    levels: list[Any]  # values of the factor; of a continuous one the lowest and the highest
+    means: list[float]  # mean of the quantity at each level
     share: float
     errors: list[float] | None = None  # standard errors of the means, from the scatter of seeds; None: it is unknown
-    scatter: float | None = None  # half the 95 % interval of the change between the ends, from the same
+    # half the 95 % interval of the change between the ends, also from the scatter of seeds
+    scatter: float | None = None
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Means at the first level and the last; of names the lowest and the highest."""
+        """The means at the first and the last level; if the levels are names, the lowest and the highest mean."""
         if isinstance(self.levels[0], (int, float)):
             return self.means[0], self.means[-1]
         return min(self.means), max(self.means)
 
     @property
     def within_scatter(self) -> bool:
-        """Whether other seeds could have given such a change without any effect; false if the scatter is unknown."""
+        """Whether different seeds alone can explain the change; false if the scatter is unknown."""
         first, last = self.ends
         return self.scatter is not None and abs(last - first) <= self.scatter
 
 
+# Whether a factor is numeric and has more than FEW different values.
 def continuous(points: pd.DataFrame, factor: str) -> bool:
     return numeric(points, factor) and points[factor].nunique() > FEW
 
 
 def _lines(points: pd.DataFrame, factors: list[str]) -> dict[str, tuple[float, float]]:
-    """Returns the slope of each continuous factor, and its standard error if the points have a standard deviation of 1.
-    It fits all factors at once: values of a hypercube are not quite independent, and one factor's effect must not count
-    as another's."""
+    """Returns the slope of each continuous factor, and the standard error that the slope would have if the points had a
+    standard deviation of 1. All factors are fitted together by least squares, factors with levels as 0/1 columns: the
+    values of a hypercube are not quite independent, and the effect of one factor must not be attributed to another."""
     smooth = [f for f in factors if continuous(points, f)]
     if not smooth:
         return {}
@@ -155,8 +161,8 @@ def _lines(points: pd.DataFrame, factors: list[str]) -> dict[str, tuple[float, f
 
 
 def effects(quantity: Quantity) -> list[Effect]:
-    """One effect per factor, the largest share of the variance first. The levels of a continuous factor are the ends of
-    its line."""
+    """Returns one effect per factor, the largest share of the variance first. A continuous factor has two levels, the
+    ends of its fitted line."""
     points, out = quantity.points, []
     total = float(((points["value"] - points["value"].mean()) ** 2).sum())
     lines, chance = _lines(points, quantity.factors), scatter(quantity)
@@ -166,7 +172,7 @@ def effects(quantity: Quantity) -> list[Effect]:
             ends = [float(x.min()), float(x.max())]
             means = [float(points["value"].mean() + slope * (e - x.mean())) for e in ends]
             effect = Effect(factor, ends, means, float(((slope * (x - x.mean())) ** 2).sum()) / total if total else 0.0)
-            if chance:  # the error of the change; points are means over seeds
+            if chance:  # error of the change between the ends; each point is a mean over seeds
                 each = error * (ends[1] - ends[0]) * chance.deviation / chance.fewest**0.5
                 effect.scatter = student_95(chance.freedom) * each
             out.append(effect)
@@ -186,17 +192,17 @@ def effects(quantity: Quantity) -> list[Effect]:
 
 @dataclass
 class Scatter:
-    """How much the seeds of one point differ, pooled over the points that have several."""
+    """The scatter between seeds of one point, pooled over the points that have several seeds."""
 
     deviation: float  # standard deviation, in the quantity's unit
     relative: float  # the same, relative to each point's mean
-    points: int
-    fewest: int  # seeds of a point
+    points: int  # number of points with several seeds
+    fewest: int  # smallest number of seeds of such a point
     freedom: int  # degrees of freedom
 
 
 def scatter(quantity: Quantity) -> Scatter | None:
-    """The scatter of seeds; None if no point has several."""
+    """Returns the scatter of seeds; None if no point has several seeds."""
     if not quantity.seeds:
         return None
     groups = quantity.jobs.groupby(quantity.factors, dropna=False)["value"] if quantity.factors else None
@@ -213,9 +219,10 @@ def scatter(quantity: Quantity) -> Scatter | None:
 
 
 def student_95(freedom: int) -> float:
-    """Student's t: how many standard errors hold 95 % of the differences that chance makes. To three digits."""
+    """Returns Student's t for a two-sided 95 % interval: 95 % of random differences are within this number of standard
+    errors. Correct to three digits."""
     few = (12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228)
     if freedom <= len(few):
         return few[freedom - 1]
-    z = 1.959964  # the normal distribution's, and the first terms of the series in 1/freedom
+    z = 1.959964  # value of the normal distribution; below, the first terms of the series in 1/freedom
     return z + (z**3 + z) / (4 * freedom) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * freedom**2)

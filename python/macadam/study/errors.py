@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The error of a study that is asked for wrongly."""
+"""The exception for wrong input of a study."""
 
 
 class StudyError(ValueError):
-    """The study, its scene or its folder is wrong: the message names what, what was found and what was expected."""
+    """The study, its scene or its folder is wrong. The message names the wrong part, what was found and what was
+    expected."""

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where jobs run, and what `[run]` may say: this machine or a Slurm cluster by Parsl, or threads of this process."""
+"""Reads and checks the section `[run]` of a study and makes the executor for its jobs: this machine or a Slurm cluster,
+both by Parsl, or threads of this process."""
 
 from __future__ import annotations
 
@@ -19,7 +20,7 @@ from macadam.study.parsl_pool import Trouble, parsl_pool
 
 PLACES = ("local", "slurm", "threads")
 KEYS = {"on", "workers", "threads", "gpus", "patience", "slurm"}
-# options of Parsl's SlurmProvider, and what their values are
+# options of Parsl's SlurmProvider, and the types of their values
 SLURM = {
     "partition": str,
     "account": str,
@@ -40,8 +41,8 @@ _KINDS = {str: "text", int: "a whole number above 0", bool: "true or false"}
 
 @contextlib.contextmanager
 def executor(run: dict[str, Any], folder: Path) -> Iterator[tuple[concurrent.futures.Executor, Callable[[], Trouble]]]:
-    """The executor that `[run]` of a study asks for, and a function that says why its workers could not start. It ends
-    within seconds of an interrupt."""
+    """A context with the executor that `[run]` of a study describes, and a function that returns why its workers could
+    not start. After an interrupt the executor ends within seconds."""
     place = run.get("on", "local")
     if place == "threads":
         with _threads(workers(run), folder) as pool:
@@ -52,6 +53,7 @@ def executor(run: dict[str, Any], folder: Path) -> Iterator[tuple[concurrent.fut
         yield found
 
 
+# A context with threads of this process. After an exception, the programs that they run are ended.
 @contextlib.contextmanager
 def _threads(number: int, folder: Path) -> Iterator[concurrent.futures.Executor]:
     programs.start(str(folder))
@@ -60,32 +62,35 @@ def _threads(number: int, folder: Path) -> Iterator[concurrent.futures.Executor]
         yield pool
     except BaseException:
         programs.stop(str(folder))
-        pool.shutdown(wait=False, cancel_futures=True)  # a thread may wait for the lock of a worker that is still alive
+        # without waiting: a thread may be blocked by the lock of a living worker
+        pool.shutdown(wait=False, cancel_futures=True)
         raise
     pool.shutdown()
 
 
 def patience(run: dict[str, Any]) -> tuple[float, float]:
-    """Seconds for which no worker may be at work while there is something to do: before the first one is, and later.
-    Then all are replaced. A worker of Parsl that is killed while it waits can take the queue of all others with it."""
+    """Returns the longest time [s] for which no worker may be working although there are jobs: until the first worker
+    begins, and afterwards. After that time all workers are replaced. This is needed because a Parsl worker that is
+    killed while it waits for a job can block the queue for all others."""
     slurm = run.get("on", "local") == "slurm"
     later = float(run.get("patience", 600 if slurm else 60))
-    return (float("inf") if slurm else 5 * later), later  # a cluster may let jobs wait for days
+    return (float("inf") if slurm else 5 * later), later  # jobs may wait for days before a cluster starts them
 
 
 def threads(run: dict[str, Any]) -> int:
-    """CPU threads of each program, 1 where nothing is said."""
+    """Returns the number of CPU threads of each program, 1 by default."""
     return int(run.get("threads", 1))
 
 
 def workers(run: dict[str, Any]) -> int:
-    """Programs at a time on a machine: one a GPU, or as many as its cores allow."""
+    """Returns the number of programs that run at a time on a machine. By default it is one per GPU or, without GPUs,
+    the number of cores divided by the threads of each program."""
     asked = run.get("workers")
     return int(asked) if asked else _gpus(run) or max(1, len(os.sched_getaffinity(0)) // threads(run))
 
 
 def check(run: dict[str, Any]) -> None:
-    """A StudyError where `[run]` says what is not known."""
+    """Raises StudyError if `[run]` has an unknown key or a wrong value."""
     slurm = run.get("slurm", {})
     if not isinstance(slurm, dict):
         raise StudyError(f"run.slurm: found {slurm!r}, expected a table [run.slurm]")
@@ -116,13 +121,14 @@ def check(run: dict[str, Any]) -> None:
 
 
 def check_programs(run: dict[str, Any]) -> None:
-    """A StudyError if a program that the place takes is not here."""
+    """Raises StudyError if a program that the place of computation needs is not installed."""
     if run.get("on", "local") == "slurm" and not shutil.which("sbatch"):
         raise StudyError('run.on: found "slurm", but no program sbatch in the search path: Slurm is not installed here')
 
 
 def _gpus(run: dict[str, Any]) -> int:
-    """Number of GPUs on a machine: as given, or all that the driver lists here."""
+    """Returns the number of GPUs on a machine: the given number or, for "all", the number that nvidia-smi lists
+    here."""
     asked = run.get("gpus", 0)
     if asked != "all":
         return int(asked)

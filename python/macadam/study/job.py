@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One result, made by a worker: the program runs in a folder of its own, which takes its place when it is done.
+"""Computes one result, in a worker. The program runs in the folder `running/KEY`, which is renamed to `results/KEY`
+when the program has succeeded.
 
-The folder of a study says all: `results/KEY` is there or not. A worker may be killed at any moment; then `running/KEY`
-is left, from which a stepped run goes on, and nothing else. The program dies with its worker."""
+So a result exists if and only if `results/KEY` exists, and there is no other record of progress. A worker may be killed
+at any moment. Then only `running/KEY` is left, and a stepped run continues from the checkpoint in it. The program is
+killed together with its worker."""
 
 from __future__ import annotations
 
@@ -22,19 +24,20 @@ from typing import Any
 from macadam.study import programs
 from macadam.study.locks import locked
 
-KILLS = 3  # of the program by a signal, such as when memory ends; then it has failed
-_LINES = 12  # of the program's messages that are kept
-_LIBC = ctypes.CDLL(None)  # before any fork
+# repetitions after a signal has killed the program, for example because memory ran out; then the job has failed
+KILLS = 3
+_LINES = 12  # number of lines of the program's messages that are kept
+_LIBC = ctypes.CDLL(None)  # loaded here, because loading is not safe between fork and exec
 
 
 def compute(job: dict[str, Any]) -> dict[str, Any]:
-    """Makes the result of a job unless it is there. `job`: key, scene (TOML), command, threads, values, experiment,
-    program, folder (of the study). Returns its key and status: done, failed or stopped. A failure of the program
-    raises no exception."""
+    """Computes the result of a job, unless the study's folder has it. job: key, scene (TOML), command, threads, values,
+    experiment, program, folder (of the study). Returns the key and the status: done, failed or stopped. A failure of
+    the program does not raise an exception; it is recorded in `failures/KEY.json`."""
     folder, key = Path(job["folder"]), job["key"]
     done, failed, work = (folder / name / key for name in ("results", "failures", "running"))
     failed = failed.with_suffix(".json")
-    # the same job may still be at work, of a study that was killed: it is waited for
+    # a worker of an earlier study, which was killed, may still compute the same job; the lock waits for it
     with locked(folder / "running" / f"{key}.lock", wait=True):
         if done.is_dir():
             return {"key": key, "status": "done"}
@@ -46,7 +49,7 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
         while code < 0 and kills < KILLS and not programs.stopped(job["folder"]):
             kills += 1
             code, said = _run(job, work)
-        if code != 0 and programs.stopped(job["folder"]):  # `running` keeps its checkpoint
+        if code != 0 and programs.stopped(job["folder"]):  # the checkpoint stays in `running`
             return {"key": key, "status": "stopped"}
         record = {name: job[name] for name in ("key", "experiment", "values", "command")}
         record |= {"wall_s": round(time.time() - began, 3), "processor_s": round(_processor_time() - spent, 3)}
@@ -62,13 +65,15 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
 
 
 def _processor_time() -> float:
-    """Seconds for which programs of this process have computed; of workers that are threads of one, those of all."""
+    """Returns the processor time [s] of all programs that this process has run. If the workers are threads of one
+    process, it includes the programs of all of them."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
-    """Exit code (below 0: a signal) and messages of the program."""
+    """Runs the program in `work`, from its checkpoint if there is one. Returns its exit code (below 0: a signal) and
+    its messages."""
     command, *arguments = job["command"]
     resume = ["--resume"] if command == "run" and (work / "checkpoint.h5").is_file() else []
     if not resume:
@@ -77,7 +82,8 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
         (work / "scene.toml").write_text(job["scene"], encoding="utf-8")
     line = [job["program"], command, str(work / "scene.toml"), "--out", str(work), *arguments, *resume]
     try:
-        # also what the option does not reach: threads that wait for a core which others have cost more than they give
+        # The variables limit threads that the option --threads does not: waiting for a core that another program uses
+        # costs more time than an additional thread saves.
         environment = {"OMP_NUM_THREADS": str(job["threads"]), "OMP_WAIT_POLICY": "passive", **os.environ}
         code, said = programs.run(
             job["folder"],
@@ -89,17 +95,19 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
         )
     except OSError as error:
         return 127, f"{job['program']}: {error.strerror}"
-    if resume and code == 2:  # a checkpoint that this program refuses
+    if resume and code == 2:  # this program refuses the checkpoint: begin again without it
         shutil.rmtree(work)
         return _run(job, work)
     return code, said
 
 
 def _die_with_parent() -> None:
-    """In the child: it is killed when its worker ends in any way, so that no result is computed by two."""
+    """Runs in the child process. Asks the kernel to kill the child when its worker ends in any way, so that two
+    programs never compute the same result."""
     _LIBC.prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
+# Returns the message of a failure: the last lines of the program's messages, or the signal that killed it.
 def _message(code: int, said: str) -> str:
     text = "\n".join(said.strip().splitlines()[-_LINES:])
     if code < 0:
@@ -110,7 +118,8 @@ def _message(code: int, said: str) -> str:
 
 
 def machine() -> dict[str, Any]:
-    """Where it was computed."""
+    """Returns name, processor and cores of this machine, and the GPUs and the Slurm job if the environment names
+    them."""
     model = platform.processor() or platform.machine()
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as lines:
@@ -125,7 +134,7 @@ def machine() -> dict[str, Any]:
 
 
 def _write(file: Path, value: dict[str, Any]) -> None:
-    """The whole file, on the disk, or nothing of it."""
+    """Writes a JSON file completely and flushes it to the disk, or leaves no file."""
     part = file.with_name(f".{file.name}.{os.getpid()}.part")
     with open(part, "w", encoding="utf-8") as out:
         json.dump(value, out, indent=1, ensure_ascii=False, default=str)

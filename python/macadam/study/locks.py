@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Locks of a file that end with their process, however it ends. POSIX locks: children do not inherit them, and shared
-file systems know them."""
+"""File locks that are released when their process ends, in whatever way. They are POSIX locks, which child processes do
+not inherit and which work on shared file systems."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
-_own: set[str] = set()  # such a lock does not keep threads of one process apart; this does
-_change = threading.Condition()
+_own: set[str] = set()  # files locked by this process: a POSIX lock does not exclude threads of the same process
+_change = threading.Condition()  # guards _own
 
 
 class Taken(Exception):
@@ -21,7 +21,8 @@ class Taken(Exception):
 
 @contextlib.contextmanager
 def locked(file: Path, wait: bool) -> Iterator[None]:
-    """The lock of this file while the block runs. wait: until another one ends; else it is Taken."""
+    """Holds the lock of this file while the block runs. wait: if the lock is held elsewhere, wait for it; otherwise
+    raise Taken."""
     name = str(file.resolve())
     with _change:
         while name in _own:
@@ -47,13 +48,14 @@ def locked(file: Path, wait: bool) -> Iterator[None]:
 
 
 def taken(file: Path) -> bool:
-    """Whether another process has the lock of this file."""
+    """Whether another process holds the lock of this file."""
     try:
         handle = os.open(file, os.O_RDWR)
     except FileNotFoundError:
         return False
     try:
-        fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)  # for a moment; who wants it then waits for it
+        # held until the handle is closed below; others wait that long
+        fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         return False
     except (BlockingIOError, PermissionError):
         return True

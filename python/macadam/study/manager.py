@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Begins Parsl's manager of workers on this machine, and ends it where it cannot do so itself.
+"""Starts Parsl's manager of workers on this machine, and kills it if it does not end after its study has ended.
 
-`python -m macadam.study.manager STUDY SECONDS COMMAND ...` becomes the command, and leaves a process that watches it. A
-worker that is killed while it holds the queue of results lets the manager wait for that queue for ever, also when it
-has missed the process STUDY. So, once that is gone, the manager has so many seconds.
+`python -m macadam.study.manager STUDY SECONDS COMMAND ...` forks a process that watches, and then becomes COMMAND, the
+manager. STUDY is the process number of the study. The watcher is needed because a worker that is killed while it holds
+the lock of the results' queue makes the manager wait forever for that queue, even after the manager has noticed that
+the study is gone. So the manager is killed SECONDS after the study has ended.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from pathlib import Path
 
 
 def begun(process: int) -> str | None:
-    """When a process began, which tells it from a later one of its number; nothing where it has ended."""
+    """Returns the start time of a process, which distinguishes it from a later process with the same number; None if
+    the process has ended."""
     try:
         state, *fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
     except OSError:
@@ -25,7 +27,8 @@ def begun(process: int) -> str | None:
 
 
 def watch(study: int, manager: int, seconds: float) -> None:
-    """Returns when the manager, of which this process is a child, has ended; ends it where the study is gone."""
+    """Returns when the manager, whose child this process is, has ended. Kills the manager if it still runs `seconds`
+    after the study has ended."""
     since, gone = begun(study), None
     while os.getppid() == manager:
         time.sleep(1)
@@ -36,6 +39,7 @@ def watch(study: int, manager: int, seconds: float) -> None:
             os.kill(manager, signal.SIGKILL)
 
 
+# Forks the watcher and becomes the manager.
 def main() -> None:
     study, seconds, command = int(sys.argv[1]), float(sys.argv[2]), sys.argv[3:]
     manager = os.getpid()

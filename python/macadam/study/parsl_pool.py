@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parsl's workers, on this machine or as jobs of Slurm: how they start, and how they end within a bounded time."""
+"""Starts Parsl's workers, on this machine or as jobs of Slurm, and ends them within a bounded time."""
 
 from __future__ import annotations
 
@@ -19,13 +19,14 @@ from typing import Any
 
 from macadam.study.errors import StudyError
 
-# Parsl's shutdown waits without a bound for answers of its interchange, a process that may have died. So it gets this
-# many seconds; then its processes are killed.
+# Parsl's shutdown waits without a limit for answers of its interchange (the process between the study and the workers),
+# which may have died. So the shutdown gets this many seconds; then Parsl's processes are killed.
 AFTER_INTERRUPT = 2.0
-AT_THE_END = 30.0  # scancel may take its time
-_BEAT = 5  # s between signs of life of workers; after six missing ones a worker is lost
-# Starts the interchange in a session of its own: a signal to the study's process group does not reach it. It is killed
-# when the study ends in any way; it would wait forever for a study that was killed, and its workers for it.
+AT_THE_END = 30.0  # longer, because scancel may be slow
+_BEAT = 5  # seconds between heartbeats of workers; a worker is lost after six missing heartbeats
+# Starts the interchange in its own session, so that a signal to the study's process group does not reach it. The kernel
+# kills it when the study ends in any way (prctl 1 is PR_SET_PDEATHSIG, 9 is SIGKILL). Otherwise it would wait forever
+# for a study that was killed, and its workers would wait for it.
 _INTERCHANGE = (
     "import ctypes, os, sys; os.setsid(); ctypes.CDLL(None).prctl(1, 9); os.execvp(sys.argv[1], sys.argv[1:])"
 )
@@ -33,7 +34,8 @@ _INTERCHANGE = (
 
 @dataclass
 class Trouble:
-    """Why workers could not start, in words; empty if they could. `refused`: it is of no use to try again."""
+    """The reason in words why workers could not start; empty if they could. `refused`: the request itself was refused,
+    so another attempt is useless."""
 
     words: str = ""
     refused: bool = False
@@ -43,10 +45,11 @@ class Trouble:
 def parsl_pool(
     place: str, folder: Path, slurm: dict[str, Any], workers: int | None, threads: int, gpus: int
 ) -> Iterator[tuple[Any, Callable[[], Trouble]]]:
-    """The pool of workers, and a function that says why workers could not start.
+    """A context with the pool of workers, and a function that returns why workers could not start.
 
-    place: "local" or "slurm", with options of Parsl's SlurmProvider. workers: per machine; None: as many as its cores
-    allow. threads: CPU threads of each. gpus: per machine. Parsl's logs go into `folder`/parsl."""
+    place: "local" or "slurm". slurm: options of Parsl's SlurmProvider. workers: number of workers per machine; None: as
+    many as its cores allow. threads: CPU threads of each worker. gpus: number of GPUs per machine. Parsl's logs go into
+    `folder`/parsl."""
     try:
         from parsl.concurrent import ParslPoolExecutor
     except ImportError:
@@ -54,7 +57,7 @@ def parsl_pool(
             f"on = {place!r} takes the Python package parsl, which is not installed; "
             'on = "threads" runs on this machine without it'
         ) from None
-    # Parsl starts its own programs by their names: they are beside this Python
+    # Parsl starts its own programs by name, so the search path begins with the folder of this Python, which has them
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
     with _environment({"PATH": path, "PYTHONPATH": _python_path()}):
         executor = _executor(place, slurm, workers, threads, gpus)
@@ -68,6 +71,7 @@ def parsl_pool(
             _end(pool, executor, config, seconds)
 
 
+# Returns Parsl's executor for the given place, with its provider of workers.
 def _executor(place: str, slurm: dict[str, Any], workers: int | None, threads: int, gpus: int) -> Any:
     from parsl.executors import HighThroughputExecutor
     from parsl.executors.high_throughput.executor import DEFAULT_LAUNCH_CMD
@@ -76,7 +80,7 @@ def _executor(place: str, slurm: dict[str, Any], workers: int | None, threads: i
     more: dict[str, Any] = {}
     if place == "slurm":
         asked = {"init_blocks": 0, "walltime": "24:00:00", **slurm}
-        # the job's shell need not know what is set here
+        # the shell of a Slurm job may not inherit these variables, so the job sets them
         begin = f"export PATH={shlex.quote(os.environ['PATH'])} PYTHONPATH={shlex.quote(os.environ['PYTHONPATH'])}"
         asked["worker_init"] = f"{begin}\n{asked.get('worker_init', '')}"
         provider: Any = SlurmProvider(**asked)
@@ -112,7 +116,7 @@ def _config(executor: Any, folder: Path) -> Any:
 
 
 def _trouble(executor: Any) -> Trouble:
-    """The words of sbatch, or of a job that ended too soon."""
+    """Returns the message of sbatch if it refused a job, or of a job that failed or disappeared."""
     from parsl.jobs.states import JobState
 
     for status in [*executor.status_facade.values()]:
@@ -126,7 +130,7 @@ def _trouble(executor: Any) -> Trouble:
 
 
 def _end(pool: Any, executor: Any, config: Any, seconds: float) -> None:
-    """Shuts Parsl down. Does not wait for it longer than `seconds`; then its processes are killed."""
+    """Shuts Parsl down. Waits for at most `seconds`; then kills Parsl's processes and cancels its Slurm jobs."""
     closing = threading.Thread(target=_close, args=(pool,), daemon=True)
     groups = _groups(executor.provider)
     try:
@@ -142,21 +146,21 @@ def _end(pool: Any, executor: Any, config: Any, seconds: float) -> None:
 
 
 def _close(pool: Any) -> None:
-    with contextlib.suppress(Exception):  # of processes that are gone; they need no shutdown
+    with contextlib.suppress(Exception):  # errors about processes that have ended already
         pool.shutdown(wait=False)
 
 
 def _groups(provider: Any) -> set[int]:
-    """Process groups of the workers on this machine."""
+    """Returns the process groups of the workers on this machine, without that of this process."""
     found = set()
     for job in list(provider.resources.values()):
-        with contextlib.suppress(KeyError, ProcessLookupError):  # of Slurm; ended
+        with contextlib.suppress(KeyError, ProcessLookupError):  # a job of Slurm; a process that has ended
             found.add(os.getpgid(job["remote_pid"]))
     return found - {os.getpgrp()}
 
 
 def _cancel(provider: Any) -> None:
-    """Asks Slurm to end the jobs, without waiting for its answer."""
+    """Asks Slurm to end the jobs, and does not wait for the answer."""
     jobs = [name for name, job in provider.resources.items() if "remote_pid" not in job and not job["status"].terminal]
     if jobs:
         with contextlib.suppress(OSError):
@@ -169,6 +173,7 @@ def _cancel(provider: Any) -> None:
             )
 
 
+# Kills the process groups of the workers, and the interchange.
 def _kill(groups: set[int], interchange: Any) -> None:
     for group in groups:
         with contextlib.suppress(ProcessLookupError):
@@ -179,7 +184,8 @@ def _kill(groups: set[int], interchange: Any) -> None:
 
 
 def _forget(config: Any) -> None:
-    """Lets Parsl start again in this process after a shutdown that did not end."""
+    """Removes Parsl's state in this process after a shutdown that did not finish, so that Parsl can be started
+    again."""
     import parsl
     from parsl.errors import NoDataFlowKernelError
 
@@ -191,11 +197,12 @@ def _forget(config: Any) -> None:
 
 
 def _python_path() -> str:
-    """Workers find this package where it is here."""
+    """Returns PYTHONPATH for the workers, which begins with the folder of this package."""
     here = str(Path(__file__).resolve().parents[2])
     return os.pathsep.join(filter(None, [here, os.environ.get("PYTHONPATH")]))
 
 
+# Sets environment variables while the block runs.
 @contextlib.contextmanager
 def _environment(values: dict[str, str]) -> Iterator[None]:
     before = {name: os.environ.get(name) for name in values}

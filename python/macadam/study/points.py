@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points of a study: grids crossed with Latin hypercubes, lists and named choices."""
+"""Makes the points of a study: grids crossed with Latin hypercubes, lists and named choices."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from typing import Any
 from macadam.study.errors import StudyError
 from macadam.study.scenes import Table, normal
 
-MOST = 1_000_000  # points; far more than anyone computes, and held in memory at once
+MOST = 1_000_000  # largest number of points: far more than anyone computes, and all are held in memory
 
 
 def table_of(asked: Table, name: str) -> Table:
-    """A section of the study; an empty one if it is not there."""
+    """Returns a section of the study; an empty one if the study has no such section."""
     value = asked.get(name, {})
     if not isinstance(value, dict):
         raise StudyError(f"{name}: found {value!r}, expected a table [{name}]")
@@ -23,7 +23,7 @@ def table_of(asked: Table, name: str) -> Table:
 
 
 def grid(asked: Table) -> dict[str, list[Any]]:
-    """The values of each key of `[grid]`."""
+    """Returns the values of each key of `[grid]`. Raises StudyError if a key has the same value twice."""
     axes: dict[str, list[Any]] = {}
     for key, values in _flat(table_of(asked, "grid")).items():
         if not isinstance(values, list) or not values:
@@ -41,13 +41,14 @@ def grid(asked: Table) -> dict[str, list[Any]]:
 
 
 def _text(value: Any) -> str:
-    """Equal for equal values: 1 and 1.0, "2 %" and "2.0 %"."""
+    """Returns a text that is the same for equal values, such as 1 and 1.0, or "2 %" and "2.0 %"."""
     number, unit = number_and_unit(value)
     return json.dumps(normal([number, unit] if unit else value), default=str)
 
 
 def samples(asked: Table) -> list[dict[str, Any]]:
-    """The points of hypercubes and lists, each with a value for every key of these."""
+    """Returns the points of all hypercubes and lists. Raises StudyError if a point has no value for a key of the
+    others."""
     out: list[dict[str, Any]] = []
     places: list[str] = []
     for name, points in (("latin_hypercube", _hypercube), ("list", lambda block: [_flat(block)])):
@@ -65,7 +66,7 @@ def samples(asked: Table) -> list[dict[str, Any]]:
 
 
 def choices(asked: Table) -> dict[str, dict[str, Table]]:
-    """The alternatives of each `[choice]` by their names."""
+    """Returns the alternatives of each `[choice]` by their names."""
     found = table_of(asked, "choice")
     for name, options in found.items():
         if not isinstance(options, dict) or not all(isinstance(o, dict) for o in options.values()) or not options:
@@ -74,7 +75,8 @@ def choices(asked: Table) -> dict[str, dict[str, Table]]:
 
 
 def crossed(sampled: list[dict[str, Any]], axes: dict[str, list[Any]]) -> list[dict[str, Any]]:
-    """The values of all factors at each point: each sample by every combination of the axes."""
+    """Returns the values of all factors at each point: every sample combined with every combination of the axes'
+    values."""
     number = max(1, len(sampled)) * math.prod(len(values) for values in axes.values())
     if number > MOST:
         raise StudyError(f"points: found {number:,}, expected at most {MOST:,}")
@@ -83,7 +85,8 @@ def crossed(sampled: list[dict[str, Any]], axes: dict[str, list[Any]]) -> list[d
 
 
 def _flat(table: Table, leaf: Any = lambda value: False, before: str = "") -> Table:
-    """Dotted keys that TOML took for tables in tables, as one key each; a table that is a `leaf` is a value."""
+    """Returns a table without nested tables, as one dotted key per value: TOML reads a dotted key as tables in tables.
+    leaf: says whether a table is itself a value."""
     out: Table = {}
     for key, value in table.items():
         if isinstance(value, dict) and not leaf(value):
@@ -93,6 +96,7 @@ def _flat(table: Table, leaf: Any = lambda value: False, before: str = "") -> Ta
     return out
 
 
+# Returns the tables of an array of tables of the study; also accepts a single table.
 def _list(asked: Table, name: str) -> list[Table]:
     value = asked.get(name, [])
     value = [value] if isinstance(value, dict) else value
@@ -102,7 +106,8 @@ def _list(asked: Table, name: str) -> list[Table]:
 
 
 def _hypercube(block: Table) -> list[dict[str, Any]]:
-    """The points of a Latin hypercube. Each range is cut into equal parts, one per point, with a point in each."""
+    """Returns the points of a Latin hypercube: each range is divided into as many equal parts as there are points, and
+    each part contains one point."""
     block = _flat(block, lambda value: "low" in value or "high" in value)
     number, seed = block.pop("points", None), block.pop("seed", 1)
     if not isinstance(number, int) or not 1 <= number <= MOST:
@@ -114,11 +119,12 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     except ImportError:
         raise StudyError("latin_hypercube: it takes the Python package SciPy, which is not installed") from None
     ranges = {key: _range(key, value) for key, value in block.items()}
-    # random-cd: exchanged until no two factors go together by chance
+    # random-cd: values are exchanged between points to lower the discrepancy, so that factors are hardly correlated by
+    # chance
     asked = {"d": len(ranges), "optimization": "random-cd"}
     try:
         sampler = qmc.LatinHypercube(**asked, rng=seed)
-    except TypeError:  # before SciPy 1.15
+    except TypeError:  # the argument's name before SciPy 1.15
         sampler = qmc.LatinHypercube(**asked, seed=seed)
     unit = sampler.random(number)
     points = []
@@ -132,6 +138,7 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     return points
 
 
+# Returns low, high, whether the scale is logarithmic, and the unit of a key's range.
 def _range(key: str, value: Any) -> tuple[float, float, bool, str]:
     log = isinstance(value, dict) and value.get("scale") == "log"
     ends = [value.get("low"), value.get("high")] if isinstance(value, dict) else value
@@ -151,7 +158,7 @@ def _range(key: str, value: Any) -> tuple[float, float, bool, str]:
 
 
 def number_and_unit(value: Any) -> tuple[float | None, str]:
-    """A number, or text such as "3 %", as number and unit; nothing where it is neither."""
+    """Splits a number, or a text such as "3 %", into number and unit. Returns (None, "") for anything else."""
     if isinstance(value, bool):
         return None, ""
     if isinstance(value, (int, float)):

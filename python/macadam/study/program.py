@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program that computes: where it is, and its version."""
+"""Finds the program macadam that computes the results, and its version."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ _BUILDS = ("local", "cuda-release", "cpu-release", "release")
 
 
 def find_program() -> str:
-    """MACADAM_PROGRAM, else the one that came with this package, else macadam of the search path, else that of the source
-    tree around this package."""
+    """Returns the program's path: MACADAM_PROGRAM if it is set, else the program that came with this package, else
+    macadam in the search path, else a build of the source tree around this package. Raises StudyError if there is
+    none."""
     asked = os.environ.get("MACADAM_PROGRAM")
     if asked:
         if not os.access(asked, os.X_OK) or Path(asked).is_dir():
@@ -36,7 +37,7 @@ def find_program() -> str:
 
 
 def version_of(program: str) -> str:
-    """What `macadam --version` says."""
+    """Returns the output of `macadam --version`."""
     try:
         done = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=60)
     except (OSError, subprocess.TimeoutExpired) as error:

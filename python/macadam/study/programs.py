@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The programs that threads of this process run, so that they can be ended when the study is stopped."""
+"""Runs programs from threads of this process and keeps a list of them, so that they can be ended when the study is
+stopped."""
 
 from __future__ import annotations
 
@@ -11,25 +12,25 @@ import threading
 import time
 from typing import Any
 
-GRACE = 2.0  # s that a program has to write its checkpoint after SIGTERM; then it is killed
-_running: dict[str, set[subprocess.Popen]] = {}  # by folder of the study
-_stopped: set[str] = set()
-_change = threading.Lock()
+GRACE = 2.0  # seconds that a program has to write its checkpoint after SIGTERM; then it is killed
+_running: dict[str, set[subprocess.Popen]] = {}  # running programs by folder of the study
+_stopped: set[str] = set()  # folders of studies that were stopped
+_change = threading.Lock()  # guards both
 
 
 def start(folder: str) -> None:
-    """Allows programs of the study in this folder."""
+    """Allows programs of the study in this folder to start, also after an earlier stop()."""
     with _change:
         _stopped.discard(folder)
 
 
 def stopped(folder: str) -> bool:
-    """Whether the study in this folder was stopped: no program may begin."""
+    """Whether the study in this folder was stopped, so that no program may start."""
     return folder in _stopped
 
 
 def stop(folder: str) -> None:
-    """Ends all programs of a study, and lets none begin. Returns when they have ended."""
+    """Ends all programs of a study and prevents new ones from starting. Returns when they have ended."""
     with _change:
         _stopped.add(folder)
         left = list(_running.get(folder, ()))
@@ -43,17 +44,17 @@ def stop(folder: str) -> None:
 
 
 def _signal(program: subprocess.Popen, number: int) -> None:
-    """Signals a program and its children; does nothing if they have ended."""
+    """Sends a signal to a program and its children; does nothing if they have ended."""
     with contextlib.suppress(ProcessLookupError):
         os.killpg(program.pid, number)
 
 
 def run(folder: str, line: list[str], **how: Any) -> tuple[int, str]:
-    """Runs a program of a study. Returns its exit code (below 0: a signal) and its standard error."""
+    """Runs a program for the study in `folder`. Returns its exit code (below 0: a signal) and its standard error."""
     with _change:
         if folder in _stopped:
             return -signal.SIGTERM, ""
-        # a session of its own: a signal from the terminal reaches the study alone, which decides
+        # in its own session: a signal from the terminal then reaches only the study, which decides what to do
         program = subprocess.Popen(
             line, stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True, **how
         )

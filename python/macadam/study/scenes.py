@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes of points: values put at dotted keys, files found, and the key of a result."""
+"""Makes the scenes of a study's points: sets values at dotted keys, resolves paths of files, and computes the key of a
+result."""
 
 from __future__ import annotations
 
@@ -13,7 +14,7 @@ from typing import Any
 from macadam import _toml
 from macadam.study.errors import StudyError
 
-# keys whose values name a file or folder, and what is no file there
+# keys whose values name a file or folder, and the values that do not
 _FILES = {
     ("specimen", "file"): (),
     ("specimen", "shapes", "library"): ("aggregates", "icosahedron", "aggregates and icosahedron"),
@@ -23,18 +24,19 @@ Table = dict[str, Any]
 
 
 def read_toml(file: Path) -> Table:
-    """A TOML file, or a StudyError with its name."""
+    """Reads a TOML file. Raises StudyError that names the file."""
     try:
         return tomllib.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:  # ValueError: no UTF-8, no TOML, numbers of thousands of digits
+    except (OSError, ValueError) as error:  # ValueError: invalid UTF-8, invalid TOML, numbers of thousands of digits
         raise StudyError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
     except RecursionError:
         raise StudyError(f"{file}: found lists or tables nested deeper than Python follows, expected some levels") from None
 
 
 def with_value(scene: Table, key: str, value: Any) -> Table:
-    """The scene with a value at a dotted key. A table replaces the whole section; `contacts.M-A.delta` means the entry
-    of that pair, `specimen.aggregate.0.volume_fraction` the first class. Sections that are not there are made."""
+    """Returns a copy of the scene with a value at a dotted key. A table replaces the whole section.
+    `contacts.M-A.delta` means the entry of that pair, `specimen.aggregate.0.volume_fraction` the first class. Missing
+    sections are made."""
     changed = copy.deepcopy(scene)
     parts, at = key.split("."), changed
     if not all(parts):
@@ -48,6 +50,7 @@ def with_value(scene: Table, key: str, value: Any) -> Table:
     return changed
 
 
+# Returns the section or entry that one part of a dotted key names; makes a missing section.
 def _step(at: Any, part: str, key: str) -> Any:
     if isinstance(at, list):
         return at[_index(at, part, key)]
@@ -57,6 +60,7 @@ def _step(at: Any, part: str, key: str) -> Any:
     return following
 
 
+# Returns the index of an entry in an array of tables, by its pair or its number.
 def _index(entries: list[Any], part: str, key: str) -> int:
     pairs = [e.get("pair") if isinstance(e, dict) else None for e in entries]
     if part in pairs:
@@ -69,8 +73,9 @@ def _index(entries: list[Any], part: str, key: str) -> int:
 
 
 def merged(scene: Table, more: Table) -> Table:
-    """The scene with another file's sections over it, such as a law of `macadam fit`. Contacts of a pair replace those
-    of the same pair, at their place in the list; in other sections single keys are replaced."""
+    """Returns a copy of the scene with the sections of another file, such as a law of `macadam fit`. An entry of
+    contacts replaces the whole entry of the same pair, at the same position in the list; in other sections single keys
+    are replaced."""
     out = copy.deepcopy(scene)
     for key, value in more.items():
         if key == "contacts" and isinstance(value, list):
@@ -82,6 +87,7 @@ def merged(scene: Table, more: Table) -> Table:
     return out
 
 
+# Returns the contacts with the new entries in place of those of the same pairs; entries of other pairs are appended.
 def _contacts(there: Any, new: list[Any]) -> list[Any]:
     for contacts in (new, there):
         if not isinstance(contacts, list) or not all(isinstance(c, dict) for c in contacts):
@@ -96,7 +102,8 @@ def _contacts(there: Any, new: list[Any]) -> list[Any]:
 
 
 def located(scene: Table, folder: Path) -> tuple[Table, dict[str, str]]:
-    """The scene with whole paths in place of those relative to `folder`, and a digest of every file that it names."""
+    """Returns a copy of the scene with absolute paths in place of paths relative to `folder`, and a digest of every
+    file that the scene names, by dotted key."""
     scene, digests = copy.deepcopy(scene), {}
     for keys, names in _FILES.items():
         at: Any = scene
@@ -112,6 +119,7 @@ def located(scene: Table, folder: Path) -> tuple[Table, dict[str, str]]:
     return scene, digests
 
 
+# Returns the SHA-256 digest of a file, or of the names and contents of all files in a folder.
 def _digest(path: Path) -> str:
     sha = hashlib.sha256()
     for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
@@ -122,7 +130,7 @@ def _digest(path: Path) -> str:
 
 
 def normal(value: Any) -> Any:
-    """The value with whole numbers as integers, so that 1 and 1.0 are equal also in lists and in a text of JSON."""
+    """Returns the value with whole numbers as integers, so that 1 and 1.0 are equal in lists and in JSON text too."""
     if isinstance(value, dict):
         return {key: normal(v) for key, v in value.items()}
     if isinstance(value, list):
@@ -131,7 +139,8 @@ def normal(value: Any) -> Any:
 
 
 def key_of(scene: Table, digests: dict[str, str], command: list[str], version: str) -> str:
-    """Name of the result: the same for the same scene, files by their content, command and version of macadam."""
+    """Returns the key of a result, which is its folder's name. It is the same for the same scene, content of the
+    scene's files, command and version of macadam."""
     plain = copy.deepcopy(scene)
     for dotted, digest in digests.items():
         plain = with_value(plain, dotted, f"sha256:{digest}")
@@ -140,7 +149,7 @@ def key_of(scene: Table, digests: dict[str, str], command: list[str], version: s
 
 
 def text_of(scene: Table) -> str:
-    """The scene as TOML."""
+    """Returns the scene as TOML text."""
     try:
         return _toml.dumps(scene)
     except TypeError as error:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The places of a study that set keys of the scene, and the order in which they are applied.
+"""The places of a study that set keys of the scene (grid, hypercubes, lists, choices, experiments), and the order in
+which they are applied.
 
-The files of choices come first. Then come single keys: those of choices, of the grid, hypercubes and lists, and of the
-experiment. No key is set by two places, so the order of single keys does not matter. A file replaces the whole entry of
-a pair of contacts; a key of that entry which the file does not set may be set by another place."""
+The files of choices are applied first, then single keys: those of choices, of the grid, hypercubes and lists, and of
+the experiment. Two places may not set the same key, so the order of single keys does not matter. A file replaces the
+whole entry of a pair of contacts; another place may set a key of that entry which the file does not set."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ Parts = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Setting:
-    """A key of the scene that one place of the study sets. `replaces`: a file replaces this entry of a pair."""
+    """A key of the scene that one place of the study sets. `replaces`: it is the entry of a pair, which a file
+    replaces."""
 
     place: str  # such as "grid" or "choice.binder.a"
     key: str
@@ -29,7 +31,7 @@ class Setting:
     replaces: bool = False
 
     def clash(self, other: Setting) -> str:
-        """Says why both may not be set; empty if they may."""
+        """Returns why the study may not set both; empty if it may."""
         if self.replaces != other.replaces:
             return ""
         if self.path == other.path:
@@ -52,10 +54,11 @@ class Changes:
     place: str
     keys: Table = field(default_factory=dict)
     file: str = ""
-    sections: Table = field(default_factory=dict)  # of the file
+    sections: Table = field(default_factory=dict)  # sections of the file
 
     def settings(self, base: Table) -> list[Setting]:
-        """All that it sets. base: the scene of the study, which tells the pairs of numbered contacts."""
+        """Returns all keys that these changes set. base: the scene of the study, from which numbered contacts get their
+        pairs."""
         out = [Setting(self.place, key, path_of(key, base)) for key in self.keys]
         where = f"{self.place} (file {self.file})"
         for path, replaces in _paths_of_file(self.sections):
@@ -64,7 +67,7 @@ class Changes:
 
 
 def changes_of(place: str, table: Table, folder: Path) -> Changes:
-    """The changes of a named choice: `file`, relative to `folder`, and keys."""
+    """Reads the changes of a named choice: the key `file`, a path relative to `folder`, and keys of the scene."""
     keys = dict(table)
     file = keys.pop("file", "")
     if not isinstance(file, str):
@@ -75,7 +78,7 @@ def changes_of(place: str, table: Table, folder: Path) -> Changes:
 def refuse_clashes(groups: list[list[Changes]], base: Table) -> None:
     """Raises a StudyError if two places set one key, or a key and a section that contains it.
 
-    groups: the alternatives of each factor; of each group a point has one alternative."""
+    groups: the alternatives of each factor; a point has one alternative of each group."""
     of_groups = []
     for group in groups:
         found: dict[Setting, None] = {}
@@ -88,6 +91,7 @@ def refuse_clashes(groups: list[list[Changes]], base: Table) -> None:
         _refuse(itertools.product(first, second))
 
 
+# Raises StudyError for the first pair of settings that clash.
 def _refuse(pairs: Any) -> None:
     for one, other in pairs:
         if why := one.clash(other):
@@ -95,7 +99,7 @@ def _refuse(pairs: Any) -> None:
 
 
 def applied(base: Table, changes: list[Changes]) -> Table:
-    """The scene with all changes: the sections of files first, then single keys."""
+    """Returns the scene with all changes: the sections of files are applied first, then single keys."""
     scene = base
     for one in changes:
         if one.sections:
@@ -107,7 +111,8 @@ def applied(base: Table, changes: list[Changes]) -> Table:
 
 
 def path_of(key: str, scene: Table) -> Parts:
-    """The parts of a dotted key. A numbered entry of a list goes by its pair if it has one: an entry has one name."""
+    """Returns the parts of a dotted key. A numbered entry of a list is named by its pair if it has one, so that every
+    entry has only one name."""
     path: list[str] = []
     at: Any = scene
     for part in key.split("."):
@@ -126,7 +131,8 @@ def path_of(key: str, scene: Table) -> Parts:
 
 
 def _paths_of_file(table: Table, before: Parts = ()) -> Iterator[tuple[Parts, bool]]:
-    """Every key that a file sets, and every entry of a pair that it replaces (true)."""
+    """Yields the path of every key that a file sets (with False), and of every entry of a pair that it replaces (with
+    True)."""
     for key, value in table.items():
         if key == "contacts" and isinstance(value, list) and all(isinstance(e, dict) for e in value):
             for entry in value:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report of a study: main effects, scatter over seeds, a map over two factors, failures."""
+"""Writes the report of a study: main effects, scatter over seeds, a map over two factors, failures."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from macadam.study.effects import FEW, Effect, Quantity, continuous, effects, nu
 if TYPE_CHECKING:
     from macadam.study.driver import Study
 
-MOST = 4  # factors in one picture
-NOTES = 20  # sentences about equal points
+MOST = 4  # largest number of factors in one picture
+NOTES = 20  # largest number of sentences about points with equal scenes
 
 
 def write_report(design: Design, study: Study, folder: Path) -> Path:
-    """report.html in the study's folder."""
+    """Writes report.html into the study's folder and returns its path."""
     page = Page()
     with look.style():
         _fill(page, design, study, folder)
@@ -38,6 +38,7 @@ def write_report(design: Design, study: Study, folder: Path) -> Path:
     )
 
 
+# Adds all sections of the report to the page.
 def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
     found, failed, missing = study.table, study.failures, study.missing
     done = found["key"].nunique() if len(found) else 0
@@ -88,7 +89,8 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
 
 
 def _strongest(q: Quantity) -> str:
-    """Names the factor with the largest effect on a quantity, as the end of a sentence; empty if nothing differs."""
+    """Returns the end of a sentence that names the factor with the largest effect on a quantity; empty if no factor
+    differs."""
     found = effects(q)
     if not found:
         return ""
@@ -102,6 +104,7 @@ def _strongest(q: Quantity) -> str:
     return f"; it depends most on {name} ({change}), {look.percent(first.share, 2)} of the variance between points"
 
 
+# Returns the number of points, seeds and experiments in words.
 def _count(design: Design) -> str:
     seeds: dict[str, set[str]] = {}
     for job in design.jobs:
@@ -135,6 +138,7 @@ def _factors(design: Design) -> list[list[Any]]:
     return rows
 
 
+# Adds pictures and the table of the main effects on a quantity.
 def _main_effects(page: Page, q: Quantity) -> None:
     found = effects(q)
     if not found:
@@ -162,7 +166,8 @@ def _main_effects(page: Page, q: Quantity) -> None:
 
 
 def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
-    """With the scatter of seeds if it is known, and shares of the variance if there are several factors."""
+    """Adds the table of effects, with the scatter of seeds if it is known, and with shares of the variance if there are
+    several factors."""
     heads, notes = ["factor", "from … to", f"change of {q.name}"], []
     rows = [[e.factor, f"{_level(e.levels[0])} … {_level(e.levels[-1])}", _change(q, e)] for e in found]
     if any(e.scatter is not None for e in found):
@@ -189,20 +194,22 @@ def _level(value: Any) -> str:
 
 
 def _change(q: Quantity, effect: Effect) -> str:
-    """From one end to the other: of angles in degrees, else relative to the first."""
+    """Returns the change from one end to the other as text: of angles in degrees, otherwise in per cent of the
+    first."""
     first, last = effect.ends
     text = f"{last - first:+.2g}°" if q.unit == "°" else f"{100 * (last / first - 1):+.3g} %" if first else "–"
     return text.replace("-", "−")
 
 
 def _chance(q: Quantity, effect: Effect) -> str:
-    """The scatter of the change, as the change is given."""
+    """Returns the scatter of the change as text, in the same unit as the change."""
     if effect.scatter is None:
         return "–"
     first = abs(effect.ends[0])
     return f"±{effect.scatter:.2g}°" if q.unit == "°" else f"±{100 * effect.scatter / first:.2g} %" if first else "–"
 
 
+# Draws one factor's effect: all points in grey, and the means or the fitted line.
 def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
     axis.set_xlabel(short(effect.factor))
     x, y = points[effect.factor], points["value"]
@@ -222,8 +229,8 @@ def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
 
 
 def design_map(q: Quantity) -> tuple[Any, str] | None:
-    """A quantity over the two numeric factors that matter most, the others averaged, and what it shows; none where there
-    are not two."""
+    """Draws a quantity over the two numeric factors with the largest effects, averaged over the other factors. Returns
+    figure and caption; None if there are fewer than two numeric factors."""
     points = q.points
     two = sorted([e.factor for e in effects(q) if numeric(points, e.factor)][:2])
     if len(two) < 2:
@@ -247,7 +254,7 @@ def design_map(q: Quantity) -> tuple[Any, str] | None:
         axis.grid(False)
         axis.set_xticks(x)
         axis.set_yticks(y)
-        for ends, reach in ((x, axis.set_xlim), (y, axis.set_ylim)):  # room for the numbers at the rim
+        for ends, reach in ((x, axis.set_xlim), (y, axis.set_ylim)):  # space for the numbers at the edge
             reach(ends[0] - 0.09 * np.ptp(ends), ends[-1] + 0.09 * np.ptp(ends))
         how = "The numbers are those of the points; colours lie between them."
     else:

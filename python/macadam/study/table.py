@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of a study: a row a result, read from the folders; CSV and Parquet."""
+"""Reads the table of a study from the folders of its results, and writes it as CSV and Parquet."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _UNITS = {"%": "percent", "°C": "c"}
 
 
 def check(report: dict[str, Any]) -> None:
-    """A StudyError where `[report]` says what is not known."""
+    """Raises StudyError if `[report]` has an unknown key or a value that is not a number."""
     for key, value in report.items():
         if key not in _REPORT:
             raise StudyError(f"report: found the unknown key {key}, expected {', '.join(sorted(_REPORT))}")
@@ -29,7 +29,7 @@ def check(report: dict[str, Any]) -> None:
 
 
 def units(design: Design) -> dict[str, str]:
-    """The unit of each factor; empty if its values are not numbers with one and the same unit."""
+    """Returns the unit of each factor; empty if its values are not all numbers with the same unit."""
     out = {}
     for factor in design.factors:
         parts = [number_and_unit(job.values[factor]) for job in design.jobs if factor in job.values]
@@ -40,7 +40,7 @@ def units(design: Design) -> dict[str, str]:
 
 
 def columns(design: Design) -> dict[str, str]:
-    """The name of each factor's column: its key, and the unit that its values have in the study at the end."""
+    """Returns the name of each factor's column: its key, followed by the unit that its values have in the study."""
     return {factor: f"{factor}_{_suffix(unit)}" if unit else factor for factor, unit in units(design).items()}
 
 
@@ -49,15 +49,15 @@ def _suffix(unit: str) -> str:
 
 
 def _cell(value: Any, unit: str) -> Any:
-    """A cell of a factor's column: with a unit the number alone."""
+    """Returns the content of a cell in a factor's column: only the number if the column has a unit."""
     if unit:
         return number_and_unit(value)[0]
     return value if isinstance(value, (str, int, float, bool)) else json.dumps(value, ensure_ascii=False)
 
 
 def read(design: Design, folder: Path) -> pd.DataFrame:
-    """A row for every frequency, temperature or time of every result of the study that is there. Units are SI; a factor
-    has the unit of its values in the study."""
+    """Returns one row for every frequency, temperature or time of every existing result of the study. Units are SI, but
+    a factor has the unit of its values in the study."""
     names, of = columns(design), units(design)
     rows = []
     for job in design.jobs:
@@ -84,7 +84,7 @@ def read(design: Design, folder: Path) -> pd.DataFrame:
 
 
 def _results(summary: dict[str, Any]) -> list[dict[str, Any]]:
-    """One entry per frequency or time; an empty one if only the specimen was made."""
+    """Returns one entry per frequency or time; a single empty entry if only the specimen was made."""
     found: list[dict[str, Any]] = []
     for result in summary.get("results") or []:
         found += result.get("points") or [result]
@@ -92,13 +92,14 @@ def _results(summary: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def failures(design: Design, folder: Path) -> list[dict[str, Any]]:
-    """What is known of each job that the study asks for and that failed."""
+    """Returns the record of each failed job of the study."""
     files = (folder / "failures" / f"{job.key}.json" for job in design.results)
     return [read_json(file) for file in files if file.is_file()]
 
 
 def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> None:
-    """table.csv, table.parquet where pyarrow is there, failures.csv where there are any; each whole or not at all."""
+    """Writes table.csv, table.parquet if pyarrow is installed, and failures.csv if there are failures. An error leaves
+    no incomplete file."""
     _whole(folder / "table.csv", lambda file: found.to_csv(file, index=False, encoding="utf-8"))
     try:
         import pyarrow  # noqa: F401
@@ -121,6 +122,7 @@ def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> No
     _whole(folder / "failures.csv", rows)
 
 
+# Writes a file under a temporary name and renames it, so that it is never incomplete. fill: writes to the given path.
 def _whole(file: Path, fill: Any) -> None:
     part = file.with_name(f".{file.name}.{os.getpid()}.part")
     try:
