@@ -84,6 +84,23 @@ std::optional<double> number_in(const LaboratoryTable& table, const std::string&
   return value;
 }
 
+/// Adds a complaint if some numbers have a decimal comma and others a point: one of the two may separate thousands.
+void require_one_decimal_sign(const LaboratoryTable& table, Complaints& complaints) {
+  if (table.separator == ',') return;
+  const LaboratoryTable::Row* first = nullptr;
+  std::string number;
+  for (const LaboratoryTable::Row& row : table.rows) {
+    for (const std::string& cell : row.cells) {
+      const std::size_t at = cell.find_first_of(",.");
+      if (at == std::string::npos || !number_in(table, cell)) continue;
+      if (!first) first = &row, number = cell;
+      if (number[number.find_first_of(",.")] == cell[at]) continue;
+      return complaints.add(row.line, "decimal sign", in_quotes(cell),
+                            fmt::format("the same as in {} of line {}", in_quotes(number), first->line));
+    }
+  }
+}
+
 LaboratoryTable read_laboratory_table(const std::filesystem::path& file, Complaints& complaints) {
   LaboratoryTable out;
   const std::string text = text_of(file);
@@ -119,6 +136,7 @@ LaboratoryTable read_laboratory_table(const std::filesystem::path& file, Complai
       out.rows.push_back(std::move(row));
     }
   }
+  require_one_decimal_sign(out, complaints);
   if (out.names.empty())
     complaints.add(0, "measurements", "an empty file", "a header such as frequency_hz,e_star_pa,phase_deg");
   return out;

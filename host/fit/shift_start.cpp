@@ -43,10 +43,13 @@ std::vector<double> laid(const std::vector<Target>& targets, const std::vector<d
   for (const Target& t : targets) curves[t.place.isotherm].emplace_back(std::log10(t.place.omega), t.log_modulus);
   for (Curve& curve : curves) std::sort(curve.begin(), curve.end());
   std::vector<double> out{0};
+  // Decades per kelvin: as usual for binders at room temperature, and more than any polymer has. Flat curves far apart
+  // would otherwise be laid thousands of decades apart. All steps together stay within the range of a double.
+  constexpr double usual = 0.1, most = 1, range = 150;
   for (std::size_t i = 1; i < curves.size(); ++i) {
-    constexpr double usual = 0.1;  // decades per kelvin, as for binders at room temperature
-    const double otherwise = -usual * (temperatures[i] - temperatures[i - 1]);
-    out.push_back(out.back() + std::min(distance(curves[i - 1], curves[i], otherwise), 0.0));
+    const double kelvins = temperatures[i] - temperatures[i - 1];
+    const double largest = std::min(most * kelvins, range / static_cast<double>(curves.size() - 1));
+    out.push_back(out.back() + std::clamp(distance(curves[i - 1], curves[i], -usual * kelvins), -largest, 0.0));
   }
   return out;
 }

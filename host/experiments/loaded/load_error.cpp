@@ -197,7 +197,8 @@ std::string LoadErrors::ramp_words() const {
 std::string LoadErrors::meaning() const {
   const char* of = test_.by_stress ? "strain" : "stress";
   if (!spectrum_) return fmt::format("error: estimate for the {}, relative", of);
-  return fmt::format("error: difference of the {} from the answer without steps, relative", of);
+  return fmt::format("error: difference of the {} from the answer without steps, relative{}", of,
+                     updated_ ? "; an estimate after a strain above 0.1 %" : "");
 }
 
 std::string LoadErrors::warning(const std::vector<SteppedPoint>& rows) const {
