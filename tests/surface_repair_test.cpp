@@ -48,6 +48,15 @@ TEST(RepairSurface, FillsHoles) {
   EXPECT_EQ(repair.changes(), "volume 6 m3 (before 6, +0.00 %), area 22 m2 (before 22, +0.00 %)");
 }
 
+TEST(RepairSurface, RefusesToGuessALargePart) {
+  Surface s = box_surface(2, 2, 2);
+  s.facets.erase(s.facets.begin(), s.facets.begin() + 6);  // removes three of six faces
+  EXPECT_THROW(repair_surface(s), RunError);
+  SurfaceRepair repair;
+  EXPECT_TRUE(check_surface(repair_surface(s, &repair, {}, true)).good());
+  EXPECT_GT(repair.filled, SurfaceRepair::most_filled);
+}
+
 TEST(RepairSurface, DropsClosedPores) {
   const Surface body = icosphere(3);
   const double volume = measure_shape(body).volume, area = measure_shape(body).area;

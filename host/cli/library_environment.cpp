@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 namespace macadam {
 namespace {
@@ -24,7 +25,8 @@ bool is_address_space_limited() {
 }  // namespace
 
 void restart_with_library_environment(int argc, char** argv) {
-  const bool computes = argc > 2;  // not `macadam --version`: a second start takes some hundredths of a second
+  // Not `macadam --version` and the like: a second start takes some hundredths of a second.
+  const bool computes = argc > 2 || (argc == 2 && std::string_view(argv[1]) == "bench");
   bool changed = computes && !std::getenv("GOMP_SPINCOUNT") && set_where_missing("OMP_WAIT_POLICY", "passive");
   if (is_address_space_limited()) changed = set_where_missing("OPENBLAS_NUM_THREADS", "1") || changed;
   if (!changed) return;

@@ -178,9 +178,10 @@ class Repair {
       filled += !patch.empty();
       area += CGAL::to_double(pmp::area(patch, mesh));
     }
+    repair_.filled = std::max(repair_.filled, area / CGAL::to_double(pmp::area(mesh)));
     if (filled > 0)
       say(fmt::format("filled {} hole{} with {} facet{}, {:.2g} % of the area", filled, filled == 1 ? "" : "s", facets,
-                      facets == 1 ? "" : "s", 100 * area / CGAL::to_double(pmp::area(mesh))));
+                      facets == 1 ? "" : "s", 100 * repair_.filled));
     say_count(std::ssize(borders) - filled, "could not fill", "hole");
   }
 
@@ -251,7 +252,7 @@ std::string change(double before, double after) {
 }  // namespace
 
 bool SurfaceRepair::within_bound() const {
-  return std::abs(relative_change(volume_before, volume_after)) <= bound &&
+  return filled <= most_filled && std::abs(relative_change(volume_before, volume_after)) <= bound &&
          std::abs(relative_change(area_before, area_after)) <= bound;
 }
 
@@ -267,8 +268,9 @@ Surface repair_surface(const Surface& surface, SurfaceRepair* repair, const std:
   const SurfaceRepair& done = attempt.repair();
   if (!wrap && !done.within_bound()) {
     const std::string why =
-        std::isnan(done.volume_before)
-            ? "the volume before the repair is unknown"
+        std::isnan(done.volume_before) ? "the volume before the repair is unknown"
+        : done.filled > SurfaceRepair::most_filled
+            ? fmt::format("filled holes are more than {:.0f} % of the area", 100 * SurfaceRepair::most_filled)
             : fmt::format("the repair changes volume or area by more than {:.0f} %", 100 * SurfaceRepair::bound);
     throw RunError(
         fmt::format("{}: {}, which only --wrap accepts: {}; {}", surface.name, why, done.what, done.changes()));

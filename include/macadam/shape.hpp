@@ -71,11 +71,14 @@ SurfaceVerdict check_surface(const Surface& surface);
 struct SurfaceRepair {
   std::string what;                            ///< in words: "filled 1 hole with 2 facets, 9.1 % of the area"
   double volume_before = 0, volume_after = 0;  ///< [m³]; before: NaN if holes could not be filled
-  double area_before = 0, area_after = 0;      ///< [m²]
+  double area_before = 0, area_after = 0;      ///< [m²]; before: with filled holes
+  double filled = 0;                           ///< part of the area that fills holes
 
   /// Largest relative change of volume and area that is accepted without `wrap`.
   static constexpr double bound = 0.01;
-  /// Returns whether volume and area have changed by at most `bound`.
+  /// Largest part of the area that may fill holes without `wrap`: the shape of what is missing is a guess.
+  static constexpr double most_filled = 0.25;
+  /// Returns whether volume and area changed by at most `bound`, and filled holes are at most `most_filled`.
   bool within_bound() const;
   /// Returns volume and area in words: "volume 6 m3 (before 6, +0.00 %), area 22 m2 (before 22, +0.00 %)".
   std::string changes() const;
@@ -85,7 +88,7 @@ struct SurfaceRepair {
 /// (pieces with less than 5 % of the largest piece's area) and closed pores. If that is not enough, wraps the surface
 /// in a new skin (CGAL's alpha wrap). `repair` receives the report. If `as` is given, the result is still good after
 /// writing it to such a file and reading it back (STL rounds to floats). With `wrap`, changes beyond
-/// SurfaceRepair::bound are accepted.
+/// SurfaceRepair::bound and larger holes are accepted.
 ///
 /// \throws RunError with the verdict if the surface still has faults, or if the change exceeds the bound.
 Surface repair_surface(const Surface& surface, SurfaceRepair* repair = nullptr, const std::filesystem::path& as = {},
