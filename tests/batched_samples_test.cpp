@@ -78,8 +78,12 @@ TEST_F(BatchedSamples, NoneIsLostOrDoubledByInterruptions) {
 /// The points of a monotonic load are taken from the step at which they are due, although the device computes ahead.
 TEST_F(BatchedSamples, PointsOfALoadKnowTheStepperOfTheirStep) {
   const std::string loading = "kind = \"monotonic\"\nrate = 0.01\nstrain = 4e-5\npoints = 40\n";
-  for (const Backend backend : {Backend::cpu, Backend::cuda})
-    run(scene(loading, "method = \"explicit\"\n", backend), out(backend == Backend::cpu ? "processor" : "device"));
+  for (const Backend backend : {Backend::cpu, Backend::cuda}) {
+    Scene asked = scene(loading, "method = \"explicit\"\n", backend);
+    asked.solver.linear =
+        LinearMethod::direct;  // the errors are measured by the processor: the fake device solves nothing
+    run(asked, out(backend == Backend::cpu ? "processor" : "device"));
+  }
   expect_same_files({"monotonic.csv"});
 }
 
