@@ -56,6 +56,13 @@ std::pair<double, double> range_of(const LoadTest& test, const LoadPlan& plan) {
 
 std::optional<UnsteppedAnswer> solve_unstepped(const LoadTest& test, const Scene& scene, const Preparation& prepared,
                                                const Watcher& watcher, Backend backend, LoadPlan& plan) {
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    const auto law = facts_of(scene.laws)[pair];
+    if (!law || law->linear) continue;
+    plan.decisions.push_back(fmt::format("errors are estimates, because {} of {} is not linear", law->name,
+                                         to_string(static_cast<PairType>(pair))));
+    return {};
+  }
   SpectrumOptions options;
   std::tie(options.shortest, options.longest) = range_of(test, plan);
   options.tolerance = spectrum_tolerance;
@@ -208,9 +215,10 @@ std::string LoadErrors::warning(const std::vector<SteppedPoint>& rows) const {
   const auto count = std::count_if(rows.begin(), rows.end(), [](const auto& p) { return p.error > largest_error; });
   const std::vector<SteppedPoint> before(rows.begin(), worst);
   const bool known = is_known(*worst, before);
-  return fmt::format("the error is above 1 % in {} of {} rows, largest at t = {:.4g} s: {} {:.1f} %; {}", count,
+  const std::string size = worst->error > 1 ? "more than 100" : fmt::format("{:.1f}", 100 * worst->error);
+  return fmt::format("the error is above 1 % in {} of {} rows, largest at t = {:.4g} s: {} {} %; {}", count,
                      rows.size(), worst->time_s, known ? "the answer without steps differs by" : "it is estimated as",
-                     100 * worst->error, advice(known ? measured(*worst) : estimated(*worst, before)));
+                     size, advice(known ? measured(*worst) : estimated(*worst, before)));
 }
 
 /// Names the larger part of the error and what reduces it.

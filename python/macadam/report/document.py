@@ -189,7 +189,8 @@ def _broken(f: Folder) -> str:
 def _words(f: Folder) -> list[str]:
     s, words = f.summary, []
     if f.in_time and f.in_time.get("strength_pa") is not None:
-        words.append(_strength(f).capitalize() + ".")
+        found = _strength(f)  # not capitalize(), which takes the units down: "kpa"
+        words.append(found[:1].upper() + found[1:] + ".")
     if f.kind == "run":
         edges = " × ".join(map(look.length, s.get("box_m") or []))
         contacts_of = sum(v or 0 for v in (s.get("contacts") or {}).values())
