@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_forces.hpp  One step of one contact: kinematics, law, load. SIMD packs on the CPU and threads on the
-/// GPU share this code.
+/// \file contact_forces.hpp  Takes one step of one contact: kinematics, law, load. SIMD packs on the CPU and threads on
+/// the GPU share this code.
 ///
 /// An Item loads and stores the words of a contact: `PackItem` (pack_item.hpp) handles all contacts of a packet at
 /// once, `LaneItem` (cuda_lane_item.hpp) one contact of a packet. A step of a condensed contact with L Kelvin units

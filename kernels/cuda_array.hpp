@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_array.hpp  Arrays in the memory of one device, or spread over several.
+/// \file cuda_array.hpp  Allocates arrays in the memory of one device, or spread over several devices.
 #pragma once
 
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_notes.hpp  Samples of a run, taken on the device while the run continues. A note in the identifiers is a
+/// \file cuda_notes.hpp  Takes samples of a run on the device while the run continues. A note in the identifiers is a
 /// sample.
 ///
 /// A sample holds the wall forces, the motion of the walls, and the first particle that has diverged. ExecCudaTiles

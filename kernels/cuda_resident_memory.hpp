@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_resident_memory.hpp  How the resident kernel (cuda_tiles_resident.hpp) divides the shared memory and the
-/// registers of a multiprocessor.
+/// \file cuda_resident_memory.hpp  Divides the shared memory and the registers of a multiprocessor for the resident
+/// kernel (cuda_tiles_resident.hpp).
 ///
 /// ResidentMemory computes the position of each array in a tile's shared memory. The host (TileRunner) uses it to
 /// decide whether tiles fit, and the kernel uses it to find the arrays. The remaining shared memory holds constants of

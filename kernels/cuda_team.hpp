@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_team.hpp  The devices that step one specimen together.
+/// \file cuda_team.hpp  Defines the team of devices that step one specimen together.
 ///
 /// The tiles of the layout are cut into as many consecutive parts as there are devices (TeamCuts), and every launch of
 /// a step is made once per device for its part. With several devices of one process, an array has one range of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_limits.hpp  Limits of the devices, and whether a kernel over tiles fits them.
+/// \file cuda_tile_limits.hpp  Determines the limits of the devices, and whether a kernel of the tile path fits them.
 ///
 /// TileRunner decides by these limits, never by a device's name, whether tiles stay on the chip (resident) or are
 /// streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made. The file also holds

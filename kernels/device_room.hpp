@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_room.hpp  Which specimen may use the multiprocessors of a device, if several specimens share it.
+/// \file device_room.hpp  Decides which specimen may use the multiprocessors of a device if several specimens share it.
 ///
 /// The thread blocks of a launch of resident tiles wait for one another, and each occupies one multiprocessor. If two
 /// such launches each had only some of the multiprocessors that they need, neither would end. So a specimen takes as

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cpu.hpp  The executor on the CPU: packets of contacts in SIMD registers, tiles divided among threads.
+/// \file exec_cpu.hpp  Defines the executor on the CPU. Packets of contacts are in SIMD registers, and tiles are
+/// divided among threads.
 #pragma once
 
 #include <omp.h>

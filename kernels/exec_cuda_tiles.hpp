@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cuda_tiles.hpp  The executor of the tile path: takes steps in blocks over tiles on CUDA devices.
+/// \file exec_cuda_tiles.hpp  Defines the executor of the tile path, which takes blocks of steps over tiles on CUDA
+/// devices.
 ///
 /// It applies to condensed contacts in mixed and single precision, laws that can be stepped in blocks, and walls driven
 /// by displacements; ExecCuda steps everything else. make_cuda.hpp tries this executor first. StepperImpl calls it in

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file make_stepper.hpp  make_stepper() for any list of laws, with the same choice of backend, device and precision
-/// as for Macadam's own laws.
+/// \file make_stepper.hpp  Defines make_stepper() for any list of laws. Backend, device and precision are chosen as for
+/// Macadam's own laws.
 #pragma once
 
 #include "kernels/precision.hpp"

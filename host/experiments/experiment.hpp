@@ -56,7 +56,8 @@ std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation&
 /// Calls `files` of the scene's experiment.
 std::vector<std::string> files_written(const Scene& scene);
 
-/// Calls `summarise` of the result's experiment. A stepped run without a result writes what an empty result would.
+/// Calls `summarise` of the result's experiment. For a stepped run that has no result yet, it is called with an empty
+/// result.
 void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_json& out);
 
 /// Returns `solve` of `timing_s` in summary.json [s]: the time until the result was found, including the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_apply.hpp  The kernels apply and step of the iteration (cocg_view.hpp): q = K·p with one warp per body,
-/// then α.
+/// \file cocg_apply.hpp  Defines the kernels apply and step of the iteration (cocg_view.hpp). apply computes q = K·p
+/// with one warp per body, step computes α.
 #pragma once
 
 #include <cuda_pipeline.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_coarse.hpp  The kernel coarse of the iteration (cocg_view.hpp): the coarse correction of the residual,
-/// and the decision which loads are solved.
+/// \file cocg_coarse.hpp  Defines the kernel coarse of the iteration (cocg_view.hpp). It computes the coarse correction
+/// of the residual and decides which loads are solved.
 #pragma once
 
 #include "kernels/harmonic/cocg_view.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_vectors.hpp  The kernels advance and turn of the iteration (cocg_view.hpp): solution, residual and
-/// direction, with W threads per body.
+/// \file cocg_vectors.hpp  Defines the kernels advance and turn of the iteration (cocg_view.hpp). They update solution,
+/// residual and direction, with W threads per body.
 #pragma once
 
 #include "kernels/harmonic/cocg_view.hpp"

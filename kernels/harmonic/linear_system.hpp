@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_system.hpp  The linear system K*(s) + s²·M of a network and its real preconditioner, as arrays in the
-/// order of a layout.
+/// \file linear_system.hpp  Stores the linear system K*(s) + s²·M of a network and its real preconditioner as arrays in
+/// the order of a layout.
 #pragma once
 
 #include <array>

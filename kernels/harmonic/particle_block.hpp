@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file particle_block.hpp  The 6×6 stiffness of one particle while all others are at rest, and its inverse.
+/// \file particle_block.hpp  Computes the 6×6 stiffness of one particle while all others are at rest, and its inverse.
 #pragma once
 
 #include "kernels/harmonic/contact_end.hpp"

@@ -17,13 +17,13 @@
 
 namespace macadam {
 
-/// When a load grows and when it is removed.
+/// Times at which a load grows and is removed.
 struct LoadTimes {
   double ramp = 0;                ///< time in which the load grows, and in which it is removed [s]; 0: at once
   std::optional<double> release;  ///< when the removal begins [s]; nothing: never
 };
 
-/// Description of one of these tests, which both methods use.
+/// Describes one of these tests. Both methods, stepped and without steps, use it.
 struct LoadTest {
   std::string kind;
   History history;
@@ -35,7 +35,7 @@ struct LoadTest {
 
   bool by_stress = false;             ///< the load is a stress; else a strain
   LoadTimes when;                     ///< as the scene gives them
-  bool grows = false;                 ///< the load grows during the whole test, which then is the ramp
+  bool grows = false;                 ///< whether the load grows during the whole test; the ramp is then the whole test
   std::optional<double> platen_mass;  ///< of a wall under a stress [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand
   double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
