@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file aligned.hpp  Vectors that start on a cache line, so that the load of a packet never crosses two lines.
+/// \file aligned.hpp  Allocates vectors that start on a cache line, so that the load of a packet never crosses two
+/// lines.
 #pragma once
 
 #include <sys/mman.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stop_signals.cpp  The handler calls only functions that POSIX allows in a signal handler.
+// stop_signals.cpp  Handles the signals. The handler calls only functions that POSIX allows in a signal handler.
 #include "host/cli/stop_signals.hpp"
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stop_signals.hpp  Signals that ask to stop: Ctrl-C, SIGTERM of a queueing system, SIGHUP of a terminal that
-/// closes.
+/// \file stop_signals.hpp  Handles the signals that ask the program to stop: Ctrl-C, SIGTERM from a queueing system,
+/// SIGHUP from a terminal that closes.
 #pragma once
 
 namespace macadam {

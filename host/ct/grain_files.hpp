@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file grain_files.hpp  Names of the files with the surfaces of a scan's grains, one file per grain.
+/// \file grain_files.hpp  Defines the names of the files with the surfaces of a scan's grains, one file per grain.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file experiment.hpp  What each experiment in the list of macadam/experiments/all.hpp defines, and functions that
-/// call it for the experiment of a scene. Each experiment specialises the two templates in host/experiments/<kind>/.
+/// \file experiment.hpp  Declares the functions that each experiment in the list of macadam/experiments/all.hpp
+/// defines, and functions that call them for the experiment of a scene. Each experiment specialises the two templates
+/// in host/experiments/<kind>/.
 #pragma once
 
 #include <memory>

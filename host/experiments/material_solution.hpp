@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file material_solution.hpp  The common part of relaxation, creep and constant rates without steps: the specimen's
-/// relaxation spectrum, solved once.
+/// \file material_solution.hpp  Does the common part of relaxation, creep and constant-rate tests without steps: solves
+/// the specimen's relaxation spectrum once.
 #pragma once
 
 #include <functional>

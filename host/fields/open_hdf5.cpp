@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// open_hdf5.cpp  Reserves disk space first and lets HDF5 write then.
+// open_hdf5.cpp  Reserves disk space before HDF5 writes.
 #include "host/fields/open_hdf5.hpp"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit.cpp  fit_modulus(): fits the model, then adds statistics and warnings.
+// fit.cpp  Defines fit_modulus(), which fits the model, then adds statistics and warnings.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file least_squares.hpp  Non-linear least squares of a fit, by Ceres Solver with exact derivatives, and the
-/// covariance.
+/// \file least_squares.hpp  Solves the non-linear least squares of a fit by Ceres Solver with exact derivatives, and
+/// computes the covariance.
 #pragma once
 
 #include <vector>

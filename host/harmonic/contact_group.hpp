@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_group.hpp  Four complex numbers in one SIMD register, and up to four contacts of a particle as that
-/// particle sees them.
+/// \file contact_group.hpp  Stores four complex numbers in one SIMD register, and up to four contacts of a particle as
+/// seen from that particle.
 #pragma once
 
 #include <algorithm>

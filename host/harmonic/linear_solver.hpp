@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_solver.hpp  The linear systems (K*(s) − inertia·M)·u = f of the frequency domain, and the interface of
-/// the two solvers, iterative and direct.
+/// \file linear_solver.hpp  Defines the linear systems (K*(s) − inertia·M)·u = f of the frequency domain, and the
+/// interface of the two solvers, iterative and direct.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run.cpp  The main job: prepares a scene, runs its experiment, and leaves complete files whatever happens. The result
-// folder is locked first. Older results in it are replaced only after the specimen is made and the experiment is
+// run.cpp  Does the main job: prepares a scene, runs its experiment, and leaves complete files whatever happens. The
+// result folder is locked first. Older results in it are replaced only after the specimen is made and the experiment is
 // planned.
 #include <fmt/format.h>
 

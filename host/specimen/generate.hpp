@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generate.hpp  generate_specimen() that also returns the tessellation made by its final check.
+/// \file generate.hpp  Declares a generate_specimen() that also returns the tessellation made by its final check.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file placement.hpp  Random positions of spheres: aggregates without overlap, mastic anywhere outside them.
+/// \file placement.hpp  Places spheres at random positions: aggregates without overlap, mastic anywhere outside them.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_insertion.hpp  Random sequential insertion of shaped bodies: each gets a random place clear of all
-/// bodies before it.
+/// \file shape_insertion.hpp  Inserts shaped bodies one after another, each at a random position where it touches no
+/// earlier body.
 #pragma once
 
 #include <functional>

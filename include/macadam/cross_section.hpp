@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cross_section.hpp  Cross-sections of a specimen: its Laguerre cells, cut exactly by a plane perpendicular to
-/// an axis.
+/// \file cross_section.hpp  Computes cross-sections of a specimen: its Laguerre cells, cut exactly by a plane
+/// perpendicular to an axis.
 #pragma once
 
 #include <cstdint>

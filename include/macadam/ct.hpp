@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct.hpp  Images of computed tomography: reading, writing, and segmentation into phases and grains. Works only
+/// \file ct.hpp  Reads and writes images of computed tomography, and segments them into phases and grains. Works only
 /// if the library was built with ITK (MACADAM_CT).
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file harmonic.hpp  The solver of the frequency domain: the steady state of a linear scene, (K*(s) + s²·M)·u = f for
-/// motions e^(s·t): docs/model.md, section 15.
+/// \file harmonic.hpp  Declares the solver of the frequency domain. It computes the steady state of a linear scene,
+/// (K*(s) + s²·M)·u = f for motions e^(s·t): docs/model.md, section 15.
 ///
 /// It uses the same contact network, area moments and wall contacts as the time stepping, with the initial geometry. So
 /// it is both the accuracy reference of every explicit run and the fast way to |E*| and φ.

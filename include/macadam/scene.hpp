@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene.hpp  A scene: the complete description of a run, read from a file and checked before any work.
+/// \file scene.hpp  Defines a scene: the complete description of a run, read from a file and checked before any work.
 #pragma once
 
 #include <array>

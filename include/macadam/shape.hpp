@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape.hpp  Shapes of aggregates: closed triangulated surfaces, which can be read, checked, repaired, measured,
-/// generated and filled with spheres.
+/// \file shape.hpp  Declares functions for shapes of aggregates. Shapes are closed triangulated surfaces, which can be
+/// read, checked, repaired, measured, generated and filled with spheres.
 #pragma once
 
 #include <array>

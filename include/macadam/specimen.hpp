@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen.hpp  The particles of a specimen in its box: reading, writing, generating and checking them.
+/// \file specimen.hpp  Defines the particles of a specimen in its box, and reads, writes, generates and checks them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file spectrum.hpp  Relaxation and creep of a specimen at any time, computed without time steps.
+/// \file spectrum.hpp  Computes relaxation and creep of a specimen at any time, without time steps.
 ///
 /// A network of springs and dashpots without inertia relaxes as a sum of exponentials, E(t) = E_∞ + Σ g_i·e^(−t/τ_i)
 /// with positive g_i. Its solutions at some real s > 0 (the Laplace variable) span a space of motions. In this space

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper.hpp  Explicit time stepping of a contact network: the interface that all backends share.
+/// \file stepper.hpp  Declares explicit time stepping of a contact network: the interface that all backends share.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_rules.hpp  Rules for stepping a cyclic test that follow from the scene alone. The plan and the forecast
-/// both use them.
+/// \file step_rules.hpp  Defines those rules for stepping a cyclic test that need only the scene. The plan and the
+/// forecast both use them.
 #pragma once
 
 #include <cstdint>

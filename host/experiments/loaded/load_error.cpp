@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error.cpp  Differences from the answer without steps; without one, bounds from the ramp, the damping and the
-// walls.
+// load_error.cpp  Computes the differences from the answer without steps; if there is none, bounds from the ramp, the
+// damping and the walls.
 #include "host/experiments/loaded/load_error.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_error.hpp  Error of a stepped test of a load: measured against the answer without steps if there is one,
-/// otherwise estimated.
+/// \file load_error.hpp  Computes the error of a stepped test of a load. It is measured against the answer without
+/// steps if there is one, otherwise estimated.
 #pragma once
 
 #include <optional>

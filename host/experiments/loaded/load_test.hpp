@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_test.hpp  The common part of relaxation, creep and constant rates: a load on the top wall that varies in
-/// time, and the response at some times.
+/// \file load_test.hpp  Defines the common part of relaxation, creep and constant-rate tests: a load on the top wall
+/// that varies in time, and the response at some times.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cholesky.cpp  METIS orders particles instead of unknowns (35,000 nodes in place of 215,000); CHOLMOD factors by
-// supernodes (groups of columns with the same structure, as dense blocks).
+// cholesky.cpp  Factors the matrix. METIS orders particles instead of unknowns (35,000 nodes in place of 215,000).
+// CHOLMOD works on supernodes (groups of columns with the same structure) as dense blocks.
 #include "host/harmonic/direct/cholesky.hpp"
 
 #include <cholmod.h>

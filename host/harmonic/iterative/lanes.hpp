@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file lanes.hpp  One complex number for each of F solutions in a SIMD register: first the real parts, then the
-/// imaginary parts.
+/// \file lanes.hpp  Stores one complex number for each of F solutions in a SIMD register: first the real parts, then
+/// the imaginary parts.
 ///
 /// Real factors (frames, lever arms, moments, the preconditioner) then multiply 2F plain numbers, and the data of a
 /// contact are read once for all solutions.

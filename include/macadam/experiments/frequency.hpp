@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file frequency.hpp  The result at one frequency, found by stepping or as the steady state of the frequency domain.
+/// \file frequency.hpp  Defines the result at one frequency, found by stepping or as the steady state of the frequency
+/// domain.
 #pragma once
 
 #include <optional>

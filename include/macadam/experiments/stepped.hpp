@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepped.hpp  Whether an experiment can be stepped in time, and the report of its stepping.
+/// \file stepped.hpp  Defines whether an experiment can be stepped in time, and what a stepped run reports.
 #pragma once
 
 #include <cstdint>

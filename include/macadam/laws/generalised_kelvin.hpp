@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generalised_kelvin.hpp  A Maxwell unit in series with any number of Kelvin units: Eq. 13–17, corrected as
-/// docs/model.md, section 6, says.
+/// \file generalised_kelvin.hpp  Defines a Maxwell unit in series with any number of Kelvin units: Eq. 13–17, corrected
+/// as docs/model.md, section 6, says.
 ///
 /// Displacement x = f/k_m + ∫f/η_m dt + Σ x_l with η_l·dx_l/dt + k_l·x_l = f. The trapezoidal rule over one step gives
 ///   c·f(t+Δt) = Δx + Σ (1 − b_l/a_l)·x_l(t) − g·f(t),   x_l(t+Δt) = [b_l·x_l(t) + Δt/(2η_l)·(f(t+Δt) + f(t))]/a_l.
