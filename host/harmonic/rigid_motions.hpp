@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file rigid_motions.hpp  Finds free motions (motions that no contact resists), and adds springs to ground that hold
+/// \file rigid_motions.hpp  Finds free motions (motions that no contact resists), and the springs to ground that hold
 /// them without carrying force.
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generate.hpp  Declares a generate_specimen() that also returns the tessellation made by its final check.
+/// \file generate.hpp  Declares generate_with_cells(), which does the same as generate_specimen() and also returns the
+/// tessellation made by its final check.
 #pragma once
 
 #include <functional>

@@ -61,7 +61,7 @@ struct Specimen {
   int line_of(std::int64_t cell) const { return first_line > 0 ? first_line + static_cast<int>(cell) : 0; }
 };
 
-/// Returns a specimen without voids that has a particle for every sphere with a cell, voids last.
+/// Returns a copy in which the voids have become particles, after all other particles.
 Specimen with_voids_as_cells(const Specimen& specimen);
 
 /// Checks every particle and void: finite centre inside the box; finite positive radius; `body` −1 exactly for mastic;

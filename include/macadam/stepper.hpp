@@ -232,9 +232,9 @@ class Stepper {
   }
 };
 
-/// Observes a stepper now and then `n` times after every `every` steps. Calls f(observation), which may read the
-/// stepper.
-/// \throws DivergenceError naming the first particle whose motion is out of range.
+/// Observes a stepper at once, and then `n` more times, each after `every` further steps. Each time calls
+/// f(observation), which may read the stepper. \throws DivergenceError naming the first particle whose motion is out of
+/// range.
 void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::function<void(const Observation&)>& f);
 
 /// Returns whether no motion of the particles can turn any of them: no pair has shear stiffness, and the centroid of
