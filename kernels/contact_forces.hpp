@@ -113,7 +113,7 @@ struct ContactForces {
   MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, T (&density)[6]) const {
     if constexpr (!stateless && Units >= 0 && requires { Item::staged; }) {
       using S = typename P::State;
-      S state[N][1 + Units];  // units beyond those of the law have zero displacement and coefficients
+      S state[N][1 + Units];  // units that the law does not have get zero displacements and coefficients
       const auto place = [&](int c, int l) { return chain + (c * (1 + units()) + l) * item.lanes(); };
       for (int c = 0; c < N; ++c) {
         for (int l = 0; l <= Units; ++l) state[c][l] = l <= units() ? item.load(place(c, l)) : S(0);

@@ -26,7 +26,8 @@ struct Note {
   std::uint32_t divergent;
 };
 
-/// Writes everything except `divergent` into a sample. One thread block. The arrays are those of the walls, as in Note.
+/// Writes everything except `divergent` into a sample. One thread block. The arrays are the arrays of the walls, in the
+/// order of Note.
 template <class R>
 __global__ void take_note(Note<R>* note, const R* force, const R* velocity, const double* displacement) {
   for (unsigned i = threadIdx.x; i < walls * velocity_words; i += blockDim.x) {

@@ -8,15 +8,15 @@
 /// on each device.
 ///
 /// The oldest waiting specimen goes first. So the oldest two take turns and finish while others are still being
-/// prepared. If all took turns, all would finish at the same time, and the device would idle until the next specimens
-/// are ready.
+/// prepared. If all specimens took turns, all would finish at the same time, and the device would be idle until the
+/// next ones are ready.
 ///
 /// If one specimen has all its steps enqueued (is_queued()), the next one may take the device already: its steps are
 /// enqueued behind an event at the end of the first one's. So the device does not pause while host threads wake each
 /// other.
 ///
-/// A solution in the frequency domain goes before all steps that need room, and has its devices to itself except for
-/// steps that need no room. It consists of hundreds of short kernels in sequence; each of them would otherwise wait for
+/// A solution in the frequency domain goes before all steps that need room. While it runs, only steps that need no room
+/// may use its devices. It consists of hundreds of short kernels in sequence; each of them would otherwise wait for
 /// steps to end.
 #pragma once
 
@@ -43,7 +43,7 @@ class DeviceRoom {
   enum class Work { steps, solution };
 
   /// Returns a number for a specimen that is to be stepped, or for a solution. Lower numbers go first. Numbers of one
-  /// kind rise; those of solutions are below those of all specimens.
+  /// kind rise. All numbers of solutions are below all numbers of specimens.
   static std::uint64_t next_number(Work work = Work::steps) {
     constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
     DeviceRoom& room = instance();

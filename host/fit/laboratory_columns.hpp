@@ -9,7 +9,7 @@
 
 namespace macadam::fitting {
 
-/// What a column measures.
+/// The quantity in a column.
 enum class Quantity {
   frequency,
   e_star,

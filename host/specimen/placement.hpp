@@ -19,8 +19,8 @@ class Placement {
  public:
   /// `specimen` receives the spheres and must outlive this object. `smallest` is the smallest aggregate radius [m].
   /// `attempts` is the number of trials for one sphere. `taken` returns whether a point is inside something else (a
-  /// shape), and must be callable from several threads. `origin` is that of the recipe, for messages. `largest_void` is
-  /// the radius of the largest void that will be placed [m].
+  /// shape), and must be callable from several threads. `origin` is the origin of the recipe (file and line), for
+  /// messages. `largest_void` is the radius of the largest void that will be placed [m].
   Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random, const Origin& origin,
             std::function<bool(const Vec3d&)> taken = {}, double largest_void = 0);
 

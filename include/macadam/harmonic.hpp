@@ -34,7 +34,7 @@ struct HarmonicOptions {
   /// Largest relative residual ‖f − K·u‖ / ‖f‖, in excess of what the rounding of u alone causes in K·u.
   double tolerance = 1e-11;
   LinearMethod linear = LinearMethod::automatic;
-  /// Where the iterative solver runs, cpu or cuda (automatic: as select_backend()). Everything else runs on the CPU.
+  /// Backend of the iterative solver, cpu or cuda (automatic: as select_backend()). Everything else runs on the CPU.
   Backend backend = Backend::cpu;
   DeviceList devices = {};          ///< for cuda; the first one becomes the current device of the calling thread
   std::function<bool()> stop = {};  ///< called between iterations; true ends a solution with InterruptedError

@@ -38,8 +38,8 @@ struct VoidSphere {
 };
 
 /// Spheres in a box. All vectors except `voids` have one entry per particle; the order is the user's and is kept in
-/// every output. Voids are not particles: they have no mass, motion or contacts. Where cells are numbered, in the
-/// tessellation and in files, the cells of voids follow those of the particles.
+/// every output. Voids are not particles: they have no mass, motion or contacts. In the numbering of cells, in the
+/// tessellation and in files, the cells of voids follow the cells of particles.
 struct Specimen {
   Box box;
   std::vector<Vec3d> centre;   ///< [m]
@@ -138,8 +138,8 @@ struct ShapeSpec {
   bool allow_short = false;  ///< insertion: a class that finds no more space may stay below the requested amount
   PlacementTest test = PlacementTest::surfaces;  ///< insertion
   double gap = 0.01;  ///< packing: smallest distance between two surfaces, over the smaller D^I
-  /// Stiffness of the shapes' surfaces against the mastic while it relaxes, over that of a pair of mastic spheres, 0 to
-  /// 10. With 0, only the spheres that fill the shapes keep the mastic out.
+  /// Stiffness with which the surfaces of the shapes resist the mastic while it relaxes, divided by the stiffness of a
+  /// pair of mastic spheres, 0 to 10. With 0, only the spheres that fill the shapes keep the mastic out.
   double hold_out = 0;
 };
 

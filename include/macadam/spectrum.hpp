@@ -57,11 +57,12 @@ struct CreepSeries {
 /// that is not a chain with positive constants.
 PronySeries prony_series(const Law& law);
 
-/// Returns the creep of the same material, from the zeros that lie between the poles. \throws InputError for a series
-/// whose moduli are all zero.
+/// Returns the creep of the same material. Its times follow from the zeros of the relaxation, which lie between its
+/// poles. \throws InputError for a series whose moduli are all zero.
 CreepSeries creep_series(const PronySeries& relaxation);
 
-/// Returns a series with fewer units, as many as reproduce E(0), and E(t) between two times, to a relative tolerance.
+/// Returns a series with the fewest units found that reproduce E(0), and E(t) from `shortest` to `longest` [s], to a
+/// relative tolerance.
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance);
 
 /// Returns the largest relative difference of E(t) from `exact`, at t = 0 and between two times.

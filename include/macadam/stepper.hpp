@@ -196,9 +196,9 @@ class Stepper {
   /// Sets the half-step velocities and spins (specimen order), for example of free assemblies in tests.
   virtual void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) = 0;
 
-  /// Returns everything that advance() changes. A stepper made from the same scene and options by the same program,
-  /// given this by set_state(), continues to the same bits. \throws RunError for backend reference, which has no
-  /// checkpoints.
+  /// Returns everything that advance() changes. A stepper made from the same scene and options by the same program
+  /// gives the same bits from here on if set_state() gives it these arrays. \throws RunError for backend reference,
+  /// which has no checkpoints.
   virtual std::vector<StateArray> state() const = 0;
 
   /// Restores what state() returned, or changes nothing. \throws RunError naming the array that does not fit, and as

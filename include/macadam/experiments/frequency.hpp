@@ -33,7 +33,7 @@ struct Frequency {
 /// Result of the frequency domain.
 struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
-  ModulusParts parts;   ///< |E*| and φ are those of the sum of these parts
+  ModulusParts parts;   ///< parts of E*; |E*| and φ belong to their sum
   Stiffness bottom;     ///< from the reaction of the bottom wall
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
