@@ -181,7 +181,7 @@ struct ContactForces {
     return load;
   }
 
-  /// The same for a law that advances the components of a point together; `d`: distance of the contact.
+  /// Does the same for a law that advances the components of a point together; `d`: distance of the contact.
   template <class Item, class T>
   MACADAM_HD FacetLoad<T> coupled_points_load(const Item& item, std::uint32_t packet, const T (&u)[6],
                                               const T& d) const {

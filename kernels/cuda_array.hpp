@@ -12,7 +12,7 @@
 namespace macadam::kernels {
 
 /// An array on the current device, zero at first. Nothing may use it when it is destroyed. Allocation and release go
-/// through the calling thread's own stream, so that a shared device is not stopped by them.
+/// through the calling thread's own stream, so that they do not stop other work on the device.
 template <class T>
 class DeviceArray {
  public:

@@ -122,7 +122,7 @@ struct SettleRanges {
   Range of[pair_types];
   std::uint32_t blocks = 0;
 
-  /// Adds a group; its thread blocks follow those of the groups added before.
+  /// Adds a group. Its thread blocks follow the thread blocks of the groups added before.
   void add(int group, std::size_t begin, std::size_t end) {
     of[group] = {blocks, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
     blocks += static_cast<std::uint32_t>((end - begin + contact_threads - 1) / contact_threads);

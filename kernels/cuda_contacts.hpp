@@ -91,7 +91,7 @@ struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
   int groups = 0;
   std::uint32_t blocks = 0;  ///< thread blocks of all groups
 
-  /// Adds a group; its thread blocks follow those of the groups added before.
+  /// Adds a group. Its thread blocks follow the thread blocks of the groups added before.
   template <class Forces>
   void add(std::uint32_t first_slot, std::uint32_t begin, std::uint32_t end, const Forces& forces) {
     Group& g = group[groups++];

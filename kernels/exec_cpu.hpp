@@ -277,7 +277,7 @@ class ExecCpu {
     }
   }
 
-  /// Returns the load on a body: its own accumulator (`none` for walls) plus those of its halo row.
+  /// Returns the load on a body: its own accumulator (`none` for walls) plus the accumulators of its halo row.
   Twist<R> sum(std::int32_t body, std::uint32_t own) const {
     const auto i = static_cast<std::size_t>(body);
     R total[velocity_words] = {};

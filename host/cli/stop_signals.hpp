@@ -5,12 +5,12 @@
 
 namespace macadam {
 
-/// From now on the first of these signals asks to stop. Those of the next two seconds are ignored as its echo:
-/// coreutils' timeout sends one to its child and another to the child's group. A later one ends the program at once.
-/// Signals that are ignored already, as under nohup, stay ignored.
+/// Installs the signal handlers. The first of these signals asks the program to stop. Signals of the next two seconds
+/// are ignored as its echo: coreutils' timeout sends one signal to its child and another to the child's group. A later
+/// signal ends the program at once. Signals that are ignored already, as under nohup, stay ignored.
 void listen_to_stop_signals();
 
-/// Whether a signal has asked to stop.
+/// Returns whether a signal has asked the program to stop.
 bool stop_asked();
 
 }  // namespace macadam

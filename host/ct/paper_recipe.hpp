@@ -9,8 +9,8 @@
 
 namespace macadam::ct {
 
-/// Shifts the grey values of every slice to the mean of the scan, then those of every ring zone to the mean of the
-/// innermost zone.
+/// Shifts the grey values of every slice to the mean of the scan, then the grey values of every ring zone to the mean
+/// of the innermost zone.
 void equalise(Image<float>& scan, const Image<std::uint8_t>& region);
 
 /// Segments a scan with these steps. \throws InputError if no voxel is brighter than the threshold.

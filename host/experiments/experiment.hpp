@@ -28,12 +28,13 @@ struct ExperimentOf {
   /// Reads `[loading]`. \throws InputError
   static Spec read(const scene::Section& loading);
 
-  /// Prepares the solution by the scene's method. Every reason to refuse the scene is found here, before a file is
-  /// touched. Scene, preparation and watcher must outlive the solution. \throws InputError, RunError
+  /// Prepares the solution by the scene's method. All checks that can refuse the scene are made here, before any file
+  /// is changed. Scene, preparation and watcher must outlive the solution. \throws InputError, RunError
   static std::unique_ptr<Solution> plan(const Spec& spec, const Scene& scene, const Preparation& prepared,
                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
 
-  /// Returns the names of the result files that a run of the scene writes, besides those of every run.
+  /// Returns the names of the result files that a run of the scene writes, in addition to the files that every run
+  /// writes.
   static std::vector<std::string> files(const Spec& spec, const Scene& scene);
 };
 

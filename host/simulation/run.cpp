@@ -50,8 +50,8 @@ void remove_results(const std::filesystem::path& out) {
   }
 }
 
-/// Removes this run's checkpoint, and that of an earlier run of the same scene: the results to which they would lead
-/// are there. A checkpoint that cannot be removed costs only disk space.
+/// Removes the checkpoint of this run or of an earlier run of the same scene, because the results to which it would
+/// lead exist now. A checkpoint that cannot be removed costs only disk space.
 void remove_own_checkpoint(const std::filesystem::path& out, const Scene& scene, Backend backend, bool own) {
   std::error_code ignored;
   for (const char* name : {checkpoint_name, previous_checkpoint_name}) {

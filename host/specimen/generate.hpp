@@ -20,7 +20,7 @@ struct GeneratedWithCells {
   double seconds_tessellation = 0;  ///< time of the tessellation, if it is present [s]
 };
 
-/// Does what generate_specimen() does.
+/// Generates a specimen as generate_specimen() does, and returns its cells too.
 GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
                                        const std::function<void(const char* stage, double share)>& progress);
 

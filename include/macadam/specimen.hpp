@@ -57,7 +57,7 @@ struct Specimen {
   Phase phase_of(std::int32_t cell) const {
     return static_cast<std::size_t>(cell) < size() ? phase[static_cast<std::size_t>(cell)] : Phase::air_void;
   }
-  /// For messages: returns the line in `source` of a particle or void, given by its cell; 0: no line.
+  /// Returns the line in `source` of a particle or void, given by its cell, for messages; 0: no line.
   int line_of(std::int64_t cell) const { return first_line > 0 ? first_line + static_cast<int>(cell) : 0; }
 };
 

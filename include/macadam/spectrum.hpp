@@ -61,8 +61,8 @@ PronySeries prony_series(const Law& law);
 /// poles. \throws InputError for a series whose moduli are all zero.
 CreepSeries creep_series(const PronySeries& relaxation);
 
-/// Returns a series with the fewest units found that reproduce E(0), and E(t) from `shortest` to `longest` [s], to a
-/// relative tolerance.
+/// Returns a series of a few units of `series`, with new moduli, that reproduces E(0), and E(t) from `shortest` to
+/// `longest` [s], to a relative tolerance.
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance);
 
 /// Returns the largest relative difference of E(t) from `exact`, at t = 0 and between two times.

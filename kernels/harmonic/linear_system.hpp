@@ -96,7 +96,7 @@ class DeviceSolver {
   virtual void solution(std::size_t load, const TakePart& take) = 0;
 };
 
-/// As CudaCode::make_solver. Only in builds with CUDA.
+/// Does the same as CudaCode::make_solver. Only in builds with CUDA.
 std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, const DeviceList& devices,
                                                  std::int64_t& loose);
 

@@ -28,7 +28,7 @@ struct LoadTest {
   std::string kind;
   History history;
   double poisson_ratio = 0;
-  /// what the scene asks for, under its name in summary.json
+  /// values that the scene requests, each with its name in summary.json
   std::vector<std::pair<const char*, std::optional<double>>> load;
   /// Returns the response at a time to this load, applied at the times `when`, from the specimen's spectrum.
   std::function<experiments::ResponsePoint(const Spectrum&, double time, const LoadTimes& when)> unstepped;
@@ -74,11 +74,11 @@ std::string shown_head(const char* ratio);
 std::string shown_line(const LoadWords& words, const char* ratio, const experiments::ResponsePoint& point);
 /// @}
 
-/// Adds what the scene asks for to an entry of `results`.
+/// Adds the load that the scene requests to an entry of `results`.
 void add_load(const LoadTest& test, nlohmann::ordered_json& out);
 
-/// Returns the names of a kind's result files: its table, that of cracks if points can break, and without steps the
-/// tables of the material.
+/// Returns the names of a kind's result files: its table, the table of cracks if points can break, and without steps
+/// the tables of the material.
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
 /// Plans a test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.

@@ -69,7 +69,8 @@ struct Lanes {
 /// A complex factor for each solution, prepared for multiplication.
 template <int F>
 struct Factor {
-  Lanes<F> real, imaginary;  ///< each in both lanes; the imaginary part has the sign of i·i in the real lanes
+  Lanes<F> real,
+      imaginary;  ///< each in both lanes of a number; the imaginary part is negated in the real lanes (i·i = −1)
 
   void set(int f, std::complex<double> z) {
     real.v[f] = real.v[F + f] = z.real();
