@@ -225,10 +225,10 @@ struct ContactForces {
     load.moment_n += s * along_t - t * along_s;
   }
 
-  /// Eq. 5–6 in every step, docs/model.md, section 9: computes the normal from the displaced centres, moves x0 by half
-  /// the change of distance, turns the frame with the normal and spins it about the normal with the mean spin of the
-  /// pair. `middle` is the frame half a step earlier. It is needed because, evaluated in the frame at either end of the
-  /// step, a rigid turn by θ would open the contact by (1 − cos θ)·d per step.
+  /// Updates the frame in every step by Eq. 5–6 (docs/model.md, section 9): computes the normal from the displaced
+  /// centres, moves x0 by half the change of distance, turns the frame with the normal and spins it about the normal
+  /// with the mean spin of the pair. `middle` is the frame half a step earlier. It is needed because in the frame at
+  /// the beginning or the end of the step a rigid rotation by θ would open the contact by (1 − cos θ)·d per step.
   template <class Item, class T>
   MACADAM_HD void carry(const Item& item, std::uint32_t packet, const MotionView<P>& motion, const std::int32_t* ia,
                         const std::int32_t* ib, const Twist<T>& a, const Twist<T>& b, const Vec3<T>& n0, const T& d0,

@@ -111,7 +111,7 @@ struct GrainCut {
   Vec3d place{};               ///< middle of the face between them [m]
   double neck = 0;             ///< inscribed radius at the face, over the smaller inscribed radius of the two fragments
   double solidity = 0;  ///< Solidity is volume over volume of the convex hull. This is the solidity of both fragments
-                        ///< together, divided by the solidity of each alone.
+                        ///< together, divided by their solidity apart (sum of volumes over sum of hull volumes).
   double valley = 0;    ///< grey value on the face; 0: mastic, 1: aggregate
   double margin = 0;    ///< positive: a boundary between two grains; negative: within one grain; near 0: doubtful
   bool cut = false;     ///< the decision: whether the fragments belong to two grains

@@ -49,7 +49,6 @@ struct SurfaceVerdict {
 /// only by the rounding of single precision, 5e-7 of the surface's size; a closed surface keeps every point. \throws
 /// InputError naming the file (and the line, in text files) if it cannot be read, has no facet, or has numbers that are
 /// not finite.
-/// not finite.
 Surface read_surface(const std::filesystem::path& file, double scale = 1);
 
 /// Reads every surface of a folder, in the order of the files' names. Each must be good().
