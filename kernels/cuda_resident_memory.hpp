@@ -23,8 +23,8 @@ inline constexpr std::uint32_t groups_in_registers = 2;
 /// Largest number of contacts of one tile whose states fit in registers.
 inline constexpr std::uint32_t contacts_in_registers = groups_in_registers * TilePlan::run * resident_threads;
 inline constexpr std::uint32_t packets_with_states = contacts_in_registers / 32;
-/// Number of a warp's packets whose constants stay in registers too: the last of those with states in registers.
-/// `memory`: some law has a memory; its sums then leave no registers for constants.
+/// Number of packets per warp whose constants stay in registers too. They are the last of the packets with states in
+/// registers. `memory`: some law has a memory; its sums then leave no registers for constants.
 __host__ __device__ constexpr std::uint32_t packets_with_constants(bool memory) { return memory ? 0 : 2; }
 
 /// Six or two numbers of a body, aligned so that threads with neighbouring bodies access different banks of shared

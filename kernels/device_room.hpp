@@ -137,8 +137,8 @@ class DeviceRoom {
     }
     return true;
   }
-  /// If one specimen has the one wanted device, and has no other, returns the event at the end of its enqueued work;
-  /// else null.
+  /// If only one device is wanted, and exactly one specimen holds it and holds no other device, returns the event at
+  /// the end of that specimen's enqueued work; else null.
   Event end_before(const Share& wanted) const {
     if (wanted.size() != 1) return nullptr;
     const int device = wanted.begin()->first;

@@ -47,7 +47,7 @@ struct ResultOf {
   /// Returns the wall time until the result was found [s], of all processes of a resumed run.
   static double seconds(const Result& found);
 
-  /// Returns the lines for people that the command prints at its end.
+  /// Returns the lines of text that the command prints at its end.
   static std::string table(const Result& found);
 };
 

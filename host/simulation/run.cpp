@@ -84,7 +84,8 @@ class FoundBackend {
       asked_ = select();
     }
   }
-  /// \throws as select_backend(), if it has failed by now, so that a scene that cannot run is not prepared to the end.
+  /// Checks whether the search for a backend has failed by now, so that a scene that cannot run is not prepared to the
+  /// end. \throws as select_backend() if it has.
   void look() {
     if (waking_.valid() && waking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) get();
   }

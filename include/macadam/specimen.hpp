@@ -100,8 +100,8 @@ struct MasticSpec {
   int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
-/// Air voids with sizes of their own: spheres that overlap neither each other nor the aggregates; radii are uniform in
-/// a range.
+/// Air voids: spheres that overlap neither each other nor the aggregates. Their radii are distributed uniformly in a
+/// range.
 struct VoidSpec {
   double radius_min = 0, radius_max = 0;  ///< [m]
   std::optional<double> fraction;         ///< Σ sphere volumes / box, or …

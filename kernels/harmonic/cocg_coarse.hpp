@@ -7,8 +7,8 @@
 
 namespace macadam::kernels {
 
-/// Decides which loads are solved, and computes β = rᵀz / (rᵀz before). A solved load no longer changes. By one thread
-/// block.
+/// Decides which loads are solved, and computes β = rᵀz / (rᵀz before). A solved load no longer changes. Called by one
+/// thread block.
 template <int F>
 __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coarse) {
   constexpr int W = 2 * F;

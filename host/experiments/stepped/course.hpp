@@ -36,7 +36,8 @@ struct Course {
   /// second time for the step from which it continues.
   std::function<void(const Observation& now)> between = {};
   std::int64_t between_every = 0;
-  std::function<std::string(std::int64_t step, double steps_a_second)> shown;  ///< describes the progress, for people
+  std::function<std::string(std::int64_t step, double steps_a_second)>
+      shown;        ///< returns a text about the progress, to be printed
   Content content;  ///< of a checkpoint, without the stepper's state
   /// Called after the first seconds with the predicted remaining time [s]. May be empty.
   std::function<void(double seconds)> foretold = {};
