@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ranks.hpp  Declares ranks: processes that step one specimen together, on one host or several, each with its
-/// own device.
+/// \file ranks.hpp  Declares ranks, which are processes that step one specimen together, on one host or several, each
+/// with its own device.
 #pragma once
 
 #include <cstddef>

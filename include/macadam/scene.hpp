@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene.hpp  Defines a scene: the complete description of a run, read from a file and checked before any work.
+/// \file scene.hpp  Defines a scene, the complete description of a run, which is read from a file and checked before
+/// any work.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file simulation.hpp  Does the main job: runs a scene and writes its results to a folder.
+/// \file simulation.hpp  Runs a scene and writes its results to a folder, which is the main job of the library.
 #pragma once
 
 #include <cstdint>
