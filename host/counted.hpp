@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file counted.hpp  Conversion of counts to narrower integer types.
+/// \file counted.hpp  Converts counts to narrower integer types.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file hdf5_type.hpp  HDF5's names for the number types of this machine.
+/// \file hdf5_type.hpp  Returns HDF5's names for the number types of this machine.
 #pragma once
 
 #include <H5Cpp.h>

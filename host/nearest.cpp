@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// nearest.cpp  Distance between words in edits; letters are compared without case.
+// nearest.cpp  Computes the distance between words as a number of edits. Letters are compared without case.
 #include "host/nearest.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file quiet_hdf5.hpp  Use of HDF5 without its error output, by one thread at a time.
+/// \file quiet_hdf5.hpp  Suppresses the error output of HDF5, and lets one thread at a time use the library.
 #pragma once
 
 #include <H5Cpp.h>

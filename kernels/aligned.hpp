@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file aligned.hpp  Vectors that start on a cache line, so that the load of a packet never crosses two lines.
+/// \file aligned.hpp  Allocates vectors that start on a cache line, so that the load of a packet never crosses two
+/// lines.
 #pragma once
 
 #include <sys/mman.h>
@@ -39,9 +40,9 @@ struct RawAllocator : AlignedAllocator<T> {
   }
 };
 
-/// Gives zeros without writing them. Large arrays are pages from the operating system, which provides a zeroed page
-/// when it is first written, near the processor that writes it, and takes no memory before. Not used with the address
-/// sanitizer, which guards the ends of arrays.
+/// Allocates zeros without writing them. Large arrays are pages of the operating system. It provides a zeroed page only
+/// when the page is first written, near the processor that writes it; until then the page takes no memory. Not used
+/// with the address sanitizer, which guards the ends of arrays.
 template <class T>
 struct ZeroAllocator : RawAllocator<T> {
   ZeroAllocator() = default;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file barrier.hpp  A thread barrier for steps of about ten microseconds: it spins briefly, then yields the core.
+/// \file barrier.hpp  Implements a thread barrier for steps of about ten microseconds. A waiting thread spins briefly,
+/// then yields its core.
 ///
 /// OpenMP's own barrier either sleeps, which costs more than a small step, or spins for milliseconds. On a busy machine
 /// the spinning keeps the very thread that is waited for off its core (measured: five times slower beside other

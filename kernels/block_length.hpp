@@ -31,13 +31,13 @@ inline bool blocks_are_exact(Geometry geometry, const FactsTable& laws) {
 /// when it ends.
 inline constexpr double exact_blocks = 400;
 
-/// Returns the number of steps of a block, at most longest_block. A block is at most the `options.blocks`-th part of
-/// the shortest time of the load or the laws (exact blocks: up to ten times that). With updated geometry it is also so
-/// short that at the specimen's strain rate a normal turns by less than 1e-6 in a 4,000th of that time. If possible,
-/// the length divides the interval between observations or is a multiple of it; otherwise observations cut blocks
-/// short. Returns 0 if blocks would be too short to save time, no wall is driven by a displacement (so nothing tells
-/// how fast the load changes), a law has no blocks, or a wall is driven by a force, which needs the sum of its loads at
-/// every step. `size`: of the specimen [m].
+/// Returns the number of steps of a block, at most longest_block. A block is at most the shortest characteristic time
+/// of the load or the laws, divided by `options.blocks` (exact blocks: up to ten times that). With updated geometry
+/// this time is also limited such that, at the specimen's strain rate, a normal turns by less than 1e-6 in a 4,000th of
+/// it. If possible, the length divides the interval between observations or is a multiple of it; otherwise observations
+/// cut blocks short. Returns 0 if blocks would be too short to save time, no wall is driven by a displacement (so
+/// nothing tells how fast the load changes), a law has no blocks, or a wall is driven by a force, which needs the sum
+/// of its loads at every step. `size`: edges of the specimen [m].
 inline int block_steps(const StepperOptions& options, const FactsTable& laws, const Vec3d& size) {
   if (!options.boundary.any(DrivenBy::displacement) || options.boundary.any(DrivenBy::force)) return 0;
   constexpr double pi = std::numbers::pi;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file carried_frame.hpp  How the frame of a facet follows its two bodies: docs/model.md, section 9.
+/// \file carried_frame.hpp  Updates the frame of a facet as its two bodies move: docs/model.md, section 9.
 ///
 /// S is a scalar or a SIMD pack. The turns of a step or a block are small, so roots, sines and divisions are replaced
 /// by series, which are exact to rounding for such turns.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file checksum.hpp  A checksum of lists of numbers that must be equal in several processes.
+/// \file checksum.hpp  Computes a checksum of lists of numbers, by which several processes check that their lists are
+/// equal.
 #pragma once
 
 #include <cstdint>

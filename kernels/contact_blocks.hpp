@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_blocks.hpp  The update of one contact between two blocks of steps: model (6.8), (6.9). The CPU and the
+/// \file contact_blocks.hpp  Updates one contact between two blocks of steps: model (6.8), (6.9). The CPU and the
 /// devices share this code.
 ///
 /// Within a block of M steps a contact carries, for each of its displacement components, only the change δf of f since

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_data.hpp  The arrays of one group of contacts. Constant arrays are filled from the network once,
-/// states at every start.
+/// \file contact_data.hpp  Defines and fills the arrays of one group of contacts. Constant arrays are filled from the
+/// network once, states at every start.
 ///
 /// Layout: blocked structure of arrays. Word w of the contact in lane j of packet p is at [(p·words + w)·lanes + j]. A
 /// packet is a SIMD register on the CPU and a warp on the device; both load one word of all lanes at once.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_forces.hpp  One step of one contact: kinematics, law, load. SIMD packs on the CPU and threads on the
-/// GPU share this code.
+/// \file contact_forces.hpp  Takes one step of one contact: kinematics, law, load. SIMD packs on the CPU and threads on
+/// the GPU share this code.
 ///
 /// An Item loads and stores the words of a contact: `PackItem` (pack_item.hpp) handles all contacts of a packet at
 /// once, `LaneItem` (cuda_lane_item.hpp) one contact of a packet. A step of a condensed contact with L Kelvin units
@@ -113,7 +113,7 @@ struct ContactForces {
   MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, T (&density)[6]) const {
     if constexpr (!stateless && Units >= 0 && requires { Item::staged; }) {
       using S = typename P::State;
-      S state[N][1 + Units];  // units beyond those of the law have zero displacement and coefficients
+      S state[N][1 + Units];  // units that the law does not have get zero displacements and coefficients
       const auto place = [&](int c, int l) { return chain + (c * (1 + units()) + l) * item.lanes(); };
       for (int c = 0; c < N; ++c) {
         for (int l = 0; l <= Units; ++l) state[c][l] = l <= units() ? item.load(place(c, l)) : S(0);
@@ -181,7 +181,7 @@ struct ContactForces {
     return load;
   }
 
-  /// The same for a law that advances the components of a point together; `d`: distance of the contact.
+  /// Does the same for a law that advances the components of a point together; `d`: distance of the contact.
   template <class Item, class T>
   MACADAM_HD FacetLoad<T> coupled_points_load(const Item& item, std::uint32_t packet, const T (&u)[6],
                                               const T& d) const {
@@ -225,10 +225,10 @@ struct ContactForces {
     load.moment_n += s * along_t - t * along_s;
   }
 
-  /// Eq. 5–6 in every step, docs/model.md, section 9: computes the normal from the displaced centres, moves x0 by half
-  /// the change of distance, turns the frame with the normal and spins it about the normal with the mean spin of the
-  /// pair. `middle` is the frame half a step earlier. It is needed because, evaluated in the frame at either end of the
-  /// step, a rigid turn by θ would open the contact by (1 − cos θ)·d per step.
+  /// Updates the frame in every step by Eq. 5–6 (docs/model.md, section 9): computes the normal from the displaced
+  /// centres, moves x0 by half the change of distance, turns the frame with the normal and spins it about the normal
+  /// with the mean spin of the pair. `middle` is the frame half a step earlier. It is needed because in the frame at
+  /// the beginning or the end of the step a rigid rotation by θ would open the contact by (1 − cos θ)·d per step.
   template <class Item, class T>
   MACADAM_HD void carry(const Item& item, std::uint32_t packet, const MotionView<P>& motion, const std::int32_t* ia,
                         const std::int32_t* ib, const Twist<T>& a, const Twist<T>& b, const Vec3<T>& n0, const T& d0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_kinematics.hpp  From the motion of two bodies to the six relative rates of a facet, and back to
-/// forces: docs/model.md, sections 5, 7 and 8.
+/// \file contact_kinematics.hpp  Converts the motion of two bodies to the six relative rates of a facet, and the forces
+/// of the facet to loads on the bodies: docs/model.md, sections 5, 7 and 8.
 ///
 /// T is a scalar (one contact) or a SIMD pack (one contact per lane). A point of the facet is at x0 + s·ŝ + t·t̂. From
 /// centre A it is at arm_a·n + s·ŝ + t·t̂, from centre B at −arm_b·n + s·ŝ + t·t̂. Model (5.3):

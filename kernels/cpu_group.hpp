@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cpu_group.hpp  One group of contacts on the CPU: its arrays, its steps, and its blocks of steps.
+/// \file cpu_group.hpp  Owns the arrays of one group of contacts on the CPU, and steps the group, with or without
+/// blocks of steps.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_array.hpp  Arrays in the memory of one device, or spread over several.
+/// \file cuda_array.hpp  Allocates arrays in the memory of one device, or spread over several devices.
 #pragma once
 
 #include <utility>
@@ -12,7 +12,7 @@
 namespace macadam::kernels {
 
 /// An array on the current device, zero at first. Nothing may use it when it is destroyed. Allocation and release go
-/// through the calling thread's own stream, so that a shared device is not stopped by them.
+/// through the calling thread's own stream, so that they do not stop other work on the device.
 template <class T>
 class DeviceArray {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_blocks.hpp  The kernels between two blocks of steps on the tile path: they update the viscoelastic states
-/// in full precision and prepare the next block.
+/// \file cuda_blocks.hpp  Defines the kernels that run between two blocks of steps on the tile path. They update the
+/// viscoelastic states in full precision and prepare the next block.
 ///
 /// TileRunner launches two kernels in this order. settle_contacts (through Settling in cuda_settling.hpp) takes each
 /// contact's δf and sum from the tiles' states, updates the contact's chain by model (6.9), writes the drift (and with
@@ -122,7 +122,7 @@ struct SettleRanges {
   Range of[pair_types];
   std::uint32_t blocks = 0;
 
-  /// Adds a group; its thread blocks follow those of the groups added before.
+  /// Adds a group. Its thread blocks follow the thread blocks of the groups added before.
   void add(int group, std::size_t begin, std::size_t end) {
     of[group] = {blocks, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
     blocks += static_cast<std::uint32_t>((end - begin + contact_threads - 1) / contact_threads);

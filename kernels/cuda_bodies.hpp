@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_bodies.hpp  Kernels that sum the loads of each body in fixed order, and that move the bodies: eight
-/// threads per body, one per word.
+/// \file cuda_bodies.hpp  Defines the kernels that sum the loads of each body in fixed order and move the bodies, with
+/// eight threads per body, one per word.
 #pragma once
 
 #include "kernels/cuda_contacts.hpp"

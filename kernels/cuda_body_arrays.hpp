@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_body_arrays.hpp  The base class of both executors on devices (ExecCuda, ExecCudaTiles): the team of
-/// devices, the bodies, the walls' table, and the arrays of the groups.
+/// \file cuda_body_arrays.hpp  Defines the base class of both executors on devices (ExecCuda, ExecCudaTiles). It owns
+/// the team of devices, the bodies, the walls' table, and the arrays of the groups.
 #pragma once
 
 #include <memory>

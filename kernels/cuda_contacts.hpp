@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_contacts.hpp  The kernel that steps the contacts of all groups in one launch (first of the two kernels of
-/// ExecCuda). Each thread block belongs to one group, so that all threads of a warp run the same code.
+/// \file cuda_contacts.hpp  Defines the kernel that steps the contacts of all groups in one launch (first of the two
+/// kernels of ExecCuda). Each thread block belongs to one group, so that all threads of a warp run the same code.
 #pragma once
 
 #include <functional>
@@ -91,7 +91,7 @@ struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
   int groups = 0;
   std::uint32_t blocks = 0;  ///< thread blocks of all groups
 
-  /// Adds a group; its thread blocks follow those of the groups added before.
+  /// Adds a group. Its thread blocks follow the thread blocks of the groups added before.
   template <class Forces>
   void add(std::uint32_t first_slot, std::uint32_t begin, std::uint32_t end, const Forces& forces) {
     Group& g = group[groups++];
@@ -171,7 +171,7 @@ class ContactLaunches {
     };
     to.use = kernel_use("contacts", kernel, contact_threads, 0);
   }
-  /// Steps all contacts, and the clock once.
+  /// Enqueues the step of all contacts. Only the first launch advances the clock.
   void run(cudaStream_t stream, const MotionView<P>& motion, const Records& records, Clock clock) const {
     for (const auto& [units, to] : launches_) {
       to.run(stream, motion, records, clock);

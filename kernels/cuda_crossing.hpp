@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_crossing.hpp  Contacts between bodies of different ranks: which data must be sent for them.
+/// \file cuda_crossing.hpp  Finds the data that ranks must send each other for contacts between bodies of different
+/// ranks.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cuda_idle.cpp  Decides whether a second device may be used without being asked for. Creates no context on it.
+// cuda_idle.cpp  Decides whether a second device may be used although the user did not ask for it. Creates no context
+// on that device.
 #include <cuda_runtime.h>
 #include <dlfcn.h>
 

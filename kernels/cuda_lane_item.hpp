@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_lane_item.hpp  Access to one contact of a packet of 32, for a thread that steps it.
+/// \file cuda_lane_item.hpp  Gives a thread access to the one contact of a packet of 32 that it steps.
 #pragma once
 
 #include <cuda_runtime.h>

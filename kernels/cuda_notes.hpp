@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_notes.hpp  Samples of a run, taken on the device while the run continues. A note in the identifiers is a
+/// \file cuda_notes.hpp  Takes samples of a run on the device while the run continues. A note in the identifiers is a
 /// sample.
 ///
 /// A sample holds the wall forces, the motion of the walls, and the first particle that has diverged. ExecCudaTiles
@@ -26,7 +26,8 @@ struct Note {
   std::uint32_t divergent;
 };
 
-/// Writes everything except `divergent` into a sample. One thread block. The arrays are those of the walls, as in Note.
+/// Writes everything except `divergent` into a sample. One thread block. The arrays are the arrays of the walls, in the
+/// order of Note.
 template <class R>
 __global__ void take_note(Note<R>* note, const R* force, const R* velocity, const double* displacement) {
   for (unsigned i = threadIdx.x; i < walls * velocity_words; i += blockDim.x) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cuda_plugin.cpp  The table of functions by which the library finds the kernels in libmacadam_cuda.so.
+// cuda_plugin.cpp  Defines the table of functions through which the library calls the code in libmacadam_cuda.so.
 #include "kernels/cuda_plugin.hpp"
 
 #include "kernels/precision.hpp"

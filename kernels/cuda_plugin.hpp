@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_plugin.hpp  The interface of libmacadam_cuda.so: all functions that the library needs from CUDA.
+/// \file cuda_plugin.hpp  Declares the interface of libmacadam_cuda.so: all functions that the library needs from CUDA.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_rank_exchange.hpp  The messages between devices of several processes (ranks) between the parts of a step.
+/// \file cuda_rank_exchange.hpp  Sends messages between the devices of several processes (ranks) between the parts of a
+/// step.
 ///
 /// An array is complete on every device, with each item at the same index. The rank that computes an item sends it to
 /// the ranks that read it. RankItems lists these items; a RankExchange sends the items of some arrays together, one

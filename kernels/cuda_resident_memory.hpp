@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_resident_memory.hpp  How the resident kernel (cuda_tiles_resident.hpp) divides the shared memory and the
-/// registers of a multiprocessor.
+/// \file cuda_resident_memory.hpp  Divides the shared memory and the registers of a multiprocessor for the resident
+/// kernel (cuda_tiles_resident.hpp).
 ///
 /// ResidentMemory computes the position of each array in a tile's shared memory. The host (TileRunner) uses it to
 /// decide whether tiles fit, and the kernel uses it to find the arrays. The remaining shared memory holds constants of
@@ -23,8 +23,8 @@ inline constexpr std::uint32_t groups_in_registers = 2;
 /// Largest number of contacts of one tile whose states fit in registers.
 inline constexpr std::uint32_t contacts_in_registers = groups_in_registers * TilePlan::run * resident_threads;
 inline constexpr std::uint32_t packets_with_states = contacts_in_registers / 32;
-/// Number of a warp's packets whose constants stay in registers too: the last of those with states in registers.
-/// `memory`: some law has a memory; its sums then leave no registers for constants.
+/// Number of packets per warp whose constants stay in registers too. They are the last of the packets with states in
+/// registers. `memory`: some law has a memory; its sums then leave no registers for constants.
 __host__ __device__ constexpr std::uint32_t packets_with_constants(bool memory) { return memory ? 0 : 2; }
 
 /// Six or two numbers of a body, aligned so that threads with neighbouring bodies access different banks of shared

@@ -20,8 +20,8 @@ namespace macadam::kernels {
 /// Arrays of the tiles and bodies that settling reads and writes, in addition to the arrays of each group.
 template <class P>
 struct SettledArrays {
-  float4* constant;            ///< of the tiles' contacts, written
-  const float4* state;         ///< of the tiles' contacts
+  float4* constant;            ///< constants of the contacts in tiles, written
+  const float4* state;         ///< states (δf and sum) of the contacts in tiles
   const double *now, *before;  ///< displacements now, and at the beginning of the block [body][8]
   LoadRecords<typename P::Particle> records;
   const uint2* place;  ///< [slot of all groups] the places of its contact in the tiles
@@ -61,8 +61,9 @@ class Settling {
     };
   }
 
-  /// Enqueues the update that ends a block of `ended` steps (0: no block; settling_starts: before the first step) and
-  /// begins one of `steps` steps.
+  /// Enqueues the update between two blocks: the block that ends had `ended` steps, the next one has `steps`. `ended`
+  /// is 0 if no block has ended, and settling_starts if nothing was stepped yet; the constants are then set to those of
+  /// the undeformed contact.
   void run(int ended, int steps, const SettledArrays<P>& arrays) {
     if (!launch_) return;
     const int known = ended > 0 ? ended : steps;

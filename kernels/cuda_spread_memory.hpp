@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_spread_memory.hpp  Memory with one range of addresses whose pages are on several devices; all of these
-/// devices can read and write it.
+/// \file cuda_spread_memory.hpp  Allocates memory with one range of addresses whose pages are on several devices. All
+/// of these devices can read and write it.
 #pragma once
 
 #include <cuda.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_team.hpp  The devices that step one specimen together.
+/// \file cuda_team.hpp  Defines the team of devices that step one specimen together.
 ///
 /// The tiles of the layout are cut into as many consecutive parts as there are devices (TeamCuts), and every launch of
 /// a step is made once per device for its part. With several devices of one process, an array has one range of
@@ -35,9 +35,8 @@ enum class KernelOrder {
 /// each process has one member, numbered by its rank.
 class DeviceTeam {
  public:
-  /// `order`: priority of its kernels over other kernels on the same device.
-  /// \throws RunError if two devices cannot access each other's memory, InputError for several devices together with
-  /// ranks.
+  /// `order`: priority of the team's kernels over other kernels on the same device. \throws RunError if two devices
+  /// cannot access each other's memory, InputError for several devices together with ranks.
   explicit DeviceTeam(const DeviceList& devices, Ranks* ranks = nullptr, KernelOrder order = KernelOrder::usual)
       : ranks_(ranks && ranks->count() > 1 ? ranks : nullptr) {
     if (ranks_ && devices.size() > 1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_exchange.hpp  How tiles exchange velocities during a launch of the resident kernel.
+/// \file cuda_tile_exchange.hpp  Exchanges velocities between tiles during a launch of the resident kernel.
 ///
 /// Velocities travel through global memory in words of 16 bytes: three floats and a tag, the number of the step. A word
 /// is written and read by one 128-bit instruction, so a reader that sees the expected tag also sees the numbers that

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_limits.hpp  Limits of the devices, and whether a kernel over tiles fits them.
+/// \file cuda_tile_limits.hpp  Determines the limits of the devices, and whether a kernel of the tile path fits them.
 ///
 /// TileRunner decides by these limits, never by a device's name, whether tiles stay on the chip (resident) or are
 /// streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made. The file also holds
@@ -91,7 +91,7 @@ class DeviceStore {
     using T = typename Array::value_type;
     return own(DeviceArray<T>::of(array));
   }
-  /// The same for an array whose items are spread over several devices.
+  /// Does the same for an array whose items are spread over several devices.
   template <class Array>
   auto keep(const Array& array, const Shares& shares) {
     using T = typename Array::value_type;
@@ -102,7 +102,7 @@ class DeviceStore {
   T* zeros(std::size_t n) {
     return own(DeviceArray<T>(n));
   }
-  /// The same for an array with `words` numbers per item, spread over several devices.
+  /// Does the same for an array with `words` numbers per item, spread over several devices.
   template <class T>
   T* zeros(const Shares& shares, std::size_t words) {
     return own(DeviceArray<T>(shares, words));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_messages.hpp  The messages between tiles of several processes (ranks).
+/// \file cuda_tile_messages.hpp  Sends the messages between tiles of several processes (ranks).
 ///
 /// With ranks every device has whole arrays, and each rank computes its own tiles. TileRunner sends velocities of halo
 /// particles in every step, and between two blocks of steps the displacements, load records and constants that the next

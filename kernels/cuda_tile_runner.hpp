@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_runner.hpp  The host side of the tile path: owns the plan and the device arrays of the tiles, and
-/// launches the blocks of steps. Condensed contacts in mixed and single precision.
+/// \file cuda_tile_runner.hpp  Runs the tile path from the host: owns the plan and the device arrays of the tiles, and
+/// launches the blocks of steps. Used for condensed contacts in mixed and single precision.
 ///
 /// ExecCudaTiles owns one TileRunner and calls it in this order. The constructor plans the tiles (tile_plan.hpp) and
 /// chooses the kernel: resident if every tile fits a multiprocessor, else streamed, else possible() is false. For each

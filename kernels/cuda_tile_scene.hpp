@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_scene.hpp  What the two kernels over tiles share: packed data of a contact, the arguments of a
-/// launch, one step of one contact, and the sums of loads in shared memory.
+/// \file cuda_tile_scene.hpp  Defines what the resident and the streamed kernel of the tile path have in common: packed
+/// data of a contact, the arguments of a launch, one step of one contact, and the sums of loads in shared memory.
 ///
 /// Callers are run_resident (cuda_tiles_resident.hpp) and run_streamed (cuda_tiles_streamed.hpp); tile_plan.hpp
 /// explains the words. In every step a thread block takes the velocities of its particles, its halo and the walls from
@@ -39,7 +39,7 @@ enum TileConstant {
 /// State of a contact, as words of 16 bytes [packet][word][lane]: δf 0…3; δf 4, 5 and sum 0, 1; sum 2…5.
 enum TileState { tile_change, tile_both, tile_sum, tile_states };
 
-/// Returns the number of these words that a step reads and writes. `memory`: some law has a memory.
+/// Returns the number of words of TileState that a step reads and writes. `memory`: some law has a memory.
 __host__ __device__ constexpr int tile_states_moved(bool memory) { return memory ? tile_states : tile_sum; }
 
 /// Two 16-bit numbers in one word, for the ends A and B of a contact.
@@ -64,9 +64,11 @@ struct GroupAndRow {
   __host__ __device__ constexpr std::uint32_t row() const { return word >> group_bits; }
 };
 
-/// Returns the number of constant words of a contact. `carried`: the geometry is updated.
+/// Returns the number of 16-byte words of constants per contact (see TileConstant). `carried`: the contact frame is
+/// updated during the run, so the tangent is stored too.
 __host__ __device__ constexpr int tile_constants(bool carried) { return carried ? tile_tangent + 1 : tile_tangent; }
-/// Returns how many of them, from the first on, a step reads. `memory`: some law has a memory.
+/// Returns the number of these words that a step reads, which are the first ones. `memory`: some law has a memory.
+/// Without one, and with fixed geometry, a step does not read tile_drift_a.
 __host__ __device__ constexpr int tile_constants_read(bool carried, bool memory) {
   return memory || carried ? tile_constants(carried) : tile_drift_a;
 }
@@ -304,8 +306,8 @@ struct TileSlots : SixTable {
   }
 };
 
-/// Calls f(rank, sum of its slots) for every particle of the tile. A warp sums a long row, starting with the last warp;
-/// a thread sums a short row.
+/// Calls f(rank, sum of its slots) for every particle of the tile. Each long row is summed by a warp (the last warp
+/// sums the first row), each short row by a thread.
 template <class F>
 __device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, const std::uint32_t* diagonal,
                                          const TileSlots& slots, F&& f) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tiles_resident.hpp  The resident kernel: many steps in one launch, with one tile per multiprocessor.
+/// \file cuda_tiles_resident.hpp  Defines the resident kernel, which takes many steps in one launch, with one tile per
+/// multiprocessor.
 ///
 /// run_resident is launched by TileRunner with one thread block per tile; all blocks run at the same time (a
 /// cooperative launch). A block loads its tile into shared memory, takes the steps, and writes the tile back.

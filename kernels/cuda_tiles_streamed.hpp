@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tiles_streamed.hpp  The streamed kernel: one launch per step, for any number of tiles.
+/// \file cuda_tiles_streamed.hpp  Defines the streamed kernel, which takes one step per launch, for any number of
+/// tiles.
 ///
 /// TileRunner uses it if the tiles do not fit on the chip, and with several ranks. Two tiles share a multiprocessor;
 /// the constants and states of contacts are read from global memory in every step. begin_streamed moves the bodies

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_room.hpp  Which specimen may use the multiprocessors of a device, if several specimens share it.
+/// \file device_room.hpp  Decides which specimen may use the multiprocessors of a device if several specimens share it.
 ///
 /// The thread blocks of a launch of resident tiles wait for one another, and each occupies one multiprocessor. If two
 /// such launches each had only some of the multiprocessors that they need, neither would end. So a specimen takes as
@@ -8,15 +8,15 @@
 /// on each device.
 ///
 /// The oldest waiting specimen goes first. So the oldest two take turns and finish while others are still being
-/// prepared. If all took turns, all would finish at the same time, and the device would idle until the next specimens
-/// are ready.
+/// prepared. If all specimens took turns, all would finish at the same time, and the device would be idle until the
+/// next ones are ready.
 ///
 /// If one specimen has all its steps enqueued (is_queued()), the next one may take the device already: its steps are
 /// enqueued behind an event at the end of the first one's. So the device does not pause while host threads wake each
 /// other.
 ///
-/// A solution in the frequency domain goes before all steps that need room, and has its devices to itself except for
-/// steps that need no room. It consists of hundreds of short kernels in sequence; each of them would otherwise wait for
+/// A solution in the frequency domain goes before all steps that need room. While it runs, only steps that need no room
+/// may use its devices. It consists of hundreds of short kernels in sequence; each of them would otherwise wait for
 /// steps to end.
 #pragma once
 
@@ -43,7 +43,7 @@ class DeviceRoom {
   enum class Work { steps, solution };
 
   /// Returns a number for a specimen that is to be stepped, or for a solution. Lower numbers go first. Numbers of one
-  /// kind rise; those of solutions are below those of all specimens.
+  /// kind rise. All numbers of solutions are below all numbers of specimens.
   static std::uint64_t next_number(Work work = Work::steps) {
     constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
     DeviceRoom& room = instance();
@@ -137,8 +137,8 @@ class DeviceRoom {
     }
     return true;
   }
-  /// If one specimen has the one wanted device, and has no other, returns the event at the end of its enqueued work;
-  /// else null.
+  /// If only one device is wanted, and exactly one specimen holds it and holds no other device, returns the event at
+  /// the end of that specimen's enqueued work; else null.
   Event end_before(const Share& wanted) const {
     if (wanted.size() != 1) return nullptr;
     const int device = wanted.begin()->first;

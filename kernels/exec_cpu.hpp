@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cpu.hpp  The executor on the CPU: packets of contacts in SIMD registers, tiles divided among threads.
+/// \file exec_cpu.hpp  Defines the executor on the CPU. Packets of contacts are in SIMD registers, and tiles are
+/// divided among threads.
 #pragma once
 
 #include <omp.h>
@@ -276,7 +277,7 @@ class ExecCpu {
     }
   }
 
-  /// Returns the load on a body: its own accumulator (`none` for walls) plus those of its halo row.
+  /// Returns the load on a body: its own accumulator (`none` for walls) plus the accumulators of its halo row.
   Twist<R> sum(std::int32_t body, std::uint32_t own) const {
     const auto i = static_cast<std::size_t>(body);
     R total[velocity_words] = {};

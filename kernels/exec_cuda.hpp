@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cuda.hpp  The executor with two kernels per step on CUDA devices, for any contact form, law and
+/// \file exec_cuda.hpp  Defines the executor for CUDA devices with two kernels per step, for any contact form, law and
 /// precision. Many steps are enqueued as one graph.
 ///
 /// step_bodies (cuda_bodies.hpp) sums the loads of each body and moves it; step_contacts (cuda_contacts.hpp) steps each
@@ -25,7 +25,7 @@ class ExecCuda : public CudaBodyArrays<P> {
   /// ContactForces has code for up to five Kelvin units in registers, besides exactly three.
   static constexpr bool room_for_five = true;
 
-  /// The size does not depend on the device, because the order of the sums is that of the layout.
+  /// The size does not depend on the device, because it determines the layout, and sums are in the order of the layout.
   static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
 
   ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cuda_tiles.hpp  The executor of the tile path: takes steps in blocks over tiles on CUDA devices.
+/// \file exec_cuda_tiles.hpp  Defines the executor of the tile path, which takes blocks of steps over tiles on CUDA
+/// devices.
 ///
 /// It applies to condensed contacts in mixed and single precision, laws that can be stepped in blocks, and walls driven
 /// by displacements; ExecCuda steps everything else. make_cuda.hpp tries this executor first. StepperImpl calls it in
@@ -29,8 +30,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   using R = typename P::Particle;
   static constexpr bool room_for_five = true;  ///< ContactForces has code for up to five Kelvin units in registers
 
-  /// Returns one tile per multiprocessor if the specimen fits on the chip, else tiles so small that two share a
-  /// multiprocessor.
+  /// Returns one tile per multiprocessor if the specimen fits in registers and shared memory, else tiles so small that
+  /// two share a multiprocessor.
   static TileSize tile_size(const ContactNetwork& network, const StepperOptions& options) {
     const DeviceTeam team(options.devices, options.ranks);
     const DeviceLimits limits = DeviceLimits::of_each(team, options.multiprocessors);
@@ -39,8 +40,9 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     const std::size_t contacts = network.contacts.size();
     if (options.side_by_side > 1) {
       // Several specimens run at the same time. Each takes part of the chip only if registers hold all its states.
-      // Otherwise every step would fetch states, and the cache would have to hold those of all specimens: three full
-      // specimens side by side took 44 µs per step each (H200); taking turns on the whole chip they take 20 µs.
+      // Otherwise every step would fetch states from memory, and the cache would have to hold the states of all
+      // specimens. Three full specimens side by side took 44 µs per step each (H200); if they take turns on the whole
+      // chip, they take 20 µs.
       const std::size_t part = std::max<std::size_t>(1, chips / static_cast<std::size_t>(options.side_by_side));
       // Each contact is computed 1.3 times on average, because contacts between tiles are computed by both
       constexpr double computed = 1.3;

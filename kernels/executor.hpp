@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file executor.hpp  The contract of an executor, which keeps the arrays of a specimen and takes its steps.
+/// \file executor.hpp  Defines the functions that an executor must have. An executor owns the arrays of a specimen and
+/// steps it.
 ///
 /// There are three: ExecCpu (threads and SIMD registers), ExecCuda (two kernels per step, any law and contact form),
-/// and ExecCudaTiles (blocks of steps over tiles). An executor is made once for a network and a layout and serves many
-/// starts. For each start, StepperImpl calls, in this order:
+/// and ExecCudaTiles (blocks of steps over tiles). An executor is made once for a network and a layout, and can be
+/// restarted many times. For each start, StepperImpl calls, in this order:
 ///   begin(start)             sets all bodies to rest; applies the options
 ///   wall_table(values)       allocates the walls' table and returns its address
 ///   set_bodies(…)            sets masses and body forces
-///   set_group(…)             for each group, sets its arrays (the first time) or states, and the functor that steps it
+///   set_group(…)             called once per group (contacts of one pair type). On the first start it sets the group's
+///                            arrays, on later starts only the states; it always sets the functor that steps the group
 ///   prepare(motion)          ends the set-up
 /// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). All other
 /// functions read, or set states of a checkpoint. Optional functions for samples are described in exec_cuda_tiles.hpp.
@@ -28,8 +30,8 @@ namespace macadam::kernels {
 struct ExecStart {
   const StepperOptions& options;
   const FactsTable& laws;
-  Vec3d size;               ///< of the specimen [m]
-  bool first;               ///< groups bring all their arrays; at later starts only their states
+  Vec3d size;               ///< edges of the specimen [m]
+  bool first;               ///< first start: set_group() sets all arrays; at later starts only states
   std::size_t group_bytes;  ///< size of the arrays of all groups, if `first`
 };
 
@@ -46,7 +48,7 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   exec.set_bodies(words, words);
   exec.prepare(motion);
   exec.set_wall_rows(words);
-  // First step, number of steps; the first row of the walls' table is that of the first step
+  // Arguments: first step, number of steps. The first row of the walls' table belongs to the first step
   exec.run(std::int64_t{}, std::int64_t{});
   exec.wait();
   read.gather();     // with ranks, completes on every device the arrays that steps change
@@ -59,9 +61,9 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   { read.wall_velocities() } -> std::same_as<std::vector<typename E::Policy::Particle>>;
   exec.set_velocities(words);
   exec.set_displacements(doubles);
-  // Radii in specimen order [m], time step [s]
+  // Arguments: radii in specimen order [m], time step [s]
   { read.first_divergent(doubles, double{}) } -> std::same_as<std::int64_t>;
-  // Group, numbers in its chains, numbers in its frames
+  // Arguments: number of the group, size of its array of chains, size of its array of frames
   {read.group_state(std::size_t{}, std::size_t{}, std::size_t{})};
   { read.device_motion() } -> std::same_as<DeviceMotion>;
   { read.states() } -> std::same_as<const StateList&>;

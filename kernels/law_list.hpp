@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file law_list.hpp  From a list of laws, std::variant<…>, to the functors that step their contacts.
+/// \file law_list.hpp  Maps a list of laws, std::variant<…>, to the functors that step their contacts.
 #pragma once
 
 #include <algorithm>

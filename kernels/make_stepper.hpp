@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file make_stepper.hpp  make_stepper() for any list of laws, with the same choice of backend, device and precision
-/// as for Macadam's own laws.
+/// \file make_stepper.hpp  Defines make_stepper() for any list of laws. Backend, device and precision are chosen as for
+/// Macadam's own laws.
 #pragma once
 
 #include "kernels/precision.hpp"
@@ -10,9 +10,9 @@
 namespace macadam {
 
 /// Makes a stepper like make_stepper(), for the laws of the user's own list: `Any` is a std::variant<…>. The program
-/// compiles the kernels for them: one of its files includes kernels/make_cpu.hpp before it calls this. `on_device`: the
-/// program also has them for devices, in one CUDA file with `#include <kernels/make_cuda.hpp>` and
-/// MACADAM_CUDA_STEPPER(P, Any). `compiled`: the precisions that the program has, because each takes a while to
+/// compiles the kernels for these laws: one of its files includes kernels/make_cpu.hpp before it calls this function.
+/// `on_device`: the program also has the kernels for devices, in one CUDA file with `#include <kernels/make_cuda.hpp>`
+/// and MACADAM_CUDA_STEPPER(P, Any). `compiled`: the precisions that the program has, because each takes a while to
 /// compile; if none is named, all three.
 ///
 /// \throws the same as make_stepper(), and InputError for a precision or a backend that the program does not have.

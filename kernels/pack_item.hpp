@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file pack_item.hpp  Access to a packet of contacts in SIMD registers (std::experimental::simd): the Item of
-/// contact_forces.hpp for the CPU.
+/// \file pack_item.hpp  Gives access to a packet of contacts in SIMD registers (std::experimental::simd). It is the
+/// Item of contact_forces.hpp for the CPU.
 #pragma once
 
 #include <algorithm>
@@ -68,8 +68,8 @@ struct PackItem {
     return {gather<R>(velocity, body), gather<R>(velocity + velocity_words / 2, body)};
   }
 
-  /// Returns u of one body per lane; and u_b − u_a, subtracted before it is rounded to To. `u` points to the first
-  /// body's.
+  /// vector() returns u of one body per lane. relative() returns u_b − u_a, subtracted before it is rounded to To. `u`
+  /// points to the vector of the first body.
   template <class To, class R>
   static Vec3<Value<To>> vector(const R* u, const std::int32_t* body) {
     return gather<To>(u, body);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file particle_motion.hpp  The motion of one body in one step, Eq. 1–2 (docs/model.md, section 10): damping,
-/// leapfrog, displacement.
+/// \file particle_motion.hpp  Moves one body over one step, Eq. 1–2 (docs/model.md, section 10): damping, leapfrog,
+/// displacement.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file pinned_copies.hpp  Copies from a device that continues to work, through pinned host memory that the device
-/// writes directly.
+/// \file pinned_copies.hpp  Copies arrays from a device while it continues to work, through pinned host memory that the
+/// device writes directly.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file precision.hpp  Which quantities of the step are double and which are float.
+/// \file precision.hpp  Defines which quantities of the step are double and which are float, for each precision.
 #pragma once
 
 #include "macadam/backend.hpp"

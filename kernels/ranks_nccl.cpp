@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ranks_nccl.cpp  Processes started by MPI, whose devices send each other messages by NCCL.
+// ranks_nccl.cpp  Connects processes started by MPI. Their devices send each other messages by NCCL.
 #include <mpi.h>
 #include <nccl.h>
 

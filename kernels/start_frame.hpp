@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file start_frame.hpp  Frame and chains of a contact in a start from the steady state: docs/model.md, section 18.
+/// \file start_frame.hpp  Computes the initial frame and the initial states of the Kelvin chains of a contact, for a
+/// run that starts from the steady state instead of from rest (docs/model.md, section 18).
 #pragma once
 
 #include "macadam/stepper.hpp"
 
 namespace macadam::kernels {
 
-/// Returns ŝ of the undeformed contact carried to step −1: turned by the smallest rotation that takes the initial
-/// normal to the current one, then about the normal by the pair's mean rotation.
+/// Returns the tangent ŝ of a contact at step −1. It is the tangent of the undeformed contact, turned by the smallest
+/// rotation that takes the initial normal to the current one, then about the normal by the mean rotation of the two
+/// particles.
 inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
   const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
   const Vec3d branch = c.b >= 0 ? c.distance * c.n + (start.displacement[b] - start.displacement[a]) : c.n;
@@ -19,16 +21,17 @@ inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
   return (1 / norm(spun)) * spun;
 }
 
-/// Chains of a contact with `words` numbers each. A point (s, t) follows the rigid motion of the facet and the law is
-/// linear, so the chains of a point are linear combinations of the facet's six chains.
+/// The six chains of a facet with `words` numbers each, and the chains of its points. A point (s, t) follows the rigid
+/// motion of the facet and the law is linear, so the chains of a point are linear combinations of the facet's six
+/// chains.
 struct StartChain {
   const double* six;
   std::size_t words;
-  /// Word `word` of a chain of the facet.
+  /// Returns word `word` of a chain of the facet.
   double facet(int component, std::size_t word) const {
     return six[static_cast<std::size_t>(component) * words + word];
   }
-  /// Word `word` of a chain of the point (s, t).
+  /// Returns word `word` of a chain of the point (s, t).
   double point(int component, std::size_t word, double s, double t) const {
     switch (component) {
       case 0:

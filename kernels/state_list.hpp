@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file state_list.hpp  The list of arrays that a step changes. Checkpoints copy and replace them through this list.
+/// \file state_list.hpp  Lists the arrays that a step changes. Checkpoints copy and replace them through this list.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file state_order.hpp  Where the numbers of a checkpoint, which are in the order of the specimen and the network,
-/// are in the arrays of an executor.
+/// \file state_order.hpp  Maps the numbers of a checkpoint (in the order of the specimen and the network) to their
+/// indices in the arrays of an executor.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace macadam::kernels {
 
-/// Order of an array of items with the same words each. Word k of item i of a checkpoint is at first[i] + word[k] of
-/// the executor's array. If the executor has the item twice, the word is also at twin[i] + word[k].
+/// Order of an array whose items have the same number of words. Word k of item i of a checkpoint is at first[i] +
+/// word[k] of the executor's array. If the executor stores the item twice, the word is also at twin[i] + word[k].
 struct StateOrder {
   static constexpr std::uint64_t none = UINT64_MAX;
   std::vector<std::uint64_t> first, word;
@@ -84,8 +84,8 @@ inline StateOrder contact_order(const Layout& layout, const GroupLayout& group, 
   return out;
 }
 
-/// Returns the order of the chains of a group, or of its frames, as a function. `layout` and `group` must live as long
-/// as it.
+/// Returns a function that returns the order of the chains of a group (`chains`) or of its frames. `layout` and `group`
+/// must live as long as the function.
 template <class P>
 auto state_order(const Layout& layout, const GroupLayout& group, const ContactView<P>& view, bool chains) {
   const auto words = static_cast<std::size_t>(chains ? view.components * (1 + view.units) : view.frame_words);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper_impl.hpp  The stepper, for any executor (executor.hpp): prepares inputs, passes steps on to the
-/// executor, and converts its arrays to the order of the specimen. stepper_cpu_*.cpp and stepper_cuda_*.cu compile it.
+/// \file stepper_impl.hpp  Implements the stepper for any executor (executor.hpp): prepares inputs, passes steps on to
+/// the executor, and converts the executor's arrays to the order of the specimen. stepper_cpu_*.cpp and
+/// stepper_cuda_*.cu compile it.
 #pragma once
 
 #include <algorithm>

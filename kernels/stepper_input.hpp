@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper_input.hpp  The checks of a stepper's input that are the same for every backend.
+/// \file stepper_input.hpp  Checks the input of a stepper, for every backend.
 #pragma once
 
 #include "macadam/stepper.hpp"
 
 namespace macadam::kernels {
 
-/// \throws InputError naming the pair without a law, or the wall, particle or array that does not fit.
+/// Checks laws, boundary and start. \throws InputError naming the pair without a law, or the wall, particle or array
+/// that does not fit.
 void require_input(std::size_t particles, const ContactNetwork& network, const FactsTable& laws,
                    const StepperOptions& options);
 

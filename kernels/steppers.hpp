@@ -35,7 +35,7 @@ std::string cuda_refusal(int device);
 /// Returns whether `device` is of the same model as `first`, the two can access each other's memory, and no process,
 /// including this one, computes on it. Creates no context. Only in builds with CUDA.
 bool cuda_idle_beside(int device, int first);
-/// As macadam::measure_device(). Only in builds with CUDA.
+/// Does the same as macadam::measure_device(). Only in builds with CUDA.
 DeviceSpeed measure_device(int device);
 
 }  // namespace macadam::kernels

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_accumulators.hpp  On the CPU: which accumulator each contact adds its loads to, and which accumulators
-/// are the sum of a body.
+/// \file tile_accumulators.hpp  Decides, for the CPU, to which accumulator each contact adds its loads, and which
+/// accumulators are summed for a body.
 ///
 /// Each tile has one accumulator for each of its bodies and, after them, one for each body of another tile that its
-/// contacts touch (halo). The load on a body is its own accumulator plus those of its halo row, in the order of the
-/// tiles. So the order of additions depends on the specimen, not on the number of threads.
+/// contacts touch (halo). The load on a body is its own accumulator plus the accumulators of its halo row, in the order
+/// of the tiles. So the order of additions depends on the specimen, not on the number of threads.
 #pragma once
 
 #include <unordered_map>

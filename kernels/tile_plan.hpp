@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_plan.hpp  The plan of the tile path: which thread block computes which contact, and where it stores the
-/// loads.
+/// \file tile_plan.hpp  Plans the tile path: decides which thread block computes which contact, and where the block
+/// stores the loads.
 ///
 /// The tile path is the fast way to step condensed contacts on a GPU. A tile is a set of neighbouring particles (a tile
 /// of the layout) that one thread block owns. The block computes every contact that touches one of its particles. A
@@ -9,7 +9,7 @@
 /// network, before the first step; the kernels read the plan through TileScene (cuda_tile_scene.hpp).
 ///
 /// Reading order of the tile path: this file; cuda_tile_scene.hpp (one step of one contact, and the arrays);
-/// cuda_resident_memory.hpp and cuda_tiles_resident.hpp (the kernel that keeps tiles on the chip);
+/// cuda_resident_memory.hpp and cuda_tiles_resident.hpp (the kernel that keeps tiles in registers and shared memory);
 /// cuda_tile_exchange.hpp (velocities between tiles); cuda_tiles_streamed.hpp (the kernel for larger scenes);
 /// cuda_blocks.hpp (updating viscoelastic states between blocks of steps); cuda_tile_runner.hpp and exec_cuda_tiles.hpp
 /// (the host side).
@@ -18,16 +18,16 @@
 /// - body: a particle or a wall, in the order of the layout.
 /// - rank: index of a particle within its tile; particles with the most slots come first.
 /// - halo: the particles of other tiles that the contacts of a tile touch.
-/// - place: of a body, first_body of its tile + rank; of a contact, its index in TilePlan::contact (packet · 32 +
-///   lane). A local number is an index in the tile's table of velocities, which holds the tile's particles by rank,
-///   then the halo, then the six walls.
+/// - place: the place of a body is first_body of its tile + its rank; the place of a contact is its index in
+///   TilePlan::contact (packet · 32 + lane). A local number is an index in the tile's table of velocities, which holds
+///   the tile's particles by rank, then the halo, then the six walls.
 /// - packet: 32 contacts that a warp steps together. A lane is one of them, and the thread that steps it.
 /// - run: two contacts (or one) with the same end A. One thread steps them one after the other and adds up their loads
 ///   on A before it stores the sum. Runs are cut in the order in which the network numbers the contacts.
 /// - group: in Tile, two packets that hold the first and the second contacts of 32 runs. In `TileContact::group` and
 ///   elsewhere it is a group of the layout (contacts of one pair type); `group_slot` is a slot of that group.
-/// - slot: otherwise, six words in shared memory into which a run or a contact stores its load on one particle of the
-///   tile.
+/// - slot: six words in shared memory into which a run or a contact stores its load on one particle of the tile
+///   (`group_slot` is not such a slot, see group).
 /// - row: the slots of one particle: first one for each run whose end A it is, then one for each contact whose end B it
 ///   is. The particle sums them in this order, which does not depend on how particles are divided into tiles. A wall
 ///   row is the number of a contact among all wall contacts.
@@ -46,12 +46,13 @@ struct Tile {
   std::uint32_t first_body, bodies;  ///< first place of its particles; number of particles
   std::uint32_t first_halo, halo;
   std::uint32_t first_packet, packets;
-  std::uint32_t groups;  ///< number of groups of TilePlan::run packets; they come first. In the remaining packets every
-                         ///< contact is a run of its own
-  std::uint32_t inner;   ///< number of groups at the beginning whose contacts touch no particle of another tile
-  std::uint32_t long_rows;  ///< number of particles (lowest ranks) whose slots are consecutive; of the others, slot e
-                            ///< of rank r is at diagonal[e] + r
-  std::uint32_t slots;      ///< of loads, in total
+  std::uint32_t groups;     ///< Number of groups. Their packets come first; in the remaining packets every contact is a
+                            ///< run of its own.
+  std::uint32_t inner;      ///< Number of groups whose contacts touch no particle of another tile. They come first.
+  std::uint32_t long_rows;  ///< Number of particles with a long row (see TilePlan::longest_short_row). They have the
+                            ///< lowest ranks, and the slots of each are consecutive. For a particle of higher rank r,
+                            ///< slot e is at diagonal[e] + r.
+  std::uint32_t slots;      ///< Total number of load slots of the tile (six words each, in shared memory).
 };
 
 /// One contact as one tile computes it.
@@ -76,10 +77,11 @@ struct TilePlan {
   std::vector<Tile> tile;
   std::vector<std::int32_t> body;  ///< [place] body; −1: unused place
   std::vector<std::uint32_t> row;  ///< [place][2] number of slots in the row; first slot of a long row
-  /// [tile][longest_short_row] slot e of rank r ≥ long_rows is at diagonal[e] + r.
+  /// [tile][longest_short_row]. Slot e of a particle of rank r ≥ long_rows is at diagonal[e] + r.
   std::vector<std::uint32_t> diagonal;
-  std::vector<std::int32_t> halo;  ///< [first_halo + …] place of the particle in its own tile
-  /// [packet][32]; the contacts of a run are in the same lane of the packets of a group.
+  std::vector<std::int32_t> halo;  ///< [first_halo + …] place of the halo particle in the tile that owns it
+  /// Contacts in the order [packet][lane], 32 lanes per packet. If a run has two contacts, they are in the same lane of
+  /// the two packets of their group, so that one thread steps both. (Run and group: see the top of this file.)
   std::vector<TileContact> contact;
   std::vector<std::uint32_t> wall_begin;  ///< [wall + 1] first wall row of each wall
   /// Maxima over the tiles: particles, entries of the table of velocities, slots.
@@ -89,7 +91,8 @@ struct TilePlan {
   bool fits = true;
 };
 
-/// Plans the tiles of a layout that has 32 lanes. `begins_share`: [tile] true where the tiles of another device begin.
+/// Plans the tiles of a layout that has 32 lanes. `begins_share`: [tile] true for the first tile of each further
+/// device.
 TilePlan plan_tiles(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share = {});
 
 }  // namespace macadam::kernels

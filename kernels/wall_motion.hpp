@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file wall_motion.hpp  The motion prescribed for the walls: a table with one row per step, for some thousand steps,
-/// which every executor reads.
+/// \file wall_motion.hpp  Computes the prescribed motion of the walls as a table with one row per step, for some
+/// thousand steps. Every executor reads it.
 #pragma once
 
 #include <algorithm>
@@ -54,10 +54,10 @@ class WallTable {
     }
   }
 
-  /// The description of the table; its address is not set.
+  /// Returns the description of the table; its address is not set.
   const WallMotion<R>& motion() const { return motion_; }
   /// Returns how many rows to fill at once if `done` steps were requested before and `left` remain: few at first, so
-  /// that a device does not wait for the host, then as many as before.
+  /// that a device does not wait for the host, then as many as all calls before together, up to a limit.
   std::int64_t rows(std::int64_t done, std::int64_t left) const {
     return driven_.empty() ? left : std::min({left, std::max(first_rows, done), most_rows});
   }

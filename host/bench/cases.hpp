@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cases.hpp  Specimens for `macadam bench`: specimens of scenes, and lattices of any size.
+/// \file cases.hpp  Makes the specimens for `macadam bench`: specimens of scenes, and lattices of any size.
 #pragma once
 
 #include <string>

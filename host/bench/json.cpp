@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// json.cpp  Google Benchmark's format: a context, and one entry per repetition of each row.
+// json.cpp  Writes and reads Google Benchmark's format: a context, and one entry per repetition of each row.
 #include "host/bench/json.hpp"
 
 #include <fmt/chrono.h>

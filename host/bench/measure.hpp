@@ -12,7 +12,7 @@
 
 namespace macadam::bench {
 
-/// What to measure for each specimen: one row per combination of these values.
+/// Values to be measured for each specimen. Each combination of them gives one row.
 struct BenchAxes {
   Backend backend = Backend::automatic;
   DeviceList devices;

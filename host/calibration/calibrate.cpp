@@ -151,7 +151,7 @@ class Calibrator {
     return state_of(theta, specimens.estimate(laws_at_theta(theta), free_));
   }
 
-  /// Solves at `theta`; if there is no solution, nearer to `good`, halving the distance up to five times.
+  /// Solves at `theta`. If there is no solution, halves the distance to `good` and tries again, up to five times.
   State solved_near(Specimens& specimens, std::vector<double> theta, const State& good) {
     constexpr int halvings = 5;
     for (int i = 0;; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file calibration_files.hpp  The files that `macadam calibrate` writes, and the text that it prints.
+/// \file calibration_files.hpp  Writes the files of `macadam calibrate`, and returns the text that it prints.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file minimise.hpp  Least squares of a function with known derivatives (Ceres Solver), and the statistics of the
-/// result.
+/// \file minimise.hpp  Minimises a sum of squares with known derivatives (Ceres Solver), and computes the statistics of
+/// the result.
 #pragma once
 
 #include <functional>

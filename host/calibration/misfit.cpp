@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// misfit.cpp  Residuals of |E*| and φ, or of their real and imaginary parts E' and E''.
+// misfit.cpp  Computes the residuals of |E*| and φ, or of the real and imaginary parts E' and E'' of E*.
 #include "host/calibration/misfit.hpp"
 
 #include <cmath>

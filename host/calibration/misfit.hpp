@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file misfit.hpp  Differences between measured and predicted moduli, in standard deviations.
+/// \file misfit.hpp  Computes the differences between measured and predicted moduli, in standard deviations.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file parameters.hpp  The parameters of a scene's laws, by their names.
+/// \file parameters.hpp  Lists the parameters of a scene's laws by name, and changes their values.
 #pragma once
 
 #include <string>

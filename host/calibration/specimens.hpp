@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimens.hpp  The specimens of a calibration, which are prepared once, and their moduli for any laws.
+/// \file specimens.hpp  Prepares the specimens of a calibration once, and computes their moduli for any laws.
 #pragma once
 
 #include <complex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file statistics.hpp  How well the measurements determine the parameters.
+/// \file statistics.hpp  Computes how well the measurements determine the parameters.
 #pragma once
 
 #include "host/calibration/minimise.hpp"
@@ -7,9 +7,9 @@
 
 namespace macadam::calibration {
 
-/// Fills in degrees of freedom, standard deviations, covariance, correlation and combinations. `data`: derivatives of
-/// the measurements' residuals, row by row; `priors`: those of the priors' residuals. Both are by the logarithms of the
-/// parameters, and residuals are in standard deviations. A parameter at its bound counts as fixed.
+/// Fills in degrees of freedom, standard deviations, covariance, correlation and combinations. `data` and `priors` are
+/// the derivatives of the residuals of measurements and priors with respect to the logarithms of the parameters, row by
+/// row. Residuals are divided by their standard deviations. A parameter at its bound counts as fixed.
 void add_statistics(Calibration& out, std::vector<double> data, std::vector<double> priors);
 
 /// Returns the name of a combination, for example "M-A.delta * M-A.E_m^-0.98".

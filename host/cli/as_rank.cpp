@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// as_rank.cpp  Which process prints, and how all of them end.
+// as_rank.cpp  Decides which of the processes prints, and ends all of them together.
 #include "host/cli/as_rank.hpp"
 
 #include <omp.h>

@@ -111,8 +111,8 @@ void time_scenes(BenchArguments arguments) {
     throw RunError("slower than " + arguments.against + " beyond noise");
 }
 
-/// Times the scenes. With --ranks, each process times only steps, on a device of its own, and the first writes the
-/// results.
+/// Times the scenes. With --ranks, every process uses another device, only steps are timed, and the first process
+/// writes the results.
 void bench_command(BenchArguments arguments) {
   Ranks* const team = arguments.ranks ? join_ranks() : nullptr;
   if (!team) return time_scenes(std::move(arguments));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// commands.cpp  The commands, one per line.
+// commands.cpp  Lists the commands, one per line.
 #include "host/cli/commands.hpp"
 
 #include "host/cli/bench_command.hpp"

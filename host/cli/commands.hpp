@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file commands.hpp  The whole command line: all commands with their options, examples and actions.
+/// \file commands.hpp  Defines the whole command line: all commands with their options, examples and actions.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fractions.hpp  Options that take a fraction, as a number or in per cent.
+/// \file fractions.hpp  Defines options that take a fraction, as a number or in per cent.
 #pragma once
 
 #include "host/cli/options.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file help.hpp  The text that `--help` prints: lines of a terminal's width, choices and defaults in readable form,
-/// and examples.
+/// \file help.hpp  Formats the text that `--help` prints: lines of a terminal's width, choices and defaults in readable
+/// form, and examples.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// job.cpp  Scene, seed and folder of a command, and the text about a specimen.
+// job.cpp  Handles scene, seed and folder of a command, and prints the text about a specimen.
 #include "host/cli/job.hpp"
 
 #include <algorithm>

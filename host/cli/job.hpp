@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file job.hpp  The common part of the commands `run` and `specimen`: reads the scene, applies the options of the
-/// command line to it, and prints the specimen.
+/// \file job.hpp  Does the common part of the commands `run` and `specimen`: reads the scene, applies the options of
+/// the command line to it, and prints the specimen.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file library_environment.hpp  Settings that OpenMP and OpenBLAS read from the environment when they are loaded.
+/// \file library_environment.hpp  Sets the environment variables that OpenMP and OpenBLAS read when they are loaded.
 #pragma once
 
 namespace macadam {

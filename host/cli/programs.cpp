@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// programs.cpp  Starting programs without a shell.
+// programs.cpp  Starts programs without a shell.
 #include "host/cli/programs.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file progress_line.hpp  One line on a terminal: stage, fraction done, time left. Silent if standard error is not a
-/// terminal, and as soon as the terminal is gone.
+/// \file progress_line.hpp  Shows one line on a terminal: stage, fraction done, time left. Prints nothing if standard
+/// error is not a terminal, or once the terminal has been closed.
 #pragma once
 
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stop_signals.cpp  The handler calls only functions that POSIX allows in a signal handler.
+// stop_signals.cpp  Handles the signals. The handler calls only functions that POSIX allows in a signal handler.
 #include "host/cli/stop_signals.hpp"
 
 #include <atomic>
@@ -13,7 +13,7 @@ namespace {
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr std::int64_t echo_ns = 2'000'000'000;
 
-/// When the first signal came, by the monotonic clock [ns]; 0: none yet. Several threads may be in the handler at once.
+/// Time of the first signal on the monotonic clock [ns]; 0: none yet. Several threads may be in the handler at once.
 std::atomic<std::int64_t> asked_at{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "a handler may wait for nothing");
 

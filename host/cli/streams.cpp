@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// streams.cpp  Printing that survives any condition of standard output and error.
+// streams.cpp  Prints to standard output and error without crashing if a stream is closed, full, or a pipe without a
+// reader.
 #include "host/cli/streams.hpp"
 
 #include <fcntl.h>
@@ -14,8 +15,8 @@ namespace macadam {
 void hold_standard_streams() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(number, F_GETFD) >= 0) continue;
-    // The lowest free number is this one. It is opened in the wrong direction, so that writing to a closed stream stays
-    // an error.
+    // open() returns the lowest free number, which is this one. The file is opened in the wrong direction, so that
+    // writing to a closed stream remains an error.
     if (::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) != number) break;
   }
   std::signal(SIGPIPE, SIG_IGN);

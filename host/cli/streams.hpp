@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file streams.hpp  Standard input, output and error in any condition: closed, full, a pipe that nobody reads, a
-/// terminal that is gone. Nothing here throws; a failed write is remembered.
+/// \file streams.hpp  Writes to standard output and error in any condition of these streams: closed, full, a pipe
+/// without a reader, a closed terminal. Nothing here throws; flush_output() reports whether a write failed.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,9 +10,10 @@
 
 namespace macadam {
 
-/// Must be called before anything is opened. Opens closed standard streams on /dev/null; otherwise a result file would
-/// get the number of one, and with it what is printed. A pipe without a reader and a file beyond its size limit become
-/// errors of the write, as a full disk is, instead of signals that end the program.
+/// Opens closed standard streams on /dev/null. Otherwise a result file could get the number of a standard stream, and
+/// printed text would go into it. Also makes writes to a pipe without a reader and to a file beyond its size limit
+/// return an error, as writes to a full disk do; by default they raise signals that end the program. Must be called
+/// before any file is opened.
 void hold_standard_streams();
 
 /// Writes to standard output.

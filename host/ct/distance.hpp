@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file distance.hpp  Distances of voxels from the surface of a mask.
+/// \file distance.hpp  Computes the distances of voxels from the surface of a mask.
 #pragma once
 
 #include "macadam/ct.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fragments.cpp  The watershed, and the faces between its fragments.
+// fragments.cpp  Computes the watershed, and the faces between its fragments.
 #include "host/ct/fragments.hpp"
 
 #include <unordered_map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gradation.cpp  Fractions that pass sieves, of scanned grains and of a laboratory's sample.
+// gradation.cpp  Computes the fractions that pass sieves, for scanned grains and for a laboratory's sample.
 #include "host/ct/gradation.hpp"
 
 #include <charconv>

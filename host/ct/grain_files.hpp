@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file grain_files.hpp  Names of the files with the surfaces of a scan's grains, one file per grain.
+/// \file grain_files.hpp  Defines the names of the files with the surfaces of a scan's grains, one file per grain.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace macadam::ct {
 
-/// Folders of the grains that are complete, and of those that the end of the specimen or scan cuts.
+/// Folder of the complete grains, and folder of the grains that the end of the specimen or of the scan cuts.
 inline constexpr const char *whole_grains = "library", *cut_grains = "border";
 
 /// Returns the file name of the grain with number `id` in labels.mha. The file holds its surface in metres, in the

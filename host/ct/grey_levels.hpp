@@ -37,7 +37,7 @@ double otsu(const Histogram& histogram, std::size_t from, std::size_t to);
 /// Returns the grey levels of air, mastic and aggregate. `has_air` is false if the histogram shows two phases only.
 GreyLevels fit_levels(const Histogram& histogram);
 
-/// By how much a part of the scan is brighter than the whole scan. A level of the whole scan becomes air + (1 +
+/// Difference in brightness between a part of the scan and the whole scan. A level of the whole scan becomes air + (1 +
 /// brighter)·(level − air) in the part, or level + brighter·contrast if the scan has no air. It is a single number
 /// because a part may hold little of one phase. The fractions of the phases are fitted too, so the composition of the
 /// part does not affect the result.

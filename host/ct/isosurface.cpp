@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// isosurface.cpp  Marching cubes. Instead of a table of cases, the loops of each cube are traced along its six sides.
+// isosurface.cpp  Implements marching cubes. Instead of using a table of cases, the loops of each cube are traced along
+// its six sides.
 #include "host/ct/isosurface.hpp"
 
 #include "host/shapes/surface_numbers.hpp"

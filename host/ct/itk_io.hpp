@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file itk_io.hpp  Choice of ITK's reader or writer for an image file. It includes ITK headers, so only the few files
+/// \file itk_io.hpp  Chooses ITK's reader or writer for an image file. It includes ITK headers, so only the few files
 /// that call ITK include it.
 #pragma once
 

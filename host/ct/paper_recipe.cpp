@@ -14,8 +14,8 @@
 namespace macadam::ct {
 namespace {
 
-/// Shifts the voxels of every part to one mean grey value: that of part `to`, or of the whole scan if `to` is empty.
-/// `part(at)` returns the part of a voxel.
+/// Shifts the grey values of every part so that all parts have the same mean: the mean of part `to`, or of the whole
+/// scan if `to` is empty. `part(at)` returns the part of a voxel.
 template <class Part>
 void shift_to(Image<float>& scan, const Image<std::uint8_t>& region, std::size_t parts, std::optional<std::size_t> to,
               Part&& part) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phases.cpp  Thresholds, and the Markov random field that removes the effect of noise on the phases.
+// phases.cpp  Computes the thresholds, and the Markov random field that removes the effect of noise on the phases.
 #include "host/ct/phases.hpp"
 
 #include "kernels/parallel.hpp"

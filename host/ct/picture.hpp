@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file picture.hpp  A picture of coloured pixels with short labels, written as a PNG file.
+/// \file picture.hpp  Defines a picture of coloured pixels with short labels, and writes it as a PNG file.
 #pragma once
 
 #include <array>

@@ -28,8 +28,8 @@ void find_ends(const std::vector<double>& share, Outline& outline) {
   }
 }
 
-/// Keeps the columns that lie between the first and the last column with material, along x and along y: air between
-/// them is inside the specimen.
+/// Fills gaps: a column belongs to the specimen if it lies between the first and the last column with material, both
+/// along x and along y, because air between them is inside the specimen.
 void close_gaps(std::vector<std::uint8_t>& columns, std::int64_t nx, std::int64_t ny) {
   std::vector<std::uint8_t> along_x(columns.size()), along_y(columns.size());
   const auto fill = [&](std::int64_t first, std::int64_t step, std::int64_t n, std::vector<std::uint8_t>& out) {
@@ -61,8 +61,9 @@ Image<std::uint8_t> find_region(const Image<float>& scan, ScanRegion kind) {
         ++in_column[static_cast<std::size_t>(c)], ++in_slice[static_cast<std::size_t>(k)];
     }
   }
-  // voxels brighter than Otsu's threshold are material; each column of a specimen has some (0.15 of the fullest
-  // column), although voids and dark mastic are below the threshold, and the surroundings have almost none
+  // Voxels brighter than Otsu's threshold are material. A column belongs to the specimen if it has more than 0.15 times
+  // as many of them as the fullest column. Columns of the specimen reach this despite voids and dark mastic; columns of
+  // the surroundings do not.
   find_ends(in_slice, outline);
   const double fullest = static_cast<double>(*std::max_element(in_column.begin(), in_column.end()));
   if (fullest <= 0) throw InputError("the scan", 0, "specimen", "none", "a region brighter than its surroundings");

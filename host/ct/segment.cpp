@@ -101,7 +101,8 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   auto [solid, inside] = means_of_blocks(out.grey, region, {edge, edge, edge});
   const auto mastic = static_cast<float>(out.levels.mastic), scale = static_cast<float>(1 / out.levels.contrast());
   for (float& grey : solid.voxels) grey = (grey - mastic) * scale;
-  // higher than half-way (0.5), because mastic in a gap thinner than a voxel lowers the grey value only a little
+  // The threshold is above the middle between mastic and aggregate (0.5), because mastic in a gap thinner than a voxel
+  // lowers the grey value only a little.
   for (std::size_t i = 0; i < solid.count(); ++i) inside.voxels[i] = inside.voxels[i] && solid.voxels[i] > 0.7f;
   if (std::find(inside.voxels.begin(), inside.voxels.end(), 1) == inside.voxels.end())
     throw InputError("the scan", 0, "aggregate", "none", "grains of at least a few voxels");

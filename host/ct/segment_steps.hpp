@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file segment_steps.hpp  The steps of a segmentation, with an optional last step that makes finer surfaces from
-/// finer data.
+/// \file segment_steps.hpp  Declares the steps of a segmentation, with an optional last step that makes finer surfaces
+/// from finer data.
 #pragma once
 
 #include "host/ct/correction.hpp"

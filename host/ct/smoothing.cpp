@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// smoothing.cpp  Edge-preserving diffusion with explicit steps.
+// smoothing.cpp  Implements edge-preserving diffusion with explicit steps.
 #include "host/ct/smoothing.hpp"
 
 #include "kernels/parallel.hpp"

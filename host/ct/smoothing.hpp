@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file smoothing.hpp  Filters that remove noise from grey values.
+/// \file smoothing.hpp  Removes noise from grey values by filters.
 #pragma once
 
 #include "macadam/ct.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// valleys.cpp  Shortest paths from the middles of grains (Dijkstra), on which mastic is long.
+// valleys.cpp  Assigns voxels to grains by the shortest paths from the middles of the grains (Dijkstra). A path through
+// mastic counts as long.
 #include "host/ct/valleys.hpp"
 
 #include <queue>
@@ -35,8 +36,9 @@ void around(const Image<T>& image, std::size_t at, See&& see) {
   if (k + 1 < nz) see(at + slice);
 }
 
-/// Restores voxels that changed their grain if they form only a thin layer along a cut: that is roughness of the cut. A
-/// real edge of a grain on the wrong side reaches more than `thick` voxels beyond the cut.
+/// Gives voxels that changed their grain their old label back if they form only a thin layer along a cut, because such
+/// a layer is only roughness of the cut. An edge of a grain that was assigned to the wrong grain is thicker than
+/// `thick` voxels.
 void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& labels, int thick) {
   Image<std::uint8_t> seen = Image<std::uint8_t>::like(labels);
   for (std::size_t start = 0; start < labels.count(); ++start) {
@@ -103,16 +105,17 @@ Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::ve
     float& d = deepest[labels.voxels[at]];
     d = std::max(d, below.voxels[at]);
   }
-  // voxels deep within a grain, which keep their label
+  // Returns whether a voxel is deep within a grain; such voxels keep their label.
   const auto core = [&](std::size_t at) {
-    // 0 if the grain is one or two voxels thin: all its voxels keep their label
+    // Largest depth in the grain. It is 0 if the grain is at most two voxels thick; all its voxels then count as core
+    // and keep their label.
     const float most = deepest[labels.voxels[at]];
     return labels.voxels[at] != 0 &&
            (most <= 0 || below.voxels[at] >= std::min(static_cast<float>(depth), 0.5f * most));
   };
-  // Noise changes the grey value within a grain by a few per cent of the contrast; mastic thinner than a voxel by a
-  // tenth or more.
-  // length of a path through a voxel
+  // Returns the length of a path through a voxel. Noise changes the grey value within a grain by a few per cent of the
+  // contrast, mastic thinner than a voxel by a tenth or more; so a voxel counts as long if its grey value is below
+  // 0.94.
   const auto step = [&](std::size_t at) {
     const float valley = std::max(0.0f, 0.94f - grey.voxels[at]) / 0.04f;
     return 0.05f + valley * valley;

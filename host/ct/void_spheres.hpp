@@ -7,7 +7,7 @@
 
 namespace macadam::ct {
 
-/// Spheres in place of the connected voids of an image.
+/// Spheres that replace the connected voids of an image.
 struct VoidSpheres {
   std::vector<VoidSphere> spheres;  ///< centres in the image's coordinates
   double volume = 0;                ///< total volume of the voids that are large enough [m³]

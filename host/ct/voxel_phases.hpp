@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file voxel_phases.hpp  Values of the phases in images of bytes.
+/// \file voxel_phases.hpp  Defines the values that stand for the phases in images of bytes.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file experiment.hpp  What each experiment in the list of macadam/experiments/all.hpp defines, and functions that
-/// call it for the experiment of a scene. Each experiment specialises the two templates in host/experiments/<kind>/.
+/// \file experiment.hpp  Declares the functions that each experiment in the list of macadam/experiments/all.hpp
+/// defines, and functions that call them for the experiment of a scene. Each experiment specialises the two templates
+/// in host/experiments/<kind>/.
 #pragma once
 
 #include <memory>
@@ -27,12 +28,13 @@ struct ExperimentOf {
   /// Reads `[loading]`. \throws InputError
   static Spec read(const scene::Section& loading);
 
-  /// Prepares the solution by the scene's method. Every reason to refuse the scene is found here, before a file is
-  /// touched. Scene, preparation and watcher must outlive the solution. \throws InputError, RunError
+  /// Prepares the solution by the scene's method. All checks that can refuse the scene are made here, before any file
+  /// is changed. Scene, preparation and watcher must outlive the solution. \throws InputError, RunError
   static std::unique_ptr<Solution> plan(const Spec& spec, const Scene& scene, const Preparation& prepared,
                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
 
-  /// Returns the names of the result files that a run of the scene writes, besides those of every run.
+  /// Returns the names of the result files that a run of the scene writes, in addition to the files that every run
+  /// writes.
   static std::vector<std::string> files(const Spec& spec, const Scene& scene);
 };
 
@@ -45,7 +47,7 @@ struct ResultOf {
   /// Returns the wall time until the result was found [s], of all processes of a resumed run.
   static double seconds(const Result& found);
 
-  /// Returns the lines for people that the command prints at its end.
+  /// Returns the lines of text that the command prints at its end.
   static std::string table(const Result& found);
 };
 
@@ -56,7 +58,8 @@ std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation&
 /// Calls `files` of the scene's experiment.
 std::vector<std::string> files_written(const Scene& scene);
 
-/// Calls `summarise` of the result's experiment. A stepped run without a result writes what an empty result would.
+/// Calls `summarise` of the result's experiment. For a stepped run that has no result yet, it is called with an empty
+/// result.
 void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_json& out);
 
 /// Returns `solve` of `timing_s` in summary.json [s]: the time until the result was found, including the

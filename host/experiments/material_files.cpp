@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// material_files.cpp  The same few units in four formats. Each file states units of measurement and assumptions.
+// material_files.cpp  Writes the same few units in four formats. Each file states units of measurement and assumptions.
 #include "host/experiments/material_files.hpp"
 
 #include <fmt/format.h>

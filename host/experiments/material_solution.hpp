@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file material_solution.hpp  The common part of relaxation, creep and constant rates without steps: the specimen's
-/// relaxation spectrum, solved once.
+/// \file material_solution.hpp  Does the common part of relaxation, creep and constant-rate tests without steps: solves
+/// the specimen's relaxation spectrum once.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace macadam {
 /// Returns what kind of modulus is computed, in words: confined or uniaxial.
 const char* modulus_words(bool confined);
 
-/// When the load changes, and when the response is asked for [s].
+/// Times at which the response is requested, and times at which the load changes [s].
 struct History {
   std::vector<double> times;
   /// A change of the load.
@@ -33,8 +33,8 @@ using Responds =
     std::function<void(const std::filesystem::path& out, experiments::Material material, RunResult& result)>;
 
 /// Returns a solution that computes the spectrum for the times of a history, writes the tables of the material and
-/// calls `responds`.
-/// \throws InputError for inertia, with which there are no relaxation times, and as Harmonic does.
+/// calls `responds`. \throws InputError if the scene has inertia (a specimen with inertia has no relaxation times), and
+/// as Harmonic does.
 std::unique_ptr<Solution> plan_material(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                         RunResult& result, const History& history, double poisson_ratio,
                                         Responds responds);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_points.cpp  Lists of points, and ranges with even steps or with even steps of the logarithm.
+// read_points.cpp  Reads lists of points, and ranges with even steps or with even steps of the logarithm.
 #include "host/experiments/read_points.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_points.hpp  Keys of `[loading]` that several experiments have: lists of times, frequencies and
+/// \file read_points.hpp  Reads the keys of `[loading]` that several experiments have: lists of times, frequencies and
 /// temperatures.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// field_output.cpp  Names of the field files, and when they are written.
+// field_output.cpp  Defines the names of the field files, and decides when they are written.
 #include "host/fields/field_output.hpp"
 
 #include <fmt/format.h>

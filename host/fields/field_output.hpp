@@ -27,9 +27,10 @@ class FieldOutput {
   /// Writes the cells, which do not change, if they are asked for. \throws RunError.
   FieldOutput(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
-  /// Begins the series of fields of a stepped run, `of` ("20Hz"). If the stepper starts at a `time` other than 0, the
-  /// existing series are continued. `samples`: samples per period, or of the whole test. Returns a sentence about each
-  /// series that should have existed but did not. \throws InputError for a file that is not a series of this run.
+  /// Begins the series of fields of a stepped run. `of`: the part of the run, for the file names, for example "20Hz".
+  /// If the stepper starts at a `time` other than 0, the existing series are continued. `samples`: samples per period,
+  /// or of the whole test. Returns a sentence about each series that should have existed but did not. \throws
+  /// InputError for a file that is not a series of this run.
   std::vector<std::string> begin(const std::string& of, int samples, double time);
   /// Whether the scene asks for a series.
   bool begun() const { return begun_; }

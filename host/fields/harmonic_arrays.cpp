@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic_arrays.cpp  A steady state as arrays: real and imaginary parts, amplitudes and phases.
+// harmonic_arrays.cpp  Converts a steady state to arrays: real and imaginary parts, amplitudes and phases.
 #include <algorithm>
 #include <numbers>
 

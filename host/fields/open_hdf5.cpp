@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// open_hdf5.cpp  Reserves disk space first and lets HDF5 write then.
+// open_hdf5.cpp  Reserves disk space before HDF5 writes.
 #include "host/fields/open_hdf5.hpp"
 
 #include <fcntl.h>
@@ -34,9 +34,9 @@ H5::FileAccPropList access() {
   return out;
 }
 
-/// Returns creation properties with large tree nodes. The tree that finds the pieces of an array moves its nodes when
-/// one is full, and a kill during a flush that does so would lose frames. With this many pieces per node, that concerns
-/// about one flush in a few hundred.
+/// Returns creation properties with large tree nodes. HDF5 finds the pieces of an array by a tree, and moves nodes of
+/// the tree when one is full. If the program is killed during a flush that moves nodes, frames are lost. With this many
+/// pieces per node only about one flush in a few hundred moves nodes.
 H5::FileCreatPropList creation() {
   constexpr unsigned half_of_pieces = 128;
   H5::FileCreatPropList out;

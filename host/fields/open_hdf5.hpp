@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file open_hdf5.hpp  An HDF5 file on the disk that is complete after each flush, and in which HDF5 never meets a
-/// full disk.
+/// \file open_hdf5.hpp  Keeps an HDF5 file on the disk that is complete after each flush. Disk space is reserved first,
+/// so that HDF5 never meets a full disk.
 #pragma once
 
 #include <H5Cpp.h>

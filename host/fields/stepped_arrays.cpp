@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_arrays.cpp  The state of a stepper as the arrays of a frame.
+// stepped_arrays.cpp  Converts the state of a stepper to the arrays of a frame.
 #include <algorithm>
 
 #include "host/fields/field_lists.hpp"

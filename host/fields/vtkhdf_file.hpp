@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file vtkhdf_file.hpp  Field files in VTK's format VTKHDF 2.0, type PolyData.
+/// \file vtkhdf_file.hpp  Writes field files in VTK's format VTKHDF 2.0, type PolyData.
 #pragma once
 
 #include "macadam/fields.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file vtp_file.hpp  Field files in VTK's XML format, type PolyData: one file per frame, and a list of the frames.
+/// \file vtp_file.hpp  Writes field files in VTK's XML format, type PolyData: one file per frame, and a list of the
+/// frames.
 #pragma once
 
 #include "macadam/fields.hpp"

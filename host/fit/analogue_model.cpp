@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// analogue_model.cpp  2S2P1D and Huet–Sayegh: their modulus, and the Kelvin chain that replaces them in a contact law.
+// analogue_model.cpp  Computes the modulus of 2S2P1D and Huet–Sayegh, and the Kelvin chain that replaces them in a
+// contact law.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chain_starts.cpp  Starting values of a Kelvin chain by linear least squares in the compliances.
+// chain_starts.cpp  Computes starting values of a Kelvin chain by linear least squares in the compliances.
 #include "host/fit/chain_starts.hpp"
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file chain_starts.hpp  Starting values for the refinement of a Kelvin chain.
+/// \file chain_starts.hpp  Computes starting values for the refinement of a Kelvin chain.
 #pragma once
 
 #include <vector>

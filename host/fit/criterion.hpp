@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file criterion.hpp  Information criteria, which decide how many parameters the data determine.
+/// \file criterion.hpp  Computes information criteria, which decide how many parameters the data determine.
 #pragma once
 
 #include <algorithm>

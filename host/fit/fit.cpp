@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit.cpp  fit_modulus(): fits the model, then adds statistics and warnings.
+// fit.cpp  Defines fit_modulus(), which fits the model, then adds statistics and warnings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -164,8 +164,9 @@ double robust_deviation(std::vector<double> values) {
 }
 
 /// Warns of measurements that lie more than five standard deviations off the fit. In a file of 20,000 normal errors one
-/// does so with a probability of 1 %. The standard deviation is the larger of two: that of the data (or the assumed
-/// one), and that of all differences, which is large if the model misses the whole curve.
+/// does so with a probability of 1 %. The standard deviation is the larger of two: the standard deviation of the data
+/// (or the assumed one), and the standard deviation of all differences, which is large if the model misses the whole
+/// curve.
 void warn_of_outliers(const Problem& problem, Fit& fit) {
   constexpr double far_off = 5;
   constexpr std::size_t most_named = 3;

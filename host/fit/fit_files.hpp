@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fit_files.hpp  The files that `macadam fit` writes.
+/// \file fit_files.hpp  Writes the files of `macadam fit`.
 #pragma once
 
 #include <filesystem>

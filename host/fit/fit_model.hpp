@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fit_model.hpp  ln |E*| and φ as functions of the unknowns of a fit. They are templates, used with plain
+/// \file fit_model.hpp  Computes ln |E*| and φ from the unknowns of a fit. The functions are templates, used with plain
 /// numbers and with Ceres' derivative type.
 #pragma once
 
@@ -19,9 +19,9 @@ struct Place {
   std::size_t isotherm = 0;  ///< number of the isotherm, for a free shift
 };
 
-/// The unknowns θ, in this order. Of a chain: ln E_m, ln C_m (if it flows), ln E_1, ln C_1, … Of 2S2P1D: ln E_0, ln
-/// E_00, k, h, ln δ, ln τ and ln β (Huet–Sayegh has no ln β). Then those of the shift: ln C1, ln C2 (WLF), or ln E_a
-/// (Arrhenius), or log10 a_T of each isotherm except the reference one (free).
+/// The unknowns θ, first of the model, then of the temperature shift. Kelvin chain: ln E_m, ln C_m (if it flows), ln
+/// E_1, ln C_1, … 2S2P1D: ln E_0, ln E_00, k, h, ln δ, ln τ, ln β (Huet–Sayegh has no ln β). WLF shift: ln C1, ln C2.
+/// Arrhenius: ln E_a. Free shift: log10 a_T of each isotherm except the reference.
 struct Unknowns {
   FitModel model = FitModel::kelvin;
   int units = 0;

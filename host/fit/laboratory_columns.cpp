@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// laboratory_columns.cpp  The names that columns may have: every quantity with its units.
+// laboratory_columns.cpp  Lists the names that columns may have: every quantity with its units.
 #include "host/fit/laboratory_columns.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file laboratory_columns.hpp  Names of the columns of measured moduli, and the units that these names contain.
+/// \file laboratory_columns.hpp  Recognises the names of the columns of measured moduli, and the units that these names
+/// contain.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace macadam::fitting {
 
-/// What a column measures.
+/// The quantity in a column.
 enum class Quantity {
   frequency,
   e_star,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file least_squares.hpp  Non-linear least squares of a fit, by Ceres Solver with exact derivatives, and the
-/// covariance.
+/// \file least_squares.hpp  Solves the non-linear least squares of a fit by Ceres Solver with exact derivatives, and
+/// computes the covariance.
 #pragma once
 
 #include <vector>
@@ -34,7 +34,8 @@ struct Minimum {
   bool determined = true;  ///< whether no unknown lies at its limits
 };
 
-/// Relative change of the misfit per step at which the refinement ends: at the limit of rounding, or early.
+/// Relative change of the misfit per step at which a refinement ends: `to_rounding` is at the limit of rounding,
+/// `near_enough` ends it early.
 inline constexpr double to_rounding = 1e-13, near_enough = 1e-5;
 
 /// Minimises the misfit from a start, which is first moved between the limits. The misfit of the result is infinite if

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// non_negative.cpp  Lawson and Hanson's algorithm NNLS, with columns scaled to length one.
+// non_negative.cpp  Implements Lawson and Hanson's algorithm NNLS, with columns scaled to length one.
 #include "host/fit/non_negative.hpp"
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file non_negative.hpp  Linear least squares with unknowns that must not be negative.
+/// \file non_negative.hpp  Solves linear least squares with unknowns that must not be negative.
 #pragma once
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reference.cpp  A new reference temperature rescales time.
+// reference.cpp  Moves a fitted model to another reference temperature by rescaling its times.
 #include "host/fit/reference.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shift_start.hpp  First values of the shift factors, from the distances between the measured curves.
+/// \file shift_start.hpp  Computes first values of the shift factors from the distances between the measured curves.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// check_solutions.cpp  Each particle sums the loads of its own contacts. These are computed from the network and not
-// from the arrays of the solvers, so that the check is independent of them. SIMD lanes hold one contact of four
-// solutions, or four contacts of one solution.
+// check_solutions.cpp  Computes the residual of each particle as the sum of the loads of its contacts. The loads are
+// computed from the network and not from the arrays of the solvers, so that the check is independent of the solvers.
+// SIMD lanes hold one contact of four solutions, or four contacts of one solution.
 #include "host/harmonic/check_solutions.hpp"
 
 #include <algorithm>

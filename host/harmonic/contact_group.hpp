@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_group.hpp  Four complex numbers in one SIMD register, and up to four contacts of a particle as that
-/// particle sees them.
+/// \file contact_group.hpp  Stores four complex numbers in one SIMD register, and up to four contacts of a particle as
+/// seen from that particle.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ FourNumbers real_lanes(Of&& of) {
   return FourNumbers::Register{a, b, c, d, a, b, c, d};
 }
 
-/// Returns the complex numbers of(f), f = 0 … 3.
+/// Returns the complex numbers of(f), f = 0 … 3: first the real parts, then the imaginary parts.
 template <class Of>
 FourNumbers complex_lanes(Of&& of) {
   const std::complex<double> a = of(0), b = of(1), c = of(2), d = of(3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_operator.cpp  The complex load of a contact: the real kinematics are applied to real and imaginary parts
-// separately.
+// contact_operator.cpp  Computes the complex load of a contact: the real kinematics are applied to real and imaginary
+// parts separately.
 #include "host/harmonic/contact_operator.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file law_stiffness.hpp  Access to the complex stiffness of a law, with an error for laws that have none. All code
-/// of the frequency domain uses it.
+/// \file law_stiffness.hpp  Returns the complex stiffness of a law, and throws for laws that have none. All code of the
+/// frequency domain uses it.
 #pragma once
 
 #include <optional>

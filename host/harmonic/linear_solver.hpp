@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_solver.hpp  The linear systems (K*(s) − inertia·M)·u = f of the frequency domain, and the interface of
-/// the two solvers, iterative and direct.
+/// \file linear_solver.hpp  Defines the linear systems (K*(s) − inertia·M)·u = f of the frequency domain, and the
+/// interface of the two solvers, iterative and direct.
 #pragma once
 
 #include <functional>
@@ -67,10 +67,10 @@ std::size_t usual_boxes(std::size_t particles);
 
 /// Returns the iterative solver: COCG preconditioned by each particle's own stiffness block and by the rigid motions of
 /// boxes of particles. Only the small matrix of the boxes is factored. Up to four tasks are solved side by side.
-/// `backend`: cpu, or cuda on `devices`, where the whole iteration runs. `boxes`: approximate number of boxes, if it is
-/// not to be usual_boxes(); 0 leaves out the boxes, so that each particle stands alone.
-/// \throws NotIterable when a single particle can move without force or the specimen has more than six free motions;
-/// RunError when a device has too little memory.
+/// `backend`: cpu, or cuda on `devices`, where the whole iteration runs. `boxes`: approximate number of boxes, instead
+/// of usual_boxes(). With 0 there are no boxes, only the blocks of single particles. \throws NotIterable when a single
+/// particle can move without force or the specimen has more than six free motions; RunError when a device has too
+/// little memory.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free, Backend backend = Backend::cpu,

@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-/// A motion whose part outside the present ones is below this fraction of its length is not added. The error of E* is
-/// the square of it.
+/// A motion is not added if its part outside the span of the present motions is below this fraction of its length. The
+/// relative error of E* is the square of this fraction.
 constexpr double nothing_new = 1e-6;
 
 /// Sums are computed in this many parts, which are then added in order. So the result does not depend on the number of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reduced_model.hpp  A specimen restricted to motions of earlier solutions (a reduced basis), which gives E* for
-/// other laws within milliseconds.
+/// \file reduced_model.hpp  Restricts a specimen to the motions of earlier solutions (a reduced basis). This gives E*
+/// for other laws within milliseconds.
 ///
 /// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. A few
 /// real motions v_j, which are at rest at the walls, reduce N, S and M to small matrices, once. Then any laws and any s

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file rigid_motions.hpp  Free motions (motions that no contact resists), and springs to ground that hold them
-/// without carrying force.
+/// \file rigid_motions.hpp  Finds free motions (motions that no contact resists), and the springs to ground that hold
+/// them without carrying force.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sliding_parts.cpp  Parts by union–find over the contacts that resist sliding; free motions of a particle as the null
-// space of its stiffness block.
+// sliding_parts.cpp  Finds parts by union–find over the contacts that resist sliding, and free motions of a particle as
+// the null space of its stiffness block.
 #include "host/harmonic/sliding_parts.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sliding_parts.hpp  Parts of a cluster that can slide on one another, and free motions of single particles.
+/// \file sliding_parts.hpp  Finds the parts of a cluster that can slide on one another, and free motions of single
+/// particles.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_stiffness.hpp  The 6×6 stiffness blocks of one contact with respect to the motions of its two
+/// \file contact_stiffness.hpp  Computes the 6×6 stiffness blocks of one contact with respect to the motions of its two
 /// particles, for the initial geometry.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// names.cpp  Names of pair types and quadratures, as scenes and results show them.
+// names.cpp  Defines the names of pair types and quadratures in scenes and results.
 #include <array>
 
 #include "macadam/contact_network.hpp"

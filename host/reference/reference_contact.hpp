@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_contact.hpp  The geometry of one contact of the reference implementation: its normal, the frame that
-/// follows the particles, and its contact points (Eq. 5–7).
+/// \file reference_contact.hpp  Computes the geometry of one contact in the reference implementation: its normal, the
+/// frame that follows the particles, and its contact points (Eq. 5–7).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_input.cpp  Checks of network, masses, laws and options. Each message names the item at fault.
+/// \file reference_input.cpp  Checks network, masses, laws and options. Each message names the item at fault.
 #include "host/reference/reference_input.hpp"
 
 #include <algorithm>

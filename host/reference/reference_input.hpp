@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_input.hpp  Checks of the reference stepper's input: laws, network, masses and options.
+/// \file reference_input.hpp  Checks the reference stepper's input: laws, network, masses and options.
 #pragma once
 
 #include <array>

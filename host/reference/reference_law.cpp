@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_law.cpp  The trapezoidal rule (Eq. 13–17) for a chain of springs and dashpots, derived
+/// \file reference_law.cpp  Implements the trapezoidal rule (Eq. 13–17) for a chain of springs and dashpots, derived
 /// independently.
 #include "host/reference/reference_law.hpp"
 

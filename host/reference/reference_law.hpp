@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_law.hpp  Reference implementation of the contact laws, written to be read: one chain at one contact
-/// point.
+/// \file reference_law.hpp  Defines the reference implementation of the contact laws, written to be read: one chain at
+/// one contact point.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_spectrum.cpp  Eigenvalues by a dense solver. Equilibrium by LDLᵀ factors, with weak springs that
-/// hold the free motions.
+/// \file reference_spectrum.cpp  Computes eigenvalues by a dense solver, and equilibrium by LDLᵀ factors with weak
+/// springs that hold the free motions.
 #include "host/reference/reference_spectrum.hpp"
 
 #include <cmath>

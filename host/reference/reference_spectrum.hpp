@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_spectrum.hpp  Largest eigenfrequency and static modulus of a network, by textbook linear algebra.
+/// \file reference_spectrum.hpp  Computes the largest eigenfrequency and the static modulus of a network by textbook
+/// linear algebra.
 #pragma once
 
 #include <array>

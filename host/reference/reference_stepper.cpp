@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stepper.cpp  Leapfrog over contact points (docs/model.md, sections 1, 5, 6 and 8 to 10), in the
-/// order of a step.
+/// \file reference_stepper.cpp  Implements leapfrog over contact points (docs/model.md, sections 1, 5, 6 and 8 to 10),
+/// in the order of a step.
 #include "host/reference/reference_stepper.hpp"
 
 #include <Eigen/Geometry>

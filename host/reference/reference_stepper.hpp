@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stepper.hpp  Reference implementation of the time step, written to be read: per contact point, with
-/// Eigen, in double precision.
+/// \file reference_stepper.hpp  Defines the reference implementation of the time step, written to be read: per contact
+/// point, with Eigen, in double precision.
 ///
 /// It shares no arithmetic with the kernels, so that the two can be compared. It favours clarity over speed: one
 /// thread, no precomputed coefficients. `StepperOptions::form` and `threads` have no effect. It always works per

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stiffness.hpp  The stiffness matrix of a network in its initial geometry, summed point by point.
+/// \file reference_stiffness.hpp  Computes the stiffness matrix of a network in its initial geometry, summed point by
+/// point.
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoint.cpp  Checkpoint files through the C++ interface of HDF5.
+// checkpoint.cpp  Reads and writes checkpoint files through the C++ interface of HDF5.
 #include "host/results/checkpoint.hpp"
 
 #include <H5Cpp.h>

@@ -19,10 +19,10 @@ struct Checkpoint {
   std::vector<StateArray> arrays;  ///< names are unique and contain no '/'; a file does not keep their order
 };
 
-/// Writes a checkpoint. It replaces an older one by a rename after the new one is on the disk, so that a kill at any
-/// moment, or a full disk, leaves either the old or the new one complete. HDF5's user block, the first 512 bytes of the
-/// file, holds the length and a checksum as text. The file is made in memory first, which takes twice its size. \throws
-/// RunError.
+/// Writes a checkpoint. The new file is written to the disk first and then renamed to replace the older one. So if the
+/// program is killed, or the disk is full, either the old or the new file is complete. HDF5's user block, the first 512
+/// bytes of the file, holds the length and a checksum as text. The file is made in memory first, which takes twice its
+/// size. \throws RunError.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 /// Returns the user block for the bytes of an HDF5 file. The reader checks it before it passes the bytes to HDF5,

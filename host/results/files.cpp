@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// files.cpp  Result files. fmt's "{}" prints the shortest digits that round-trip a double.
+// files.cpp  Writes result files. fmt's "{}" prints the shortest digits that round-trip a double.
 #include "host/results/files.hpp"
 
 #include <fcntl.h>

@@ -15,8 +15,8 @@ class ResultFolder {
  public:
   /// \throws RunError when the folder cannot be made or opened; InputError when another command is writing into it.
   explicit ResultFolder(const std::filesystem::path& folder);
-  /// Also removes the folders that the constructor made, if they are still empty: a command that is refused leaves
-  /// nothing.
+  /// Also removes the folders that the constructor made, if they are still empty, so that a refused command leaves no
+  /// folders.
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_files.cpp  The files of `macadam shapes fill` and `macadam shapes generate`.
+// shape_files.cpp  Writes the files of `macadam shapes fill` and `macadam shapes generate`.
 #include "host/results/shape_files.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_files.hpp  Files of one shape and its filling spheres, and of a library of shapes.
+/// \file shape_files.hpp  Writes the files of one shape and its filling spheres, and of a library of shapes.
 #pragma once
 
 #include <filesystem>

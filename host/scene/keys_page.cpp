@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// keys_page.cpp  The reference of all keys, as Markdown and as JSON.
+// keys_page.cpp  Writes the reference of all keys as Markdown and as JSON.
 #include "host/scene/keys_page.hpp"
 
 #include <fmt/format.h>

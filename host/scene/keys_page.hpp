@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file keys_page.hpp  Reference of all keys of a scene, made from the keys that the scene reader knows.
+/// \file keys_page.hpp  Makes the reference of all keys of a scene from the keys that the scene reader knows.
 #pragma once
 
 #include <string>

@@ -31,11 +31,12 @@ class Collector {
   /// Thrown to leave the reader of a section once its keys are known, before it looks at their values.
   struct Done {};
 
-  /// Adds a key. If it is a section, calls `enter`, which reads what is in the section, once for every choice made
-  /// there.
+  /// Adds a key. If it is a section, calls `enter`, which reads the keys of the section, once for every value that
+  /// choose() can take there.
   void add(const std::string& section, const std::string& named, const Key& key, const std::function<void()>& enter);
-  /// Called for a text whose value decides which other keys its section has. Returns the index of the choice for the
-  /// present pass through the section; add() makes one pass for each.
+  /// The reader calls this function for a key, such as "kind", whose value decides which other keys its section has.
+  /// `among` lists the possible values. Returns the index of the value to assume in the present pass through the
+  /// section; add() makes one pass for each value.
   std::size_t choose(const std::string& named, const std::vector<std::string>& among);
 
   /// Returns the collected keys. A key that several choices have in common appears once.

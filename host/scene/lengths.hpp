@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file lengths.hpp  Lengths on the command line: "0.75 mm", or a bare number of metres.
+/// \file lengths.hpp  Parses lengths on the command line: "0.75 mm", or a number of metres without a unit.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_scene.cpp  The values of a new scene, and the comments around them.
+// new_scene.cpp  Defines the values of a new scene, and the comments around them.
 #include "host/scene/new_scene.hpp"
 
 #include <fmt/format.h>

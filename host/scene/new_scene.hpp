@@ -9,7 +9,7 @@
 
 namespace macadam::scene {
 
-/// Where the specimen comes from.
+/// Kind of specimen in the new scene.
 enum class NewKind : std::uint8_t {
   recipe,   ///< a mix design by mass
   spheres,  ///< classes by volume; an aggregate is a sphere

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file overrides.hpp  Values given by the user of a scene that replace the values in the scene.
+/// \file overrides.hpp  Applies values given by the user that replace values in the scene.
 #pragma once
 
 #include <cstdint>

@@ -116,8 +116,8 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
     section.refuse("aggregate", fmt::format("volume fractions with the sum {}", fractions),
                    "a sum below 1, as the mastic takes the rest of the solid volume");
   }
-  // If the mastic is given by count, the solid volume follows from the mastic's fraction of it, 1 − Σ fractions. The
-  // bound uses the smallest mastic spheres.
+  // If the mastic is given by count, mastic and aggregates given by count fill the part 1 − Σ fractions of the solid
+  // volume, which gives the solid volume. Their smallest radii are used, so `solid` is a lower bound.
   double solid = counted;
   double number = static_cast<double>(count);
   if (spec.mastic && spec.mastic->porosity) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_reader.cpp  read_scene: reads the file and its sections, and checks conditions between sections.
+/// \file scene_reader.cpp  Defines read_scene(), which reads the file and its sections and checks conditions between
+/// sections.
 #include <algorithm>
 #include <cerrno>
 #include <fstream>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scene_text.cpp  The TOML parser reports where a value is in the text. The text is parsed again for every change.
+// scene_text.cpp  Finds values in the text by the positions that the TOML parser reports. The text is parsed again for
+// every change.
 #include "host/scene/scene_text.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sections.hpp  Readers of those sections of a scene that have a file of their own.
+/// \file sections.hpp  Declares the readers of sections of a scene that have a file of their own.
 #pragma once
 
 #include "host/scene/table.hpp"

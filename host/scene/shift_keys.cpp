@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shift_keys.cpp  `shift = "wlf"`, `"arrhenius"` or `"table"`, and the keys that each of them has.
+// shift_keys.cpp  Reads `shift = "wlf"`, `"arrhenius"` or `"table"`, and the keys that each of them has.
 #include "host/scene/shift_keys.hpp"
 
 #include <fmt/format.h>

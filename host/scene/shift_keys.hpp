@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shift_keys.hpp  The keys of a shift law, `shift` and its constants, which stand among the keys of a contact
-/// law or a model.
+/// \file shift_keys.hpp  Reads the keys of a shift law, `shift` and its constants, which are among the keys of a
+/// contact law or a model.
 #pragma once
 
 #include "host/scene/table.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file units.cpp  The table of units, and the only functions that use it.
+/// \file units.cpp  Defines the table of units, and the only functions that use it.
 #include "host/scene/units.hpp"
 
 #include <charconv>

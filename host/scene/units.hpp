@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file units.hpp  Numbers with units: "12.5 mm", "35 GPa", "5 %". A quantity accepts units of its own dimension only.
+/// \file units.hpp  Parses numbers with units: "12.5 mm", "35 GPa", "5 %". A quantity accepts units of its own
+/// dimension only.
 #pragma once
 
 #include <optional>

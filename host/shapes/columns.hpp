@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file columns.hpp  Intersections of bodies with a row of parallel columns (rays along z), and volumes computed from
-/// them.
+/// \file columns.hpp  Computes the intersections of bodies with a row of parallel columns (rays along z), and volumes
+/// from them.
 #pragma once
 
 #include <algorithm>

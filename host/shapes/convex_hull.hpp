@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file convex_hull.hpp  The convex hull of points.
+/// \file convex_hull.hpp  Computes the convex hull of points.
 #pragma once
 
 #include <array>

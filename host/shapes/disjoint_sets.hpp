@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file disjoint_sets.hpp  Union–find: groups numbered things into connected sets.
+/// \file disjoint_sets.hpp  Groups numbered things into connected sets (union–find).
 #pragma once
 
 #include <cstdint>

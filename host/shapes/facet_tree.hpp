@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file facet_tree.hpp  CGAL's AABB tree over the facets of a mesh, under one name for CGAL 5 and CGAL 6.
+/// \file facet_tree.hpp  Defines one name for CGAL's AABB tree over the facets of a mesh, in CGAL 5 and CGAL 6.
 #pragma once
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// library_targets.cpp  Target values from strata of distributions, combined to shapes by exchanging values.
+// library_targets.cpp  Takes target values from strata of distributions, and combines them to shapes by exchanging
+// values.
 #include "host/shapes/library_targets.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ply_header.hpp  The header of a PLY file: its format and the elements and properties that it declares.
+/// \file ply_header.hpp  Reads the header of a PLY file: its format and the elements and properties that it declares.
 #pragma once
 
 #include <optional>

@@ -38,7 +38,7 @@ class EdgeGap {
     for (const Vec3d* end : {&a.from, &a.to}) offer_end(*end, b);
     for (const Vec3d* end : {&b.from, &b.to}) offer_end(*end, a);
   }
-  /// Considers an edge that may be parallel to z: compares its two ends.
+  /// If the two ends of an edge coincide in the xy projection, records their difference of height.
   void offer_end_on(const Segment& a) { offer(a.from, a.to); }
 
   double largest() const { return largest_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_ply.cpp  Reads PLY files, text and binary: points and facets. Other elements and properties are skipped.
+// read_ply.cpp  Reads points and facets from PLY files, text and binary. Other elements and properties are skipped.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,7 +45,8 @@ class PlyNumbers {
 
   /// Returns the largest count of numbers of a type that the remaining bytes can hold.
   std::size_t most(const PlyType& type) const {
-    // In text, each number takes a digit and a blank.
+    // In a text file a number takes at least two characters, a digit and a separator; the last number needs no
+    // separator.
     return text_ ? (words_.left() + 1) / 2 : rest_.size() / type.bytes;
   }
 

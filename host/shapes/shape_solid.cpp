@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_solid.cpp  CGAL's AABB tree of the facets, with exact predicates.
+/// \file shape_solid.cpp  Uses CGAL's AABB tree of the facets, with exact predicates.
 #include "host/shapes/shape_solid.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_solid.hpp  The solid inside a closed surface: nearest points and exact containment and intersection
-/// tests with CGAL.
+/// \file shape_solid.hpp  Represents the solid inside a closed surface: finds nearest points, and tests containment and
+/// intersection exactly with CGAL.
 #pragma once
 
 #include <memory>

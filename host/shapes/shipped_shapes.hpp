@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shipped_shapes.hpp  The surface files of examples/shapes, compiled into the library by
-/// cmake/embed_shapes.cmake.
+/// \file shipped_shapes.hpp  Gives access to the surface files of examples/shapes, which cmake/embed_shapes.cmake
+/// compiles into the library.
 #pragma once
 
 #include <string_view>

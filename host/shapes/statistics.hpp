@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file statistics.hpp  Statistics of a library of shapes, as in Tables 1 and 2 of [1].
+/// \file statistics.hpp  Computes the statistics of a library of shapes, as in Tables 1 and 2 of [1].
 #pragma once
 
 #include <array>
@@ -17,8 +17,9 @@ struct ShapeProperty {
   const char* unit;    ///< unit in the printed table, e.g. `"mm"`
   double per_unit;     ///< factor from SI to `unit`
   int decimals;        ///< number of decimals in the printed table
-  bool standardised;  ///< SI and Fl: their standards define them for D^I ≥ 4 mm only; tables leave out smaller shapes
-  bool correlated;    ///< whether the property has a row in the correlation matrix
+  bool standardised;   ///< true for SI and Fl: their standards define them for D^I ≥ 4 mm only, so tables leave out
+                       ///< smaller shapes
+  bool correlated;     ///< whether the property has a row in the correlation matrix
   double (*value)(const ShapeMeasure&);  ///< returns the property in SI units
   std::array<double, 3> paper;           ///< minimum, average and maximum of the 82 aggregates of [1], in `unit`
 };
@@ -48,7 +49,8 @@ std::vector<std::vector<double>> correlation_matrix(const std::vector<ShapeMeasu
 /// the largest sieve). SI units.
 std::string shapes_csv(const std::vector<std::string>& names, const std::vector<ShapeMeasure>& shapes);
 
-/// Returns CSV text with minimum, average and maximum of each property, and those of [1] beside them. SI units.
+/// Returns CSV text, one row per property: number of shapes; minimum, average and maximum; then the values published in
+/// [1], in columns paper_min, paper_average and paper_max. SI units.
 std::string statistics_csv(const std::vector<ShapeMeasure>& shapes);
 
 /// Returns the correlation matrix as CSV text with headings.

@@ -97,7 +97,8 @@ SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> 
 
 /// In a cell with half diagonal g whose centre is at distance d from the nearest facet, the nearest facet of any point
 /// of the cell is within d + 2g of the centre: the point is at most g from the centre and at most d + g from that
-/// facet. `candidates` are those of the parent cell, whose centre is `way` [m] from this one.
+/// facet. `candidates` are the facets that can be nearest in the parent cell, whose centre is `way` [m] from the centre
+/// of this cell.
 void SurfaceDistance::grow(std::int32_t node, const Vec3d& centre, const Vec3d& half, int level,
                            std::span<const Candidate> candidates, double way) {
   const double g = norm(half) * (1 + 1e-9);  // enlarged, so that rounding loses no candidate

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_distance.hpp  Signed distance of points from a closed surface: exact, and fast for many points.
+/// \file surface_distance.hpp  Computes the signed distance of points from a closed surface, exactly and fast for many
+/// points.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_files.hpp  Surface files: formats by ending, reading from bytes, and listing a folder.
+/// \file surface_files.hpp  Chooses the format of surface files by their ending, reads surfaces from bytes, and lists
+/// the files of a folder.
 #pragma once
 
 #include <filesystem>

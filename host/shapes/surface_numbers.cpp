@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_numbers.cpp  Checks of coordinates and facets, rounding, bounds, area and volume.
+// surface_numbers.cpp  Checks coordinates and facets, and computes rounding, bounds, area and volume.
 #include "host/shapes/surface_numbers.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_pieces.hpp  Connected pieces of a surface, and which of them lie inside another piece.
+/// \file surface_pieces.hpp  Finds the connected pieces of a surface, and which of them lie inside another piece.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_readers.cpp  Readers of OFF and OBJ files.
+// surface_readers.cpp  Reads OFF and OBJ files.
 #include "host/shapes/surface_readers.hpp"
 
 #include <fmt/format.h>

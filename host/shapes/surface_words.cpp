@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_words.cpp  Words end at white space. A word is a number only if all of it is parsed, so "1.5.5" is not a
-// number.
+// surface_words.cpp  Splits text into words, which end at white space. A word is a number only if all of it is parsed,
+// so "1.5.5" is not a number.
 #include "host/shapes/surface_words.hpp"
 
 #include <algorithm>

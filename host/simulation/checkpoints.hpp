@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file checkpoints.hpp  Checkpoints of a stepped run: when they are written, and to which run they belong.
+/// \file checkpoints.hpp  Decides when checkpoints of a stepped run are written, and checks to which run a checkpoint
+/// belongs.
 #pragma once
 
 #include <chrono>

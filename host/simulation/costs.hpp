@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file costs.hpp  Time and memory that the parts of a run take, as measured: docs/forecast.md.
+/// \file costs.hpp  Lists the measured time and memory of the parts of a run. The forecast of a run is computed from
+/// them (docs/forecast.md).
 #pragma once
 
 #include <cstddef>
@@ -27,38 +28,40 @@ struct Cost {
   double solving = 1.1e-6, solving_on_device = 2e-8;
   // Contrast is the stiffness of the stiffest contact over the stiffness of the softest. A solution takes
   // by_contrast·∛contrast times as long as one of small contrast. If contrast·particles exceeds `iterable`, the
-  // iteration fails and the direct solver follows: its bytes per particle^(4/3), seconds per particle^1.5, iterations,
-  // and seconds per iteration and byte (measured with 600 to 4,805 particles and contrasts of 20 to 1e7).
+  // iterative solver fails and the direct solver is used. It takes `factors` bytes per particle^(4/3) and `factoring`
+  // seconds per particle^1.5 for the factors, and then `factored_iterations` iterations of `with_factors` seconds per
+  // byte (measured with 600 to 4,805 particles and contrasts of 20 to 1e7).
   double by_contrast = 0.4, iterable = 2e8, factors = 2.9e3, factoring = 2e-6, factored_iterations = 500,
          with_factors = 5e-11;
   // seconds per byte of a file, and in addition per frame of fields
   double writing = 8e-9, frame = 5e-4;
   // seconds that the program needs to start, without and with a device
   double start = 0.1, start_on_device = 0.8;
-  // a specimen of fewer contacts fits into the processor's cache; a step then takes `cached` times as long
+  // A specimen with fewer than `contacts_in_cache` contacts fits into the processor's cache; a step then takes `cached`
+  // times as long.
   double cached = 0.5, contacts_in_cache = 30'000;
   // A step on a device takes at least this time, however small the specimen [s]. With fewer contacts than
   // `contacts_on_chip`, their data stay in registers and shared memory, and a step takes `on_chip` times as long.
   double least_step_on_device = 3e-6, contacts_on_chip = 420'000, on_chip = 0.4;
   // Bytes on the host: of the program, per shape of the library, per contact of the specimen, and per contact for the
-  // solutions. Bytes on the device: of its own, and per contact for the solutions.
+  // solutions. Bytes on the device: without a specimen, and per contact for the solutions.
   double program = 33e6, a_shape = 7e5, a_contact = 650, a_solved_contact = 850;
   double device = 5.6e8, a_solved_contact_on_device = 655;
-  // Bytes on the host beside a device: of NVIDIA's driver, and per contact for the solutions. For the stepper, the host
-  // holds the fraction `staged` of its bytes without chains, and `staged_chain` of its chains if they are not zero at
-  // first.
+  // Bytes on the host if a device is used: of NVIDIA's driver, and per contact for the solutions. In addition, the host
+  // holds copies of the stepper's arrays: the fraction `staged` of the bytes without chains, and `staged_chain` of the
+  // chains if they are not zero at the start.
   double driver = 2.5e8, a_solved_contact_beside_device = 220, staged = 0.55, staged_chain = 0.77;
 };
 
-/// Cost of a step per contact: seconds (on the CPU, of one thread), and the bytes that the stepper holds. `chain` of
-/// these bytes are the chains of the contact's law.
+/// Cost per contact: seconds per step (on the CPU, of one thread), bytes of the stepper, and the part of these bytes
+/// that the chains of the contact's law take.
 struct StepCost {
   double seconds = 0, bytes = 0, chain = 0;
 };
 
-/// `units`: number of Kelvin units of the usual contact's law, -1 if it keeps no chain. The table was measured with
-/// three units. It is in the order of ContactForm and Precision, then geometry: fixed, updated. The effect of the
-/// number of units is from bench/results/kelvin-units-cpu.csv.
+/// Returns the cost per contact. `units`: number of Kelvin units of the law that most contacts have, -1 if it has no
+/// chain. The table was measured with three units. It is in the order of ContactForm and Precision, then geometry:
+/// fixed, updated. The effect of the number of units is from bench/results/kelvin-units-cpu.csv.
 inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry, double units) {
   enum { single, mixed, double_ };
   // clang-format off
@@ -71,7 +74,8 @@ inline StepCost step_cost(bool on_device, ContactForm form, Precision precision,
   const int p = precision == Precision::single ? single : precision == Precision::mixed ? mixed : double_;
   const bool points = form == ContactForm::points;
   StepCost out = costs[on_device][points][p][geometry == Geometry::updated];
-  // three displacements of six points, or six of the contact; each unit keeps one number for each displacement
+  // A Kelvin unit keeps one number per displacement: 18 in the points form (six points with three each), 6 in the
+  // condensed form. `of_unit` is this in bytes.
   const double of_unit = (points ? 18 : 6) * (p == single ? 4 : 8);
   out.chain = (1 + units) * of_unit;
   const double more = (units - 3) * of_unit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast.cpp  Sizes follow from the recipe. Their costs were measured: bench/forecast.
+// forecast.cpp  Computes the sizes of a run from its recipe, and time and memory from measured costs (bench/forecast).
 #include "host/simulation/forecast.hpp"
 
 #include <fmt/format.h>

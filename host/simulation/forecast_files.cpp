@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_files.cpp  Names and sizes of the files that a run leaves.
+// forecast_files.cpp  Predicts names and sizes of the files that a run leaves.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file forecast_parts.hpp  Parts of the forecast: steps, solutions, files.
+/// \file forecast_parts.hpp  Declares the parts of the forecast: steps, solutions, files.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_steps.cpp  Steps and solutions of a run by the rules of its plan, from numbers that do not need a specimen.
+// forecast_steps.cpp  Predicts the steps and solutions of a run by the rules of its plan, from numbers that do not need
+// a specimen.
 #include "host/simulation/forecast_parts.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic_options.cpp  Options of the frequency domain from [solver].
+// harmonic_options.cpp  Makes the options of the frequency domain from `[solver]`.
 #include "host/simulation/harmonic_options.hpp"
 
 #include <cmath>

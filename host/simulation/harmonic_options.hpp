@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file harmonic_options.hpp  How the linear systems of any experiment are solved.
+/// \file harmonic_options.hpp  Determines how the linear systems of any experiment are solved.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// prepare.cpp  Scene → specimen → tessellation → contact network.
+// prepare.cpp  Makes specimen, tessellation and contact network of a scene, in this order.
 #include <system_error>
 
 #include "host/fields/field_output.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// recipe_summary.cpp  Densities, voids, classes, mastic and gradation of a mix design as JSON. Fractions are 0 to 1.
+// recipe_summary.cpp  Writes densities, voids, classes, mastic and gradation of a mix design as JSON. Fractions are 0
+// to 1.
 #include "host/simulation/recipe_summary.hpp"
 
 namespace macadam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe_summary.hpp  The entry `recipe` of summary.json.
+/// \file recipe_summary.hpp  Makes the entry `recipe` of summary.json.
 #pragma once
 
 #include <nlohmann/json.hpp>

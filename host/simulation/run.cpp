@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run.cpp  The main job: prepares a scene, runs its experiment, and leaves complete files whatever happens. The result
-// folder is locked first. Older results in it are replaced only after the specimen is made and the experiment is
+// run.cpp  Does the main job: prepares a scene, runs its experiment, and leaves complete files whatever happens. The
+// result folder is locked first. Older results in it are replaced only after the specimen is made and the experiment is
 // planned.
 #include <fmt/format.h>
 
@@ -50,8 +50,8 @@ void remove_results(const std::filesystem::path& out) {
   }
 }
 
-/// Removes this run's checkpoint, and that of an earlier run of the same scene: the results to which they would lead
-/// are there. A checkpoint that cannot be removed costs only disk space.
+/// Removes the checkpoint of this run or of an earlier run of the same scene, because the results to which it would
+/// lead exist now. A checkpoint that cannot be removed costs only disk space.
 void remove_own_checkpoint(const std::filesystem::path& out, const Scene& scene, Backend backend, bool own) {
   std::error_code ignored;
   for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
@@ -84,7 +84,8 @@ class FoundBackend {
       asked_ = select();
     }
   }
-  /// \throws as select_backend(), if it has failed by now, so that a scene that cannot run is not prepared to the end.
+  /// Checks whether the search for a backend has failed by now, so that a scene that cannot run is not prepared to the
+  /// end. \throws as select_backend() if it has.
   void look() {
     if (waking_.valid() && waking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) get();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_ranks.hpp  One stepped run by several processes, the ranks.
+/// \file run_ranks.hpp  Performs one stepped run by several processes, the ranks.
 #pragma once
 
 #include <filesystem>

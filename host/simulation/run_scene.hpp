@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_scene.hpp  run(), with two parts that run_many() replaces: the preparation and the choice of devices.
+/// \file run_scene.hpp  Declares run_scene(), which is run() with two parts that run_many() replaces: the preparation
+/// and the choice of devices.
 #pragma once
 
 #include "macadam/simulation.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file solution.hpp  A planned experiment. Every reason to refuse a scene has been found by then, before a file of
-/// the folder is touched.
+/// \file solution.hpp  Defines a planned experiment. When it exists, every check that can refuse the scene has passed,
+/// and no file of the folder has been changed yet.
 #pragma once
 
 #include <filesystem>

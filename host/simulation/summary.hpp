@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file summary.hpp  summary.json: what was prepared, asked for, run and found.
+/// \file summary.hpp  Writes summary.json: what was prepared, requested, run and found.
 #pragma once
 
 #include <filesystem>

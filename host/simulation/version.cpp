@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// version.cpp  The version of the source tree, as scripts/version prints it.
+// version.cpp  Returns the version of the source tree, as scripts/version prints it.
 #include "macadam/version.hpp"
 
 namespace macadam {

@@ -16,7 +16,7 @@ struct Census {
   std::int64_t in_aggregates = 0;  ///< their spheres: equal to `aggregates`, or more if shapes are filled
   std::int64_t mastic = 0, voids = 0;
   std::int64_t templates = 0;  ///< shapes whose copies the aggregates are
-  /// For a file: radii of its smallest spheres [m]; 0 if there are none. Not set for a recipe.
+  /// Radii of the smallest spheres of a file [m]; 0 if it has none. Not set for a recipe.
   double smallest_mastic = 0, smallest_in_aggregates = 0;
   std::vector<std::string> warnings;  ///< packing_warnings() of a file; empty for a recipe
   std::int64_t particles() const { return in_aggregates + mastic; }

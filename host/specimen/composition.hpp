@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file composition.hpp  From the recipe of a scene to the radii of the spheres that must be placed.
+/// \file composition.hpp  Computes the radii of the spheres that must be placed from the recipe of a scene.
 #pragma once
 
 #include <functional>

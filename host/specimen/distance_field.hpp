@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file distance_field.hpp  The signed distance from the surface of a shape, interpolated on a grid: fast, with a
-/// known error bound.
+/// \file distance_field.hpp  Interpolates the signed distance from the surface of a shape on a grid. This is fast and
+/// has a known error bound.
 #pragma once
 
 #include <cstddef>
@@ -46,8 +46,9 @@ class DistanceField {
 
   Vec3d low_;
   double edge_;
-  /// Largest error of an interpolated distance. A distance changes by at most the length of the way, and the mean
-  /// length of the ways to the eight corners, weighted as in the interpolation, is at most half of the cell's diagonal.
+  /// Largest error of an interpolated distance. Between two points the distance changes by at most the length between
+  /// them. The mean length from a point to the eight corners of its cell, weighted as in the interpolation, is at most
+  /// half of the cell's diagonal.
   double error_;
   std::int64_t nx_, ny_, nz_;  ///< numbers of nodes
   std::vector<float> distance_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generate.hpp  generate_specimen() that also returns the tessellation made by its final check.
+/// \file generate.hpp  Declares generate_with_cells(), which does the same as generate_specimen() and also returns the
+/// tessellation made by its final check.
 #pragma once
 
 #include <functional>
@@ -19,7 +20,7 @@ struct GeneratedWithCells {
   double seconds_tessellation = 0;  ///< time of the tessellation, if it is present [s]
 };
 
-/// Does what generate_specimen() does.
+/// Generates a specimen as generate_specimen() does, and returns its cells too.
 GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
                                        const std::function<void(const char* stage, double share)>& progress);
 

@@ -13,13 +13,14 @@ namespace macadam {
 /// Result of settle_mastic().
 struct SettledMastic {
   int iterations = 0;
-  Tessellation tessellation;        ///< of the relaxed spheres, none of which is hidden
+  Tessellation tessellation;        ///< of the relaxed spheres, each of which has a cell
   double seconds_tessellation = 0;  ///< time of this tessellation [s]
 };
 
 /// Relaxes a specimen until the spheres are evenly spread and each has a Laguerre cell. Mastic spheres without a cell
-/// are moved to new places. `wall` is passed to relax(); `progress` may be empty. Voids are still among the aggregates.
-/// \throws RunError naming the spheres without a cell if there are any after 10 rounds.
+/// are moved to new places. `wall` is passed to relax(); `progress` may be empty. At this time voids are still spheres
+/// of the specimen, among the aggregates. \throws RunError naming the spheres without a cell if there are any after 10
+/// rounds.
 SettledMastic settle_mastic(Specimen& specimen, Placement& placement, bool fix_aggregates, const Origin& origin,
                             const Enclosure& wall,
                             const std::function<void(const char* stage, double share)>& progress);

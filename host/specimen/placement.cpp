@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file placement.cpp  Random sequential placement. When few places are left, it samples from a list of cells that
-/// still have space.
+/// \file placement.cpp  Places spheres one after another at random. When few places are left, it samples from a list of
+/// cells that still have space.
 #include "host/specimen/placement.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file placement.hpp  Random positions of spheres: aggregates without overlap, mastic anywhere outside them.
+/// \file placement.hpp  Places spheres at random positions: aggregates without overlap, mastic anywhere outside them.
 #pragma once
 
 #include <functional>
@@ -18,9 +18,9 @@ namespace macadam {
 class Placement {
  public:
   /// `specimen` receives the spheres and must outlive this object. `smallest` is the smallest aggregate radius [m].
-  /// `attempts` is the number of trials for one sphere. `taken` returns whether a point is inside something else (a
-  /// shape), and must be callable from several threads. `origin` is that of the recipe, for messages. `largest_void` is
-  /// the radius of the largest void that will be placed [m].
+  /// `attempts` is the number of trials for one sphere. `taken` returns whether a point is inside an object that is not
+  /// a sphere (a shape); it is called from several threads. `origin` is the origin of the recipe (file and line), for
+  /// messages. `largest_void` is the radius of the largest void that will be placed [m].
   Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random, const Origin& origin,
             std::function<bool(const Vec3d&)> taken = {}, double largest_void = 0);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file rotation.hpp  Rotations of rigid bodies: unit quaternions (w, x, y, z) and their matrices.
+/// \file rotation.hpp  Represents rotations of rigid bodies: unit quaternions (w, x, y, z) and their matrices.
 #pragma once
 
 #include <array>

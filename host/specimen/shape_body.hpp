@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_body.hpp  Rigid aggregates in space, and tests and contacts between two of them.
+/// \file shape_body.hpp  Represents rigid aggregates in space, and tests and finds contacts between two of them.
 #pragma once
 
 #include <vector>

@@ -19,7 +19,7 @@ constexpr double tolerance = 0.005;  // an error above this fraction of the clas
 constexpr int most_draws = 200;      // attempts to draw the templates of one class
 constexpr int size_shares = 64;      // sample points of a size law for means over it
 
-/// Random streams of the classes start here; those of single spheres start at 100 (composition.cpp).
+/// Number of the random stream of the first class. The streams of single spheres start at 100 (composition.cpp).
 constexpr std::uint64_t first_stream = 10'000;
 
 /// Draws the aggregates of one recipe.
@@ -31,7 +31,7 @@ class Composer {
   bool sphere(int shape, double size) const { return is_sphere_ && is_sphere_(shape, size); }
   double volume(int shape, double size) const { return aggregate_volume(shapes_[shape], size, sphere(shape, size)); }
 
-  /// Returns the mean volume of the copies of all templates, divided by that of spheres of the same sizes.
+  /// Returns the mean volume of the copies of all templates, divided by the mean volume of spheres of the same sizes.
   double form(const SizeRange& range) const {
     double bodies = 0, spheres = 0;
     for (int k = 0; k < size_shares; ++k) {

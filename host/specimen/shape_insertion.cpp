@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_insertion.cpp  Random sequential insertion of shapes. When few places are left, it samples from a list
-/// of cells that still have space.
+/// \file shape_insertion.cpp  Inserts shapes one after another at random. When few places are left, it samples from a
+/// list of cells that still have space.
 #include "host/specimen/shape_insertion.hpp"
 
 #include <algorithm>

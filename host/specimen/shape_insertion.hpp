@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_insertion.hpp  Random sequential insertion of shaped bodies: each gets a random place clear of all
-/// bodies before it.
+/// \file shape_insertion.hpp  Inserts shaped bodies one after another, each at a random position where it touches no
+/// earlier body.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ class ShapeInsertion {
 
   /// Sets the rotation and centre of body number `k` such that it is inside the box and touches no body placed so far.
   /// Returns false if `attempts` trials failed. Bodies must come in order; some may be left out. Trials run on all
-  /// threads; the place is that of the first successful trial of a single thread.
+  /// threads; the result is the same as with one thread.
   bool place(std::size_t k, ShapeBody& body);
 
  private:

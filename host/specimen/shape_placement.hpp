@@ -31,7 +31,7 @@ struct AggregateRequest {
   bool sphere = false;  ///< whether a single sphere represents the shape
 };
 
-/// An aggregate at its place. Its surface is that of its template, moved by `pose`. For a single sphere the pose gives
+/// A placed aggregate. Its surface is the surface of its template, moved by `pose`. For a single sphere the pose gives
 /// the centre.
 struct PlacedAggregate {
   int size_class = 0, shape = 0;
@@ -39,18 +39,18 @@ struct PlacedAggregate {
   Pose pose;
 };
 
-/// The aggregates to be placed, largest first, and one row per class (its reached counts and fractions are those of
-/// these aggregates).
+/// The aggregates to be placed, largest first, and one row per class. The reached counts and fractions in a row are
+/// computed from these aggregates.
 struct ShapeComposition {
   std::vector<CompositionRow> row;
   std::vector<AggregateRequest> aggregate;
 };
 
-/// Returns the volume of one aggregate [m³]: that of the scaled shape, or of the sphere that represents it.
+/// Returns the volume of one aggregate [m³]: the volume of the scaled shape, or of the sphere that represents it.
 double aggregate_volume(const ShapeTemplate& shape, double size, bool sphere);
 
 /// Draws the aggregates of a recipe: sizes D^I by the size law, templates with equal probability. Volume fractions
-/// refer to the solid volume, as in compose(). The volume of a class is met to 1e-3 of it; if none of many draws is
+/// refer to the solid volume, as in compose(). The volume of a class is met to 1e-3 of it; if none of many samples is
 /// that close, the closest one is used. `is_sphere` returns whether a single sphere represents the shape for a template
 /// and a D^I. \throws InputError for a contradictory or impossible recipe, and if a class would miss its volume by more
 /// than 5e-3 of it.
@@ -75,13 +75,13 @@ struct ShapePlacementSpec {
 struct ShapePlacement {
   std::vector<PlacedAggregate> aggregate;
   std::vector<std::size_t> request;  ///< index of each in the composition
-  std::vector<CompositionRow> row;   ///< what was requested and what was placed, one row per class
+  std::vector<CompositionRow> row;   ///< requested and placed amounts, one row per class
 };
 
 /// Places the aggregates at random positions and rotations inside the box, such that no two surfaces touch and none
 /// contains another. This is ensured by exact tests of the triangles, or of the spheres if these are given. The same
-/// input gives the same bits for any number of threads. \throws RunError naming the class for which there was no room,
-/// and how much of it was placed, unless `spec.allow_short`.
+/// input gives the same bits for any number of threads. \throws RunError naming the class that did not fit, and how
+/// much of it was placed, unless `spec.allow_short`.
 ShapePlacement place_shapes(const Box& box, const std::vector<ShapeTemplate>& shapes,
                             const ShapeComposition& composition, const ShapePlacementSpec& spec,
                             const std::function<void(const char* stage, double share)>& progress = {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shaped_aggregates.hpp  The aggregates of a recipe with shapes: drawn, filled with spheres, and placed.
+/// \file shaped_aggregates.hpp  Makes the aggregates of a recipe with shapes: draws them, fills them with spheres, and
+/// places them.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sphere_cluster.hpp  The spheres of one aggregate, with fast tests of what touches them.
+/// \file sphere_cluster.hpp  Stores the spheres of one aggregate and tests quickly whether a sphere touches them.
 #pragma once
 
 #include "host/spheres/sphere_grid.hpp"
@@ -14,13 +14,13 @@ class SphereCluster {
   SphereCluster(MultiSphere spheres, double reach);
 
   const MultiSphere& spheres() const { return spheres_; }
-  double radius() const { return radius_; }  ///< of the ball about the origin that contains all spheres [m]
+  double radius() const { return radius_; }  ///< radius of the ball about the origin that contains all spheres [m]
 
   /// Returns whether a sphere with this centre and radius touches one of the spheres.
   bool touches(const Vec3d& point, double radius) const;
 
-  /// Returns the signed distance from the nearest of the spheres that a sphere of radius `reach` could touch [m], or
-  /// infinity if there is none.
+  /// Returns the signed distance [m] from the point to the nearest sphere of the cluster, negative inside. Only spheres
+  /// within the constructor's `reach` are searched reliably; returns infinity if none is found.
   double distance_at_most(const Vec3d& point) const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_samples.hpp  Sample points of a surface for tests against other bodies, in a tree of balls.
+/// \file surface_samples.hpp  Samples points of a surface for tests against other bodies, and stores them in a tree of
+/// balls.
 #pragma once
 
 #include <cstdint>

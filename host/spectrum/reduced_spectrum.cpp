@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_spectrum.cpp  Relaxation times as the eigenvalues of one symmetric matrix, with the strains of the dashpots
-// as additional variables.
+// reduced_spectrum.cpp  Computes relaxation times from the eigenvalues of one symmetric matrix, with the strains of the
+// dashpots as additional variables.
 //
 // For a pair p, k*(s) = k_p + Σ g_j·s·τ_j/(1 + s·τ_j): a spring k_p beside Maxwell units. At a strain u the spring of
 // unit j has the strain u − x_j. Its dashpot has the strain x_j, with ẋ_j = (u − x_j)/τ_j.

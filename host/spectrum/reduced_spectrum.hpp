@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reduced_spectrum.hpp  The relaxation modulus of a reduced model.
+/// \file reduced_spectrum.hpp  Computes the relaxation modulus of a reduced model.
 #pragma once
 
 #include "host/harmonic/reduced_model.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// series.cpp  Sums of exponentials, and the conversion of laws to relaxation and of relaxation to creep. The poles of
-// one are the zeros of the other, which lie between its poles.
+// series.cpp  Evaluates sums of exponentials, and converts laws to relaxation and relaxation to creep. The poles of one
+// are the zeros of the other, which lie between its poles.
 #include <fmt/format.h>
 
 #include <algorithm>

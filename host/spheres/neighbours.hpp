@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file neighbours.hpp  Full neighbour lists of spheres with any distribution of sizes.
+/// \file neighbours.hpp  Makes full neighbour lists of spheres with any distribution of sizes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file parallel_blocks.hpp  Parallel loops over many small pieces of work that may throw.
+/// \file parallel_blocks.hpp  Runs parallel loops over many small pieces of work that may throw.
 #pragma once
 
 #include <omp.h>

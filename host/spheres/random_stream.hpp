@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file random_stream.hpp  Uniform random numbers that are the same on every platform.
+/// \file random_stream.hpp  Generates uniform random numbers that are the same on every platform.
 #pragma once
 
 #include <cstdint>

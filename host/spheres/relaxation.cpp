@@ -22,7 +22,8 @@ constexpr double longest_move = 0.1;  // per iteration, in mean mastic radii
 // Skin of the neighbour lists in mean mastic radii. With a smaller one lists are made too often, with a larger one they
 // are too long.
 constexpr double skin_share = 1.15;
-// Stiffness of pairs and walls of free aggregates, relative to mastic. Aggregates must not give way as mastic does.
+// Stiffness of a contact between two aggregates, or between an aggregate and a box wall, divided by that of a mastic
+// contact. It is larger so that aggregates overlap less than mastic.
 constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // the energy has stalled if it falls by less than this fraction in one window

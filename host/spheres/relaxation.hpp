@@ -19,15 +19,15 @@ struct WallDepth {
 struct Enclosure {
   /// Returns the depth of a point; if it is more than `reach` [m], any value above `reach` may be returned.
   std::function<WallDepth(const Vec3d& point, double reach)> depth;
-  /// Stiffness of the wall, relative to that of a pair of mastic spheres, at most 10. Spheres may be pressed hard
-  /// against the wall.
+  /// Stiffness of the wall, divided by the stiffness of a pair of mastic spheres, at most 10. Spheres may be pressed
+  /// hard against the wall.
   double stiffness = 10;
 };
 
 /// Minimises the energy ½·k·overlap² of all pairs and walls (model (21.1)) by moving the mastic, and the aggregates too
-/// unless they are fixed, until the energy has stalled. The walls are those of the box and, if its depth is given,
-/// `wall`. In `specimen` all aggregates must precede the mastic. The same input gives the same bits for any number of
-/// threads. Returns the number of iterations.
+/// unless they are fixed, until the energy has stalled. The walls are the walls of the box and, if its depth function
+/// is set, `wall`. In `specimen` all aggregates must precede the mastic. The same input gives the same bits for any
+/// number of threads. Returns the number of iterations.
 int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress,
           const Enclosure& wall = {});
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file size_law.cpp  Quantiles and means of the size laws, and stratified samples with a given total volume.
+/// \file size_law.cpp  Computes quantiles and means of the size laws, and draws stratified samples with a given total
+/// volume.
 #include "host/spheres/size_law.hpp"
 
 #include <algorithm>

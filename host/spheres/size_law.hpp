@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file size_law.hpp  Laws for the distribution of sphere diameters between two sieves.
+/// \file size_law.hpp  Defines laws for the distribution of sphere diameters between two sieves.
 #pragma once
 
 #include <cstdint>

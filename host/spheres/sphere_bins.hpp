@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sphere_bins.hpp  Spheres of similar size, sorted into the cells of a grid by their centres.
+/// \file sphere_bins.hpp  Sorts spheres of similar size into the cells of a grid by their centres.
 #pragma once
 
 #include <cstdint>

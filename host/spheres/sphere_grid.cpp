@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sphere_grid.cpp  Cells that list the spheres within reach.
+/// \file sphere_grid.cpp  Makes the cells, which list the spheres within reach.
 #include "host/spheres/sphere_grid.hpp"
 
 #include <algorithm>

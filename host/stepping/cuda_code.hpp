@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_code.hpp  Access to the CUDA backend, which is a plugin.
+/// \file cuda_code.hpp  Gives access to the CUDA backend, which is a plugin.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// names.cpp  Names of the stepper's options, and lists of device numbers as text.
+// names.cpp  Converts the stepper's options to their names, and lists of device numbers to text.
 #include "macadam/backend.hpp"
 
 namespace macadam {

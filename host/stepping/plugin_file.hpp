@@ -12,7 +12,7 @@ struct PluginFile {
   const char* symbol;  ///< C name of the table that it exports
   /// The table begins with this number, the interface of the build, followed by Macadam's version as a C string.
   int interface;
-  const char* makes;  ///< what a build needs to make it, in words
+  const char* makes;  ///< requirements for building it, in words, for the message
 };
 
 /// Returns the table of a plugin, which then stays loaded. The plugin is searched for in the folders of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// processor_code.cpp  The table of one processor generation. CMakeLists.txt compiles this file once for each
-// generation, with its own MACADAM_CODE as the name of the table.
+// processor_code.cpp  Defines the table of functions compiled for one processor generation. CMakeLists.txt compiles
+// this file once for each generation, with its own MACADAM_CODE as the name of the table.
 #include "host/stepping/processor_code.hpp"
 
 #include "host/harmonic/iterative/block_cocg.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file processor_code.hpp  Code whose speed depends on the SIMD registers of the processor. It is compiled once for
-/// each processor generation, and the newest that can run is chosen at run time.
+/// \file processor_code.hpp  Declares the code whose speed depends on the SIMD registers of the processor. It is
+/// compiled once for each processor generation, and the newest that can run is chosen at run time.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file dual_point.hpp  The point that has the same power with respect to four sites: a vertex of the power diagram.
+/// \file dual_point.hpp  Computes the point that has the same power with respect to four sites: a vertex of the power
+/// diagram.
 #pragma once
 
 #include "host/tessellation/weighted_sites.hpp"

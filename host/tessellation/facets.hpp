@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file facets.hpp  Facets of a power diagram inside the box, and the planes of the walls.
+/// \file facets.hpp  Makes the facets of a power diagram inside the box; defines the planes of the walls.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file polygon.hpp  Convex polygons in space: clipping by half-spaces, merging and dropping of vertices, area and
-/// centroid.
+/// \file polygon.hpp  Represents convex polygons in space: clips them by half-spaces, merges and drops vertices, and
+/// computes area and centroid.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file power_diagram.hpp  The regular triangulation of the spheres and its dual, computed in parts on several
+/// \file power_diagram.hpp  Computes the regular triangulation of the spheres and its dual, in parts on several
 /// threads.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file site_tree.hpp  A tree of bounding boxes over particles, for finding those near a point or a box.
+/// \file site_tree.hpp  Finds the particles near a point or a box by a tree of bounding boxes.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// triangulation.cpp  CGAL's regular triangulation with exact predicates; the only file that includes CGAL's
-// triangulations.
+// triangulation.cpp  Computes CGAL's regular triangulation with exact predicates. This is the only file that includes
+// CGAL's triangulations.
 #include "host/tessellation/triangulation.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

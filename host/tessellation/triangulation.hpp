@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file triangulation.hpp  The regular triangulation of particles as plain arrays, without CGAL types.
+/// \file triangulation.hpp  Computes the regular triangulation of particles as plain arrays, without CGAL types.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file weighted_sites.hpp  The sites of a regular triangulation: particles with the weight R², and six bounding sites
-/// far away.
+/// \file weighted_sites.hpp  Makes the sites of a regular triangulation: particles with the weight R², and six bounding
+/// sites far away.
 #pragma once
 
 #include <algorithm>

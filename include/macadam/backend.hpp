@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file backend.hpp  The options that decide which code runs a scene, and what this build and machine offer.
+/// \file backend.hpp  Defines the options that decide which code runs a scene, and reports what this build and machine
+/// offer.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file boundary.hpp  What is prescribed to walls and particles: displacements, forces, or rest.
+/// \file boundary.hpp  Defines what is prescribed for walls and particles: displacements, forces, or rest.
 #pragma once
 
 #include <array>

@@ -39,7 +39,7 @@ struct CalibrationOptions {
   /// specimens only.
   int seeds = 1;
   Misfit misfit = Misfit::modulus_and_phase;
-  /// As in FitOptions, for data without standard deviations.
+  /// Used for data without standard deviations, as in FitOptions.
   double e_star_deviation = 0.03, phase_deviation = 1;
   /// If the targets cannot be reached, returns the nearest values and a warning instead of an error.
   bool nearest = false;

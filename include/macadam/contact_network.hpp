@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_network.hpp  The contacts of a specimen, made from the facets of its tessellation: points, frames,
+/// \file contact_network.hpp  Makes the contacts of a specimen from the facets of its tessellation: points, frames,
 /// lever arms, area moments.
 #pragma once
 

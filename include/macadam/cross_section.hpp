@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cross_section.hpp  Cross-sections of a specimen: its Laguerre cells, cut exactly by a plane perpendicular to
-/// an axis.
+/// \file cross_section.hpp  Computes cross-sections of a specimen: its Laguerre cells, cut exactly by a plane
+/// perpendicular to an axis.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ struct CrossSection {
 };
 
 /// Cuts the box by a plane. The rectangle is clipped, for each particle, by the planes of equal power (weights R²) with
-/// its neighbours in the tessellation. If the plane contains a facet, the section is that of the cell above it.
+/// its neighbours in the tessellation. If the plane contains a facet, the section of the cell above it is used.
 ///
 /// \throws InputError for a plane outside the box.
 CrossSection cut(const Specimen& specimen, const Tessellation& tessellation, const SectionPlane& plane);

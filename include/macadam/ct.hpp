@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct.hpp  Images of computed tomography: reading, writing, and segmentation into phases and grains. Works only
+/// \file ct.hpp  Reads and writes images of computed tomography, and segments them into phases and grains. Works only
 /// if the library was built with ITK (MACADAM_CT).
 #pragma once
 
@@ -105,13 +105,13 @@ struct GivenRegion {
 enum class Denoising : std::uint8_t { diffusion, median, none };  ///< diffusion preserves edges
 enum class SegmentRecipe : std::uint8_t { own, paper };           ///< paper: the method of [1], section 3.2.1
 
-/// Two fragments of the watershed that touch. An inscribed radius is that of the largest sphere inside.
+/// Two fragments of the watershed that touch. An inscribed radius is the radius of the largest sphere inside.
 struct GrainCut {
   std::uint32_t a = 0, b = 0;  ///< numbers of the fragments, a < b
   Vec3d place{};               ///< middle of the face between them [m]
   double neck = 0;             ///< inscribed radius at the face, over the smaller inscribed radius of the two fragments
-  double solidity = 0;  ///< solidity is volume over volume of the convex hull: that of both fragments together over
-                        ///< that of each alone
+  double solidity = 0;  ///< Solidity is volume over volume of the convex hull. This is the solidity of both fragments
+                        ///< together, divided by their solidity apart (sum of volumes over sum of hull volumes).
   double valley = 0;    ///< grey value on the face; 0: mastic, 1: aggregate
   double margin = 0;    ///< positive: a boundary between two grains; negative: within one grain; near 0: doubtful
   bool cut = false;     ///< the decision: whether the fragments belong to two grains
@@ -172,7 +172,7 @@ struct Segmentation {
   /// Edge of a voxel of these images, in voxels of the scan; greater than 1: see segment_file().
   std::int64_t block = 1;
   std::size_t refined = 0;            ///< number of grains whose surfaces are finer than these images
-  std::vector<std::string> warnings;  ///< what a person should check
+  std::vector<std::string> warnings;  ///< points that a person should check
 };
 
 /// Segments a scan with known spacing into phases and grains. \throws InputError if the scan cannot be segmented: it is

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file error.hpp  Exceptions. A message says where the fault is, what was found and what was expected.
+/// \file error.hpp  Defines the exceptions. A message says where the fault is, what was found and what was expected.
 #pragma once
 
 #include <stdexcept>

@@ -60,8 +60,8 @@ struct FieldMesh {
   std::size_t cell_count() const { return offsets.size() - 1; }
 };
 
-/// Returns a mesh with one vertex per particle. `aggregates` (may be empty): those of a generated specimen, which have
-/// size classes.
+/// Returns a mesh with one vertex per particle. `aggregates`: the aggregates of a generated specimen, which have size
+/// classes; may be empty.
 FieldMesh particle_mesh(const Specimen& specimen, const std::vector<Aggregate>& aggregates);
 /// Returns a mesh with one line per contact, in network order, from centre to centre or from a centre to a wall.
 FieldMesh contact_mesh(const Specimen& specimen, const ContactNetwork& network);

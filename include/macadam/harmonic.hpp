@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file harmonic.hpp  The solver of the frequency domain: the steady state of a linear scene, (K*(s) + s²·M)·u = f for
-/// motions e^(s·t): docs/model.md, section 15.
+/// \file harmonic.hpp  Declares the solver of the frequency domain. It computes the steady state of a linear scene,
+/// (K*(s) + s²·M)·u = f for motions e^(s·t): docs/model.md, section 15.
 ///
 /// It uses the same contact network, area moments and wall contacts as the time stepping, with the initial geometry. So
 /// it is both the accuracy reference of every explicit run and the fast way to |E*| and φ.
@@ -34,7 +34,7 @@ struct HarmonicOptions {
   /// Largest relative residual ‖f − K·u‖ / ‖f‖, in excess of what the rounding of u alone causes in K·u.
   double tolerance = 1e-11;
   LinearMethod linear = LinearMethod::automatic;
-  /// Where the iterative solver runs, cpu or cuda (automatic: as select_backend()). Everything else runs on the CPU.
+  /// Backend of the iterative solver, cpu or cuda (automatic: as select_backend()). Everything else runs on the CPU.
   Backend backend = Backend::cpu;
   DeviceList devices = {};          ///< for cuda; the first one becomes the current device of the calling thread
   std::function<bool()> stop = {};  ///< called between iterations; true ends a solution with InterruptedError
@@ -99,9 +99,9 @@ class Harmonic {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Returns the state from which an explicit run is periodic at once: that of `motion` (HarmonicResult::motion, solved
-/// with the inertia and damping of the run) under the loading without its ramp. A chain is f = k*(ω)·x, x_l = f/(k_l +
-/// iω·η_l).
+/// Returns the state from which an explicit run is periodic at once. It is the state of `motion`
+/// (HarmonicResult::motion, solved with the inertia and damping of the run) under the loading without its ramp. The
+/// states of a chain follow from f = k*(ω)·x and x_l = f/(k_l + iω·η_l).
 StartState steady_start(const ContactNetwork& network, const LawTable& laws,
                         const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading);
 

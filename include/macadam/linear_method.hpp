@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_method.hpp  The methods that solve the linear systems of the frequency domain.
+/// \file linear_method.hpp  Lists the methods that solve the linear systems of the frequency domain.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file numeric.hpp  Small vectors that the CPU (scalars or SIMD packs) and devices use in the same code.
+/// \file numeric.hpp  Defines small vectors that the CPU (scalars or SIMD packs) and devices use in the same code.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file phantom.hpp  Phantoms: synthetic scans of generated specimens, for which the truth is known. Works only if the
-/// library was built with ITK (MACADAM_CT).
+/// \file phantom.hpp  Makes phantoms, which are synthetic scans of generated specimens, for which the truth is known.
+/// Works only if the library was built with ITK (MACADAM_CT).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ranks.hpp  Ranks: processes that step one specimen together, on one host or several, each with its own device.
+/// \file ranks.hpp  Declares ranks, which are processes that step one specimen together, on one host or several, each
+/// with its own device.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ class Ranks {
   /// Number of processes on this process's host.
   virtual int count_on_host() const = 0;
 
-  /// Overwrites `size` bytes in all other processes by those of the first. Waits for all processes. \throws RunError
+  /// Copies `size` bytes from the first process to all others. Waits for all processes. \throws RunError
   virtual void take_of_first(void* data, std::size_t size) = 0;
   /// Returns the smallest value of all ranks. Waits for all processes. \throws RunError
   virtual double least(double value) = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe.hpp  A mix design by mass, as used in laboratories, and the volumes that a specimen needs.
+/// \file recipe.hpp  Defines a mix design by mass, as used in laboratories, and computes the volumes that a specimen
+/// needs.
 ///
 /// Aggregate above the cut size becomes particles, one size class between every two sieves. Finer aggregate, filler and
 /// binder together are the mastic. Formulas: maximum density EN 12697-5 (mathematical procedure); air voids, voids in

@@ -42,7 +42,7 @@ struct ManyOptions {
   std::function<void(std::size_t job, const std::string& stage, double share)> progress;
   std::function<void(std::size_t job, const std::string& warning)> warn;
   std::function<void(std::size_t job, const JobOutcome& outcome)> done;
-  /// As Watcher::stop; called by several threads. Once it returns true, no scene is begun any more.
+  /// Has the meaning of Watcher::stop; called by several threads. Once it returns true, no further scene is begun.
   std::function<bool()> stop;
 };
 

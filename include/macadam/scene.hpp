@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene.hpp  A scene: the complete description of a run, read from a file and checked before any work.
+/// \file scene.hpp  Defines a scene, the complete description of a run, which is read from a file and checked before
+/// any work.
 #pragma once
 
 #include <array>
@@ -95,7 +96,7 @@ struct Scene {
 
 /// Returns `kind` in `[loading]`.
 const char* kind_of(const Experiment& experiment);
-/// Returns the result files that a run of this experiment may write, besides those of every run.
+/// Returns the result files that a run of this experiment may write, in addition to the files that every run writes.
 std::vector<std::string> files_of(const Experiment& experiment);
 /// Returns whether the experiment may be stepped in time (method "explicit").
 experiments::Stepping stepping_of(const Experiment& experiment);
@@ -112,13 +113,13 @@ bool has_fields(const Scene& scene);
 ///
 /// \throws InputError with file, line, what was found, what was expected.
 Scene read_scene(const std::filesystem::path& file);
-/// Reads a scene from `text` in place of the file's contents. Messages name `file`, and paths are relative to its
+/// Reads a scene from `text` instead of the file's contents. Messages name `file`, and paths are relative to its
 /// folder. Without `lines`, messages do not name lines, because the user has not seen the text.
 Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines = true);
 
 /// Returns a scene's laws at a temperature [°C]. Viscosities are NaN if a shift law has no value there.
 LawTable laws_at(const Scene& scene, double temperature);
-/// Does the same for other laws in place of the scene's, given at the scene's temperature.
+/// Does the same for `laws`, given at the scene's temperature, instead of the scene's laws.
 LawTable laws_at(const Scene& scene, double temperature, LawTable laws);
 
 /// Returns log10 a_T at a temperature if all laws with viscosities follow the same shift, so that the specimen follows

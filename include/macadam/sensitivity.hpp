@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sensitivity.hpp  Derivatives of E* by the parameters of a scene, from one solution of the frequency domain:
-/// docs/model.md, section 16.
+/// \file sensitivity.hpp  Computes the derivatives of E* with respect to the parameters of a scene, from one solution
+/// of the frequency domain: docs/model.md, section 16.
 ///
 /// E* = H/A · uᵀ·(K*(s) − inertia·M)·u at unit displacement of the top wall is stationary in u. Therefore dE*/dθ = H/A
 /// · uᵀ·(∂K*/∂θ)·u, one sum over the contacts of the solution.

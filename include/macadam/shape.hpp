@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape.hpp  Shapes of aggregates: closed triangulated surfaces, which can be read, checked, repaired, measured,
-/// generated and filled with spheres.
+/// \file shape.hpp  Declares functions for shapes of aggregates. Shapes are closed triangulated surfaces, which can be
+/// read, checked, repaired, measured, generated and filled with spheres.
 #pragma once
 
 #include <array>
@@ -48,7 +48,6 @@ struct SurfaceVerdict {
 /// (1e-3). Equal points are joined, and polygons are cut into triangles. Points at open edges are joined if they differ
 /// only by the rounding of single precision, 5e-7 of the surface's size; a closed surface keeps every point. \throws
 /// InputError naming the file (and the line, in text files) if it cannot be read, has no facet, or has numbers that are
-/// not finite.
 /// not finite.
 Surface read_surface(const std::filesystem::path& file, double scale = 1);
 

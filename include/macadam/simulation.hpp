@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file simulation.hpp  The main job: runs a scene and writes its results to a folder.
+/// \file simulation.hpp  Runs a scene and writes its results to a folder, which is the main job of the library.
 #pragma once
 
 #include <cstdint>
@@ -59,11 +59,12 @@ struct RunResult {
   PhaseSeconds phases;                 ///< a phase is included once it has ended
   std::vector<std::string> decisions;  ///< choices that the scene left open, and the reason for each
   std::vector<Skip> skips;
-  std::vector<std::string> warnings;     ///< what a reader of the results must know, one sentence each
-  std::string solver;                    ///< what ran, in words: Stepper::description(), or "harmonic, …"
+  std::vector<std::string> warnings;  ///< warnings for the reader of the results, one sentence each
+  std::string solver;  ///< description of the solver that ran: Stepper::description(), or "harmonic, …"
   Backend backend = Backend::automatic;  ///< the backend that ran
 
-  /// Return the cyclic test as it was stepped, or as it was solved. \throws std::bad_variant_access if it was not.
+  /// Returns the stepped cyclic test, or the cyclic test solved in the frequency domain. \throws
+  /// std::bad_variant_access if the run was another one.
   const experiments::SteppedCyclic& stepped() const { return std::get<experiments::SteppedCyclic>(found); }
   const experiments::HarmonicCyclic& harmonic() const { return std::get<experiments::HarmonicCyclic>(found); }
 };
@@ -72,7 +73,7 @@ struct RunResult {
 /// ends the work.
 using Progress = std::function<void(const std::string& stage, double share)>;
 
-/// Returns the results of a run as lines for people.
+/// Returns the results of a run as lines of text to be printed.
 std::string results_table(const RunResult& result);
 
 /// Makes specimen (reads or generates it), tessellation and network; checks that every pair that is present has a law.
@@ -86,7 +87,6 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
 ///
 /// \throws InputError also if the folder holds a run, whose results these files would replace, or if another command is
 /// writing into it; RunError.
-/// command is writing into it; RunError.
 Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
                          const std::vector<SectionPlane>& sections = {}, const Progress& progress = {});
 
@@ -103,9 +103,9 @@ struct Watcher {
   /// frequency domain. If it returns true, the run ends; a stepped run leaves a checkpoint.
   std::function<bool()> stop;
   /// Called before the steps of each frequency of a cyclic test on backend cuda, with the number of steps left,
-  /// including all of this frequency. Returns the devices that take the steps. An empty list means those of the
-  /// frequency before, or of the scene. If another device cannot take them, the one used before continues, and this is
-  /// not called again. The bits are the same on any device.
+  /// including all of this frequency. Returns the devices that take the steps. An empty list means the devices of the
+  /// previous frequency or, at first, of the scene. If the steps cannot be taken on another device, the previous device
+  /// continues, and this function is not called again. The results have the same bits on any device.
   std::function<DeviceList(std::int64_t steps)> devices;
   /// Called after every `every` steps of a stepped test, with the frequency of a cyclic one, otherwise with 0. `every`
   /// = 0: never.
@@ -120,21 +120,21 @@ struct Watcher {
 /// frequency takes less than ten times as long as saving, summary.json is saved less often, so that saving takes at
 /// most about a tenth of the time.)
 ///
-/// A stepped run of a scene that was read from a file writes `checkpoint.h5` as it goes (OutputSpec::checkpoint). It is
-/// replaced by renaming, and the one before it is kept as `checkpoint-previous.h5`. A checkpoint that cannot be written
-/// causes a warning. At the end the run removes its own checkpoints and those of the same scene, but no others; its
-/// first checkpoint replaces any that is there. Backend reference writes none.
+/// A stepped run of a scene that was read from a file writes `checkpoint.h5` as it goes (OutputSpec::checkpoint). The
+/// file is replaced by renaming, and the previous checkpoint is kept as `checkpoint-previous.h5`. A checkpoint that
+/// cannot be written causes a warning. At the end the run removes its own checkpoints and those of the same scene, but
+/// no others; its first checkpoint replaces an existing one. Backend reference writes none.
 ///
-/// `resume` continues from the checkpoint to the same bits as a run that was never interrupted. If the newest one is
-/// missing or damaged, a warning says so, and the run continues from the one before.
+/// `resume` continues from the checkpoint to the same bits as a run that was never interrupted. If the newest
+/// checkpoint is missing or damaged, there is a warning, and the run continues from the previous one.
 ///
 /// \throws InputError also for a checkpoint that is missing, damaged, or of another scene, version, backend or
 /// precision, and if another command is writing into the folder; InterruptedError; RunError (DivergenceError names
 /// particle and time), also for a tolerance whose result cannot be right.
 ///
-/// All processes that join_ranks() has joined must call this with the same scene; the first one has the files. What
-/// `watcher` does with a stepper it must do in all of them. If one fails, the others wait for it until
-/// Ranks::end_all().
+/// All processes that join_ranks() has joined must call this with the same scene; the first one has the files. If
+/// `watcher` calls functions of a stepper, it must call them in all processes. If one process fails, the others wait
+/// for it until Ranks::end_all().
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
 /// Does the same with an existing preparation, of this scene or of one with the same particles.
 RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,

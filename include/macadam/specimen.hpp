@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen.hpp  The particles of a specimen in its box: reading, writing, generating and checking them.
+/// \file specimen.hpp  Defines the particles of a specimen in its box, and reads, writes, generates and checks them.
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@ struct VoidSphere {
 };
 
 /// Spheres in a box. All vectors except `voids` have one entry per particle; the order is the user's and is kept in
-/// every output. Voids are not particles: they have no mass, motion or contacts. Where cells are numbered, in the
-/// tessellation and in files, the cells of voids follow those of the particles.
+/// every output. Voids are not particles: they have no mass, motion or contacts. In the numbering of cells, in the
+/// tessellation and in files, the cells of voids follow the cells of particles.
 struct Specimen {
   Box box;
   std::vector<Vec3d> centre;   ///< [m]
@@ -57,11 +57,11 @@ struct Specimen {
   Phase phase_of(std::int32_t cell) const {
     return static_cast<std::size_t>(cell) < size() ? phase[static_cast<std::size_t>(cell)] : Phase::air_void;
   }
-  /// For messages: returns the line in `source` of a particle or void, given by its cell; 0: no line.
+  /// Returns the line in `source` of a particle or void, given by its cell, for messages; 0: no line.
   int line_of(std::int64_t cell) const { return first_line > 0 ? first_line + static_cast<int>(cell) : 0; }
 };
 
-/// Returns a specimen without voids that has a particle for every sphere with a cell, voids last.
+/// Returns a copy in which the voids have become particles, after all other particles.
 Specimen with_voids_as_cells(const Specimen& specimen);
 
 /// Checks every particle and void: finite centre inside the box; finite positive radius; `body` −1 exactly for mastic;
@@ -100,8 +100,8 @@ struct MasticSpec {
   int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
-/// Air voids with sizes of their own: spheres that overlap neither each other nor the aggregates; radii are uniform in
-/// a range.
+/// Air voids: spheres that overlap neither each other nor the aggregates. Their radii are distributed uniformly in a
+/// range.
 struct VoidSpec {
   double radius_min = 0, radius_max = 0;  ///< [m]
   std::optional<double> fraction;         ///< Σ sphere volumes / box, or …
@@ -138,8 +138,8 @@ struct ShapeSpec {
   bool allow_short = false;  ///< insertion: a class that finds no more space may stay below the requested amount
   PlacementTest test = PlacementTest::surfaces;  ///< insertion
   double gap = 0.01;  ///< packing: smallest distance between two surfaces, over the smaller D^I
-  /// Stiffness of the shapes' surfaces against the mastic while it relaxes, over that of a pair of mastic spheres, 0 to
-  /// 10. With 0, only the spheres that fill the shapes keep the mastic out.
+  /// Stiffness with which the surfaces of the shapes resist the mastic while it relaxes, divided by the stiffness of a
+  /// pair of mastic spheres, 0 to 10. With 0, only the spheres that fill the shapes keep the mastic out.
   double hold_out = 0;
 };
 

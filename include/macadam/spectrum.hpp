@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file spectrum.hpp  Relaxation and creep of a specimen at any time, computed without time steps.
+/// \file spectrum.hpp  Computes relaxation and creep of a specimen at any time, without time steps.
 ///
 /// A network of springs and dashpots without inertia relaxes as a sum of exponentials, E(t) = E_∞ + Σ g_i·e^(−t/τ_i)
 /// with positive g_i. Its solutions at some real s > 0 (the Laplace variable) span a space of motions. In this space
@@ -57,11 +57,12 @@ struct CreepSeries {
 /// that is not a chain with positive constants.
 PronySeries prony_series(const Law& law);
 
-/// Returns the creep of the same material, from the zeros that lie between the poles. \throws InputError for a series
-/// whose moduli are all zero.
+/// Returns the creep of the same material. Its times follow from the zeros of the relaxation, which lie between its
+/// poles. \throws InputError for a series whose moduli are all zero.
 CreepSeries creep_series(const PronySeries& relaxation);
 
-/// Returns a series with fewer units, as many as reproduce E(0), and E(t) between two times, to a relative tolerance.
+/// Returns a series of a few units of `series`, with new moduli, that reproduces E(0), and E(t) from `shortest` to
+/// `longest` [s], to a relative tolerance.
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance);
 
 /// Returns the largest relative difference of E(t) from `exact`, at t = 0 and between two times.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper.hpp  Explicit time stepping of a contact network: the interface that all backends share.
+/// \file stepper.hpp  Declares explicit time stepping of a contact network: the interface that all backends share.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@
 
 namespace macadam {
 
-/// A state of motion to start from. Displacements and chains are those of step −1. The stepper takes the step from −1
-/// to 0 when it is made, and then has the forces of step 0. With updated geometry, contact frames are carried from the
+/// A state of motion to start from. Displacements and chains belong to step −1. The stepper takes the step from −1 to 0
+/// when it is made, and then has the forces of step 0. With updated geometry, contact frames are carried from the
 /// undeformed specimen to step −1 in one step. docs/model.md, section 18.
 struct StartState {
   std::vector<Vec3d> displacement, rotation;  ///< at step −1, specimen order [m] [rad]
@@ -56,9 +56,9 @@ struct StepperOptions {
   Boundary boundary;        ///< drives walls, fixes and loads particles; the drives' dt() must be dt
   const StartState* start = nullptr;  ///< only read by make_stepper(); with it, a cyclic drive must not have a ramp
   /// Mixed and single precision may take steps in blocks, within which viscoelastic states are not updated (model
-  /// (6.8)). This is the smallest number of blocks in the shortest time of the drives and the laws. The error of a
-  /// block is of second order in its length. If no law has a memory and the geometry is fixed, blocks are exact, and a
-  /// tenth of this number is used.
+  /// (6.8)). This is the smallest number of blocks in the shortest characteristic time of the drives and the laws. The
+  /// error of a block is of second order in its length. If no law has a memory and the geometry is fixed, blocks are
+  /// exact, and a tenth of this number is used.
   double blocks = 4000;
   /// Number of steps from one observe() to the next; 0: not known. Blocks end there if possible.
   std::int64_t observed_every = 0;
@@ -70,7 +70,7 @@ struct Inertia {
   std::vector<double> inertia;  ///< 2/5·m·R² [kg·m²]
 };
 
-/// Returns those of solid spheres, model (1.1).
+/// Returns mass and moment of inertia of solid spheres, model (1.1).
 Inertia make_inertia(const Specimen& specimen, double density_aggregate, double density_mastic);
 
 /// Motion of all particles, specimen order.
@@ -147,9 +147,9 @@ struct ContactState {
   /// Eq. 8 about x0, in the contact's current frame (n, s, t), from the current displacements and rotations: opening
   /// [m], its slopes along s and t, slips along s and t [m], twist.
   std::vector<std::array<double, 6>> relative;
-  /// As StartState::chain: f and the states of the Kelvin units, of the six relative displacements or, in points form,
-  /// of the three of each point, one point after another. If steps are taken in blocks, the states of the units are
-  /// those at the beginning of the block.
+  /// Chains in the format of StartState::chain: f and the states of the Kelvin units, for the six relative
+  /// displacements or, in points form, for the three of each point, one point after another. If steps are taken in
+  /// blocks, the states of the units belong to the beginning of the block.
   std::vector<double> chain;
   std::vector<std::size_t> chain_begin;  ///< contact c has the numbers from chain_begin[c] to chain_begin[c + 1]
   /// Number of broken points over number of points of each contact. Empty if no law of the scene can break.
@@ -196,9 +196,9 @@ class Stepper {
   /// Sets the half-step velocities and spins (specimen order), for example of free assemblies in tests.
   virtual void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) = 0;
 
-  /// Returns everything that advance() changes. A stepper made from the same scene and options by the same program,
-  /// given this by set_state(), continues to the same bits. \throws RunError for backend reference, which has no
-  /// checkpoints.
+  /// Returns everything that advance() changes. A stepper made from the same scene and options by the same program
+  /// gives the same bits from here on if set_state() gives it these arrays. \throws RunError for backend reference,
+  /// which has no checkpoints.
   virtual std::vector<StateArray> state() const = 0;
 
   /// Restores what state() returned, or changes nothing. \throws RunError naming the array that does not fit, and as
@@ -232,9 +232,9 @@ class Stepper {
   }
 };
 
-/// Observes a stepper now and then `n` times after every `every` steps. Calls f(observation), which may read the
-/// stepper.
-/// \throws DivergenceError naming the first particle whose motion is out of range.
+/// Observes a stepper at once, and then `n` more times, each after `every` further steps. Each time calls
+/// f(observation), which may read the stepper. \throws DivergenceError naming the first particle whose motion is out of
+/// range.
 void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::function<void(const Observation&)>& f);
 
 /// Returns whether no motion of the particles can turn any of them: no pair has shear stiffness, and the centroid of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation.hpp  The Laguerre–Voronoi diagram of a specimen, clipped exactly by its box: docs/model.md,
-/// section 2.
+/// \file tessellation.hpp  Computes the Laguerre–Voronoi diagram of a specimen, clipped exactly by its box:
+/// docs/model.md, section 2.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file version.hpp  The version of Macadam.
+/// \file version.hpp  Returns the version of Macadam.
 #pragma once
 
 namespace macadam {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file box_motion.hpp  The rigid motions of a box of particles: the motion of a particle that they give, and the load
-/// on them by a load on a particle.
+/// \file box_motion.hpp  Converts the rigid motions of a box of particles to the motion of one of its particles, and a
+/// load on a particle to the load on the rigid motions.
 #pragma once
 
 #include "kernels/contact_kinematics.hpp"

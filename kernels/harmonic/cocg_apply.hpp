@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_apply.hpp  The kernels apply and step of the iteration (cocg_view.hpp): q = K·p with one warp per body,
-/// then α.
+/// \file cocg_apply.hpp  Defines the kernels apply and step of the iteration (cocg_view.hpp). apply computes q = K·p
+/// with one warp per body, step computes α.
 #pragma once
 
 #include <cuda_pipeline.h>
@@ -21,7 +21,7 @@ struct alignas(16) StagedEnds {
   static constexpr unsigned parts = sizeof(ContactEnd) / 16;
   uint4 end[N][parts + 1];
 
-  /// Starts the asynchronous copy of `count` ends, or as many as fit. Called by a whole warp.
+  /// Starts the asynchronous copy of `count` ends, or of N if there are more. Called by a whole warp.
   __device__ void send(const ContactEnd* from, unsigned count) {
     const auto* at = reinterpret_cast<const uint4*>(from);
     for (unsigned part = threadIdx.x % 32; part < N * parts; part += 32) {
@@ -49,7 +49,7 @@ struct WarpBodies {
 
   __device__ WarpBodies(const std::size_t* rows, const Segment& of)
       : row_begin(rows), segment(of), first_row(rows[of.first]) {}
-  /// Returns the body with this number among those of the warp.
+  /// Returns the index of body number `number` of this warp.
   __device__ int body(int number) const {
     return segment.first + static_cast<int>(threadIdx.x / 32) + number * static_cast<int>(cocg_threads / 32);
   }
@@ -79,8 +79,8 @@ struct WarpBodies {
   }
 };
 
-/// q = K·p. W threads, one per lane, compute one contact; the 32/W slices of a warp divide the contacts of a body. pᵀq
-/// is summed for every box.
+/// Computes q = K·p. W threads, one per lane, compute one contact; the 32/W slices of a warp divide the contacts of a
+/// body. pᵀq is summed for every box.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads, 2)
     cocg_apply(CocgView<F> d, unsigned first_segment, const double* from) {
@@ -219,7 +219,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
   });
 }
 
-/// α of every load, by one thread block. `first`: no iteration yet; α = 1 gives r = f − K·x.
+/// Computes α of every load, by one thread block. `first`: there was no iteration yet; α = 1 then gives r = f − K·x.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_step(CocgView<F> d, bool first) {
   constexpr unsigned W = 2 * F;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_coarse.hpp  The kernel coarse of the iteration (cocg_view.hpp): the coarse correction of the residual,
-/// and the decision which loads are solved.
+/// \file cocg_coarse.hpp  Defines the kernel coarse of the iteration (cocg_view.hpp). It computes the coarse correction
+/// of the residual and decides which loads are solved.
 #pragma once
 
 #include "kernels/harmonic/cocg_view.hpp"
 
 namespace macadam::kernels {
 
-/// Decides which loads are solved, and computes β = rᵀz / (rᵀz before). A solved load no longer changes. By one thread
-/// block.
+/// Decides which loads are solved, and computes β = rᵀz / (rᵀz before). A solved load no longer changes. Called by one
+/// thread block.
 template <int F>
 __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coarse) {
   constexpr int W = 2 * F;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_lanes.hpp  How threads divide the complex numbers of F loads.
+/// \file cocg_lanes.hpp  Defines how threads divide the complex numbers of F loads among them.
 ///
-/// Every vector holds the real and imaginary parts of F loads side by side: W = 2F lanes. A thread works on one lane,
-/// its number modulo W; the partner of a real part is its imaginary part. Linear operations are computed lane by lane.
-/// In memory, a lane and its partner load whole complex numbers, every second component each, so that no memory line is
-/// loaded twice.
+/// Every vector holds the real and imaginary parts of F loads side by side: W = 2F lanes. A thread works on one lane:
+/// its thread number modulo W. The partner of a lane holds the other part (real or imaginary) of the same complex
+/// number. Linear operations are computed lane by lane. In memory, a lane and its partner load whole complex numbers,
+/// every second component each, so that no memory line is loaded twice.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -31,7 +31,8 @@ __device__ inline double2 over(double2 a, double2 b) {
   return {scale * (a.x * x + a.y * y) / square, scale * (a.y * x - a.x * y) / square};
 }
 
-/// Components 0, 2, 4 of a body's six in an even lane, 1, 3, 5 in an odd one, of the lane's load, as complex numbers.
+/// Three of a body's six components, as complex numbers of the lane's load: components 0, 2 and 4 in an even lane, 1, 3
+/// and 5 in an odd one.
 struct ComplexThree {
   double2 z[3];
 };
@@ -51,7 +52,7 @@ __device__ ComplexThree load_three(const double* vector, std::size_t body, unsig
   const double2* at = three_at<W>(vector, body, lane);
   return {{at[0], at[W], at[2 * W]}};
 }
-/// The same for a vector that the kernel does not change.
+/// Does the same for a vector that the kernel does not change.
 template <unsigned W>
 __device__ ComplexThree load_constant_three(const double* vector, std::size_t body, unsigned lane) {
   const double2* at = three_at<W>(vector, body, lane);
@@ -82,8 +83,8 @@ __device__ inline ComplexThree to_three(const double (&six)[6], unsigned lane) {
   return out;
 }
 
-/// Sums over the slices of a warp (groups of W threads). Each thread holds one or two of the six sums: `count` of them,
-/// from number `first` on.
+/// Result of spread_sums(): six sums, one per component, over the slices of a warp (a slice is W consecutive threads).
+/// The sums are distributed: this thread holds sums first … first + count − 1; `count` may be 0.
 template <unsigned W>
 struct SpreadSums {
   static constexpr int most = W <= 4 ? 1 : 2;
@@ -91,8 +92,8 @@ struct SpreadSums {
   int first, count;
 };
 
-/// Returns Σ of v over the threads of a warp that share a lane. In each step, one of two threads adds up half of the
-/// numbers for both, and the other one the other half.
+/// Returns the sums of v over the threads of a warp that work on the same lane. In each step two threads exchange
+/// numbers: one adds up one half of the numbers for both, the other thread the other half.
 template <unsigned W>
 __device__ SpreadSums<W> spread_sums(const double (&v)[6]) {
   double held[6];
@@ -102,7 +103,7 @@ __device__ SpreadSums<W> spread_sums(const double (&v)[6]) {
 #pragma unroll
   for (unsigned far = W; far < 32; far *= 2) {
     const bool upper = threadIdx.x & far;
-    if (size == 1) {  // both hold the same number: only one of them counts it
+    if (size == 1) {  // both threads now hold the same sum; only the lower one keeps it
       held[0] += __shfl_xor_sync(0xffffffffu, held[0], far);
       if (upper) out.count = 0;
       continue;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_memory.hpp  Device arrays of a linear system and of an iteration, for a team of devices.
+/// \file cocg_memory.hpp  Allocates the device arrays of a linear system and of an iteration for a team of devices.
 ///
 /// Each device works on consecutive segments (cocg_view.hpp). The sums of each box are written to all devices. So each
-/// device computes the same scalars itself and waits for none of another device; it only reads the motions of bodies
-/// across the cut.
+/// device computes the same scalars itself and need not wait for scalars of another device; it only reads the motions
+/// of bodies across the cut.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_setup.hpp  Kernels that run before and after the iterations: preconditioner blocks, right-hand sides,
-/// start and solution.
+/// \file cocg_setup.hpp  Defines the kernels that run before and after the iterations. They make preconditioner blocks,
+/// right-hand sides and the start, and write the solution.
 #pragma once
 
 #include <cuda_runtime.h>

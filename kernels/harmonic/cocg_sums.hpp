@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_sums.hpp  Sums over the threads of a block and over the blocks of a launch, in a fixed order.
+/// \file cocg_sums.hpp  Sums over the threads of a block and over the blocks of a launch, always in the same order.
 #pragma once
 
 #include "kernels/harmonic/cocg_lanes.hpp"

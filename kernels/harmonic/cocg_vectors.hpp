@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_vectors.hpp  The kernels advance and turn of the iteration (cocg_view.hpp): solution, residual and
-/// direction, with W threads per body.
+/// \file cocg_vectors.hpp  Defines the kernels advance and turn of the iteration (cocg_view.hpp). They update solution,
+/// residual and direction, with W threads per body.
 #pragma once
 
 #include "kernels/harmonic/cocg_view.hpp"
@@ -8,7 +8,7 @@
 
 namespace macadam::kernels {
 
-/// x += α·p, r −= α·q, z = K_ii⁻¹·r, and the sums of every box (box_sums).
+/// Computes x += α·p, r −= α·q, z = K_ii⁻¹·r, and the sums of every box (box_sums).
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_advance(CocgView<F> d, unsigned first_segment) {
   constexpr unsigned W = 2 * F;
@@ -23,7 +23,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_advance(CocgView<F> d, unsi
     const int asked = base + static_cast<int>(threadIdx.x / W);
     const bool active = asked < segment.end;
     const std::size_t body = static_cast<std::size_t>(active ? asked : segment.first);
-    // All loads come before the first store; otherwise each load would wait for the one before.
+    // All loads from memory come before the first store; otherwise each would wait until the previous one has finished.
     ComplexThree x = load_three<W>(d.x, body, lane), r = load_three<W>(d.r, body, lane);
     const ComplexThree p = load_three<W>(d.p, body, lane), q = load_three<W>(d.q, body, lane);
     double inverse[packed_block];
@@ -73,7 +73,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_advance(CocgView<F> d, unsi
   sum_over_box<box_sums>(d, number, first_segment, sums, &CocgScratch::sums, put);
 }
 
-/// p = z + coarse correction − free motions + β·p.
+/// Computes p = z + coarse correction − free motions + β·p.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads, 3) cocg_turn(CocgView<F> d, unsigned first_segment) {
   constexpr unsigned W = 2 * F;

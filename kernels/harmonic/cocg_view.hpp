@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_view.hpp  The arrays, sums and indices that the kernels of the iteration share. The iteration is the
-/// conjugate gradient method for complex symmetric matrices (COCG), preconditioned as linear_system.hpp says. Each
+/// \file cocg_view.hpp  Defines the arrays, sums and indices that the kernels of the iteration share. The iteration is
+/// the conjugate gradient method for complex symmetric matrices (COCG), preconditioned as linear_system.hpp says. Each
 /// iteration runs five kernels:
 ///
 ///   turn     p = z + coarse correction − free motions + β·p

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_end.hpp  A contact as seen from one of its ends, and the load that it puts on that end.
+/// \file contact_end.hpp  Stores a contact as seen from one of its ends, and computes the load that it puts on that
+/// end.
 ///
 /// Each contact is computed for both ends separately. This costs less than coordinating who adds where, and gives the
 /// same bits for any number of threads.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_solver.cu  The solver of the frequency domain on devices: uploads the system, and enqueues the iterations
-// (cocg_view.hpp lists their kernels).
+// device_solver.cu  Solves linear systems of the frequency domain on devices: uploads a system, and enqueues the
+// iterations (cocg_view.hpp lists their kernels).
 #include <limits>
 
 #include "kernels/device_room.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_system.hpp  The linear system K*(s) + s²·M of a network and its real preconditioner, as arrays in the
-/// order of a layout.
+/// \file linear_system.hpp  Stores the linear system K*(s) + s²·M of a network and its real preconditioner as arrays in
+/// the order of a layout.
 #pragma once
 
 #include <array>
@@ -96,7 +96,7 @@ class DeviceSolver {
   virtual void solution(std::size_t load, const TakePart& take) = 0;
 };
 
-/// As CudaCode::make_solver. Only in builds with CUDA.
+/// Does the same as CudaCode::make_solver. Only in builds with CUDA.
 std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, const DeviceList& devices,
                                                  std::int64_t& loose);
 

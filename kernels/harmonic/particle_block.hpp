@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file particle_block.hpp  The 6×6 stiffness of one particle while all others are at rest, and its inverse.
+/// \file particle_block.hpp  Computes the 6×6 stiffness of one particle while all others are at rest, and its inverse.
 #pragma once
 
 #include "kernels/harmonic/contact_end.hpp"
@@ -17,8 +17,8 @@ MACADAM_HD Twist<T> to_twist(const T* v) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
-/// Adds one contact to the block: block[6·c + r] += component r of the load that holds a unit motion c. `k`, `alpha`:
-/// of the contact's pair, k real.
+/// Adds one contact to the block: block[6·c + r] += component r of the load that is needed for a unit motion c of the
+/// particle. `k` (real) and `alpha` belong to the contact's pair.
 MACADAM_HD void add_block(const ContactEnd& e, double k, double alpha, double (&block)[36]) {
   for (int c = 0; c < 6; ++c) {
     double unit[6] = {0, 0, 0, 0, 0, 0}, load[6];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_precision.cpp  The lowest precision whose rounding is a small part of the tolerance, within the range of
-// measurements.
+// choose_precision.cpp  Chooses the lowest precision whose rounding error is a small part of the tolerance, within the
+// range of the measurements.
 #include "host/experiments/cyclic/choose_precision.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cyclic.cpp  The cyclic test by either method.
+// cyclic.cpp  Implements the cyclic test for both methods.
 #include "host/experiments/cyclic/methods.hpp"
 #include "host/experiments/experiment.hpp"
 

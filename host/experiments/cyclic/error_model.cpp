@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// error_model.cpp  Estimates from measurements on specimens of asphalt (docs/accuracy.md), with a factor of safety.
+// error_model.cpp  Estimates errors from measurements on specimens of asphalt (docs/accuracy.md), with a factor of
+// safety.
 #include "host/experiments/cyclic/error_model.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ double stiffness_at(const Law& any, double omega) {
 
 namespace {
 
-/// Returns the least and the largest |k*(ω)| of the pair types that occur.
+/// Returns the smallest and the largest |k*(ω)| of the pair types that occur.
 std::pair<double, double> stiffness_range(const Scene& scene, const Preparation& prepared, double omega) {
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -68,9 +69,9 @@ RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, do
           stiffest / softest, density_scaling * inertia_estimate(scene, prepared, frequency)};
 }
 
-// A block takes 1/N of the shortest time. The error of a contact within a block is a saw-tooth of height (2π/N)²/8
-// that returns to zero at the end of the block; the fundamental keeps a part of it. Measured: at most (2π/N)²/38, for N
-// = 30 to 4,000, both binders, 2 to 20 Hz, one to three cycles (bench/block_lengths.cpp,
+// A block takes 1/N of the shortest characteristic time. The error of a contact within a block is a saw-tooth of height
+// (2π/N)²/8 that returns to zero at the end of the block; a part of it remains at the frequency of the load. Measured:
+// at most (2π/N)²/38, for N = 30 to 4,000, both binders, 2 to 20 Hz, one to three cycles (bench/block_lengths.cpp,
 // bench/results/block-lengths.csv).
 double block_error(double blocks) {
   const double turn = 2 * std::numbers::pi / blocks;
@@ -78,21 +79,21 @@ double block_error(double blocks) {
 }
 double blocks_within(double error) { return std::min(4000.0, 2 * std::numbers::pi / std::sqrt(20 * error)); }
 
-// The velocities that contacts gather have a relative error of u = 2⁻²⁴, and their ratio to the relative velocities of
-// two layers is the number of layers. Normals, arms and moments have a relative error of u. In
-// `mixed`, states, master velocities and sums are double. But a device that steps in blocks stores the change of a
-// force within a block in single precision: where stiff walls carry inertia, a part of it is lost, as a part of a
-// velocity is in `single`. θ = u·N/2π.
+// The velocities that contacts read have a relative error of u = 2⁻²⁴. They are larger than the relative velocities of
+// two layers by the number of layers, and so is the relative error of the latter. Normals, arms and moments have a
+// relative error of u. In `mixed`, states, master velocities and sums are double. But a device that steps in blocks
+// stores the change of a force within a block in single precision: where stiff walls carry inertia, a part of it is
+// lost, as a part of a velocity is in `single`. θ = u·N/2π.
 double mixed_precision_error(const RoundingScale& s) {
   return roundoff * (10 + s.layers) + 2 * angle_lost(s) * s.inertia;
 }
 
 // `single` has further errors. A chain's f and x_l change in one step by 2π/N of their amplitude, times the cosine of
-// the phase. About their peaks, where that is less than half of the last bit, they do not change: over θ = u·N/2π on
-// either side, where they should have moved by θ²/2. Noise of other roundings hides most of this error in long runs,
-// but not all of it; hence 4·θ². A run of many cycles loses less than one cycle with the same number of steps.
-// Likewise, a velocity changes only if the force moves it by half of its last bit in a step: up to θ/2 of the inertia
-// is lost.
+// the phase. Near their peaks this change is less than half of the last bit and is lost. This happens within the angle
+// θ = u·N/2π on either side of a peak, over which they should have changed by θ²/2. In long runs other rounding errors,
+// which act as noise, remove most of this error but not all of it; hence 4·θ². A run of many cycles loses less than one
+// cycle with the same number of steps. Likewise, a velocity changes only if the force moves it by half of its last bit
+// in a step: up to θ/2 of the inertia is lost.
 double single_precision_error(const RoundingScale& s) {
   const double theta = angle_lost(s);
   return mixed_precision_error(s) + 4 * theta * theta;
@@ -113,15 +114,16 @@ std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured)
   return {};
 }
 
-// The next two functions return about twice what bench/accuracy measured (bench/results/accuracy.csv), for |E*| and φ
-// in radians.
+// The next two functions are based on bench/results/accuracy.csv (relative error of |E*|, error of φ in radians), with
+// a margin: a factor of 2.5 for the fixed geometry and of 40 in the tolerance for the cycles.
 
 // Measured for t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
 double fixed_geometry_error(double strain) { return 3 * strain * strain; }
 
-// With a ramp of one cycle, 4 cycles come within 4e-5 of the steady state, 6 within 1.3e-5 and 12 within 2.3e-6 (t8 and
-// demo, 2 and 20 Hz): the difference falls as n^−2.6. It may take a fortieth of the tolerance. Without a ramp nothing
-// damps the waves of the start, which leave 1e-5 to 1e-3 at random, however many cycles there are.
+// With a ramp of one cycle, the 4th cycle differs from the steady state by at most 4e-5, the 6th by 1.3e-5 and the 12th
+// by 2.3e-6 (t8 and demo, 2 and 20 Hz): the difference falls as n^−2.6. It may be a fortieth of the tolerance. Without
+// a ramp, nothing damps the waves that the start causes; they leave a random difference of 1e-5 to 1e-3, however many
+// cycles there are.
 int cycles_from_rest(double tolerance) {
   return std::max(4, static_cast<int>(std::ceil(4 * std::pow(4e-5 / (tolerance / 40), 1 / 2.6))));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file error_model.hpp  Estimates of what settings cost in |E*| (relative) and φ [rad]. Those that rest on
-/// measurements lie above everything that bench/accuracy measured.
+/// \file error_model.hpp  Estimates the errors of |E*| (relative) and φ [rad] that the settings of a run cause.
+/// Estimates that are based on measurements are larger than every error that bench/accuracy measured.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// Returns the difference of a stiffness from the expected one.
+/// Returns the difference of a stiffness from the expected one: of |E*| relative, of φ in radians.
 ErrorEstimate difference(const Stiffness& found, const Stiffness& expected);
 /// Returns the larger of the errors of |E*| and φ.
 double largest(const ErrorEstimate& error);
@@ -20,16 +20,18 @@ double largest(const ErrorEstimate& error);
 double stiffness_at(const Law& law, double omega);
 
 /// Estimates the relative effect of inertia on |E*| per unit of density scaling. A bar of height H driven at one end
-/// has E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is not known beforehand and is taken as a third of the
-/// softest contact's |k*(ω)| (mastic alone has 0.6 of it, mixtures more than all of it), ρ as the heaviest material's.
+/// has E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is not known beforehand. A third of the softest contact's
+/// |k*(ω)| is used in its place, which is low: mastic alone has 0.6 of this |k*(ω)|, mixtures have more than all of it.
+/// ρ is the density of the heavier material.
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency);
 
-/// Quantities with which the rounding of a run grows.
+/// Quantities with which the rounding error of a run grows.
 struct RoundingScale {
   std::int64_t steps = 0;  ///< of the whole run
-  double layers = 0;    ///< height over the mean distance of contacts: the ratio of velocities to relative velocities
-  double contrast = 1;  ///< stiffest over softest |k*(ω)| of the pair types that occur
-  double inertia = 0;   ///< effect of the scaled mass on |E*|, by inertia_estimate()
+  double layers = 0;       ///< Height over the mean distance of particles in contact. It is the ratio of velocities to
+                           ///< relative velocities.
+  double contrast = 1;     ///< largest |k*(ω)| over the smallest, of the pair types that occur
+  double inertia = 0;      ///< effect of the scaled mass on |E*|, by inertia_estimate()
 };
 /// Returns these quantities for a run of one frequency.
 RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,
@@ -45,25 +47,26 @@ struct RoundingMeasured {
 inline constexpr RoundingMeasured single_measured{2.3e-4, {4'000'000, 49, 1e7, 0.33}};
 inline constexpr RoundingMeasured mixed_measured{5.9e-5, {11'897'000, 49, 1e7, 0.33}};
 
-/// Return estimates that lie above everything that was measured. They are not bounds: other scenes may round
-/// differently.
+/// Return estimates of the rounding error that are larger than every measured error. They are not bounds: other scenes
+/// may round differently.
 double single_precision_error(const RoundingScale& scale);
 double mixed_precision_error(const RoundingScale& scale);
 
-/// Describes which quantities of a run lie beyond the measurements; empty if none does.
+/// Returns a text about the first quantity of a run that exceeds the range of the measurements; empty if none does.
 std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured);
 
-/// Returns the error from stepping in blocks, which devices do. `blocks`: number of blocks in the shortest time of load
-/// and laws.
+/// Returns the error caused by updating viscoelastic states only between blocks of steps (mixed and single precision).
+/// `blocks`: number of blocks in the shortest characteristic time of the load and the laws.
 double block_error(double blocks);
-/// Returns the smallest number of such blocks whose error is at most `error`; at most 4,000, as in a run without a
-/// tolerance.
+/// Returns the number of blocks in that time for which block_error() equals `error`, but at most 4,000. A run without a
+/// tolerance uses 4,000.
 double blocks_within(double error);
 
-/// Returns the error from keeping the initial normals and arms at this strain.
+/// Returns the error caused by keeping the initial normals and lever arms of the contacts at this strain.
 double fixed_geometry_error(double strain);
 
-/// Returns the number of cycles from rest after which the last one is within the tolerance of the steady state.
+/// Returns the number of cycles that a run from rest needs until its last cycle is within the tolerance of the steady
+/// state.
 int cycles_from_rest(double tolerance);
 
 }  // namespace macadam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file frequency_summary.hpp  The result of a frequency in summary.json and in the command's table.
+/// \file frequency_summary.hpp  Converts the result of a frequency to JSON for summary.json and to text for the
+/// command's table.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// judgement.cpp  Limits that hold for every passive specimen.
+// judgement.cpp  Checks limits that hold for every passive specimen.
 #include "host/experiments/cyclic/judgement.hpp"
 
 #include <fmt/format.h>

@@ -15,12 +15,12 @@ namespace macadam {
 /// true one: the bound of Voigt.
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz);
 
-/// Stores in `fault` what cannot be right, and adds a warning for everything that a reader of this result must know: a
-/// phase angle that a passive specimen cannot have, a modulus above that of the `stiffest` contact, a fit that leaves
-/// more than half of the amplitude, walls that disagree, a tolerance that was not kept or that nothing could verify.
-/// Without a harmonic solution, `kept` becomes false if there is a fault, or if the last cycle differs from the one
-/// before it by more than the tolerance. Without a `stiffest`, that is if a law is not linear, the result is not
-/// compared with what linear specimens do. \throws RunError for a modulus that is not a positive finite number.
+/// Stores in `fault` why the result cannot be right, if so, and adds a warning for each of these: a phase angle that a
+/// passive specimen cannot have, a modulus above the modulus of the `stiffest` contact, a fit that leaves more than
+/// half of the amplitude, walls that disagree, a tolerance that was not kept or that nothing could verify. Without a
+/// harmonic solution, `kept` becomes false if there is a fault, or if the last two cycles differ by more than the
+/// tolerance. `stiffest` is empty if a law is not linear; the result is then not checked against the limits for linear
+/// specimens. \throws RunError for a modulus that is not a positive finite number.
 void judge(experiments::SteppedFrequency& result, std::optional<double> stiffest, std::optional<double> tolerance,
            std::vector<std::string>& warnings);
 void judge(experiments::HarmonicFrequency& result, double stiffest, std::vector<std::string>& warnings);

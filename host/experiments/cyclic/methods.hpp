@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file methods.hpp  The two methods that lead from a prepared scene to |E*| and φ.
+/// \file methods.hpp  Declares the two methods that compute |E*| and φ of a prepared scene.
 #pragma once
 
 #include <filesystem>

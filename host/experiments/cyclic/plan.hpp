@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file plan.hpp  Settings that a scene leaves open for an explicit run. They are decided once, before the first step.
+/// \file plan.hpp  Chooses the settings that a scene leaves open for an explicit run. They are chosen once, before the
+/// first step.
 #pragma once
 
 #include <optional>
@@ -30,7 +31,7 @@ struct Plan {
   double geometry_error = 0;  ///< about the largest error of |E*| from keeping the initial geometry
   CriticalStep critical;      ///< at true mass
   std::vector<FrequencyPlan> frequencies;
-  std::vector<std::string> decisions;  ///< what was chosen and why, one sentence each
+  std::vector<std::string> decisions;  ///< the choices and their reasons, one sentence each
 };
 
 /// Keeps what the scene gives. With a tolerance, chooses the rest so that |E*| and φ are expected to differ by less

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_state.cpp  Plan and times are stored as text, samples and motions as arrays.
+// run_state.cpp  Stores plan and times as text, samples and motions as arrays.
 #include "host/experiments/cyclic/run_state.hpp"
 
 #include <nlohmann/json.hpp>

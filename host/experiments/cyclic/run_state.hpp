@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_state.hpp  State of a stepped cyclic test, as a part of a checkpoint.
+/// \file run_state.hpp  Stores the state of a stepped cyclic test in a checkpoint, and reads it back.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scaling.cpp  The derivative of E* by the density scaling is its inertia part, so nothing is solved again.
+// scaling.cpp  Finds the largest density scaling by bisection. The inertia part of E* is its derivative with respect to
+// the density scaling, so no system is solved again.
 #include "host/experiments/cyclic/scaling.hpp"
 
 #include <cmath>

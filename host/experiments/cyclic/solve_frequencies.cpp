@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// solve_frequencies.cpp  Method "harmonic": solves the steady states of all frequencies, four side by side.
+// solve_frequencies.cpp  Implements method "harmonic": solves the steady states of all frequencies, four side by side.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_rules.cpp  Geometry, start, cycles, scaling and step of a cyclic test.
+// step_rules.cpp  Chooses geometry, start, cycles, density scaling and time step of a cyclic test.
 #include "host/experiments/cyclic/step_rules.hpp"
 
 #include <algorithm>

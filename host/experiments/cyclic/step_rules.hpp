@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_rules.hpp  Rules for stepping a cyclic test that follow from the scene alone. The plan and the forecast
-/// both use them.
+/// \file step_rules.hpp  Defines those rules for stepping a cyclic test that need only the scene. The plan and the
+/// forecast both use them.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,23 @@ namespace macadam {
 /// Parts of the tolerance. Inertia takes most of it, because a solution predicts its error; without a solution its
 /// error is an estimate. The remainder is for rounding (choose_precision()), geometry, start and time step.
 inline constexpr double inertia_part = 0.9, estimate_part = 0.5, geometry_part = 0.02;
-/// The scaling that follows from the derivative of E* aims at this part of inertia's allowance, so that the exact
-/// solution stays within the allowance.
+/// The density scaling is computed from the derivative of E* for this part of the error allowed to inertia, so that the
+/// exact solution stays within the allowed error.
 inline constexpr double aimed_part = 0.97;
 
-/// Returns the geometry that the scene gives; otherwise the initial one, if the tolerance allows it.
+/// Returns the geometry of the scene. If it gives none, returns fixed if the tolerance allows it, otherwise updated.
 Geometry cyclic_geometry(const Scene& scene);
 
 /// Returns the relative effect of the strain on |E*| that a harmonic solution does not contain.
 double nonlinear_effect(const Scene& scene, Geometry geometry);
-/// Whether that effect is too large for a steady start.
+/// Returns whether that effect is too large for a steady start.
 bool is_strain_large(const Scene& scene, Geometry geometry);
 
-/// Returns the start that the scene gives; otherwise the steady one, if there is a tolerance and no ramp.
+/// Returns the start of the scene. If it gives none, returns the steady start if there is a tolerance and no ramp,
+/// otherwise the start from rest.
 Start asked_start(const Scene& scene);
-/// Returns the start, as far as the scene alone decides it. It is from rest, too, if damping, strain or a law leave no
-/// periodic solution.
+/// Returns the start, as far as the scene alone decides it. It is also from rest if there is no periodic solution
+/// because of damping, strain or a law.
 Start cyclic_start(const Scene& scene, Geometry geometry);
 
 /// Cycles of one frequency: all, those that are fitted, and those in which the amplitude grows.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error.cpp  Differences from the answer without steps; without one, bounds from the ramp, the damping and the
-// walls.
+// load_error.cpp  Computes the differences from the answer without steps; if there is none, bounds from the ramp, the
+// damping and the walls.
 #include "host/experiments/loaded/load_error.hpp"
 
 #include <fmt/format.h>
@@ -132,7 +132,8 @@ LoadErrors::Parts LoadErrors::measured(const SteppedPoint& row) const {
   return {std::abs(run - asked), std::abs(value(row) - run)};
 }
 
-/// Returns the largest difference between the load, if it is a stress, and the stresses of the walls, relative.
+/// Returns the relative difference between the stresses of the two walls, or for a load by stress the largest relative
+/// difference between the load and these two.
 double LoadErrors::walls(const SteppedPoint& row) const {
   const double apart = std::abs(row.top_pa - row.bottom_pa);
   if (test_.by_stress) {
@@ -140,7 +141,8 @@ double LoadErrors::walls(const SteppedPoint& row) const {
            std::abs(test_.held_stress);
   }
   const double top = std::abs(row.top_pa), bottom = std::abs(row.bottom_pa);
-  // of the larger stress; it limits the ratio when a wave has not reached the other wall
+  // The smaller stress counts as at least this fraction of the larger one. This limits the ratio while a wave has not
+  // yet reached the other wall.
   constexpr double least = 1e-3;
   const double smaller = std::max(std::min(top, bottom), least * std::max(top, bottom));
   return smaller > 0 ? apart / smaller : 0;

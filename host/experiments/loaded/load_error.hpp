@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_error.hpp  Error of a stepped test of a load: measured against the answer without steps if there is one,
-/// otherwise estimated.
+/// \file load_error.hpp  Computes the error of a stepped test of a load. It is measured against the answer without
+/// steps if there is one, otherwise estimated.
 #pragma once
 
 #include <optional>
@@ -63,10 +63,10 @@ class LoadErrors {
   const LoadTest test_;
   const LoadPlan& plan_;
   std::optional<Spectrum> spectrum_;
-  LoadTimes asked_, run_;  ///< as the scene asks and as in the run; the release is rounded to a whole step
+  LoadTimes asked_, run_;  ///< times in the scene, and times in the run, where the release is rounded to a whole step
   bool updated_ = true, damping_given_ = false;
   bool remembers_ = false;     ///< whether a law relaxes; if none does, only the present load has an effect
-  double affine_modulus_ = 0;  ///< no instantaneous modulus is above it [Pa]
+  double affine_modulus_ = 0;  ///< upper bound of the instantaneous modulus [Pa]
   double wave_ = 0;  ///< ω² of the slowest wave over the modulus: π²/(ρ·H²), with a platen a quarter of it
 };
 

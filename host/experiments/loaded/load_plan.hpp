@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_plan.hpp  Settings that a scene leaves open for a stepped test of a load. They are decided once, before
-/// the first step.
+/// \file load_plan.hpp  Chooses the settings that a scene leaves open for a stepped test of a load. They are chosen
+/// once, before the first step.
 #pragma once
 
 #include <string>
@@ -33,8 +33,8 @@ struct LoadPlan {
 /// nothing.
 LoadPlan make_load_plan(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Inertia& inertia);
 
-/// Returns the instantaneous modulus of the network if all of it strained alike [Pa], which is at least its true one.
-/// `volume`: of the box [m³].
+/// Returns the instantaneous modulus that the network would have if all its parts had the same strain [Pa]. The true
+/// modulus is at most this one. `volume`: volume of the box [m³].
 double affine_modulus(const ContactNetwork& network, const FactsTable& laws, double volume);
 
 /// Returns the load on the top wall as a boundary condition.

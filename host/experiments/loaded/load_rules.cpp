@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_rules.cpp  Ramp, damping and step from the slowest wave of the specimen and the times of the points.
+// load_rules.cpp  Computes ramp, damping and time step from the slowest wave of the specimen and the times of the
+// result's points.
 #include "host/experiments/loaded/load_rules.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_state.cpp  Plan and times are stored as text; points, cracks and the answer without steps as arrays.
+// load_state.cpp  Stores plan and times as text, and points, cracks and the answer without steps as arrays.
 #include "host/experiments/loaded/load_state.hpp"
 
 #include <fmt/format.h>

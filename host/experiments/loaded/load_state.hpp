@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_state.hpp  State of a stepped test of a load, as a part of a checkpoint.
+/// \file load_state.hpp  Stores the state of a stepped test of a load in a checkpoint, and reads it back.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_test.cpp  Names and files of the tests of a load, and their response from the specimen's spectrum.
+// load_test.cpp  Defines names and files of the tests of a load, and computes their response from the specimen's
+// spectrum.
 #include "host/experiments/loaded/load_test.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_test.hpp  The common part of relaxation, creep and constant rates: a load on the top wall that varies in
-/// time, and the response at some times.
+/// \file load_test.hpp  Defines the common part of relaxation, creep and constant-rate tests: a load on the top wall
+/// that varies in time, and the response at some times.
 #pragma once
 
 #include <functional>
@@ -17,25 +17,25 @@
 
 namespace macadam {
 
-/// When a load grows and when it is removed.
+/// Times at which a load grows and is removed.
 struct LoadTimes {
   double ramp = 0;                ///< time in which the load grows, and in which it is removed [s]; 0: at once
   std::optional<double> release;  ///< when the removal begins [s]; nothing: never
 };
 
-/// Description of one of these tests, which both methods use.
+/// Describes one of these tests. Both methods, stepped and without steps, use it.
 struct LoadTest {
   std::string kind;
   History history;
   double poisson_ratio = 0;
-  /// what the scene asks for, under its name in summary.json
+  /// values that the scene requests, each with its name in summary.json
   std::vector<std::pair<const char*, std::optional<double>>> load;
   /// Returns the response at a time to this load, applied at the times `when`, from the specimen's spectrum.
   std::function<experiments::ResponsePoint(const Spectrum&, double time, const LoadTimes& when)> unstepped;
 
   bool by_stress = false;             ///< the load is a stress; else a strain
   LoadTimes when;                     ///< as the scene gives them
-  bool grows = false;                 ///< the load grows during the whole test, which then is the ramp
+  bool grows = false;                 ///< whether the load grows during the whole test; the ramp is then the whole test
   std::optional<double> platen_mass;  ///< of a wall under a stress [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand
   double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
@@ -74,11 +74,11 @@ std::string shown_head(const char* ratio);
 std::string shown_line(const LoadWords& words, const char* ratio, const experiments::ResponsePoint& point);
 /// @}
 
-/// Adds what the scene asks for to an entry of `results`.
+/// Adds the load that the scene requests to an entry of `results`.
 void add_load(const LoadTest& test, nlohmann::ordered_json& out);
 
-/// Returns the names of a kind's result files: its table, that of cracks if points can break, and without steps the
-/// tables of the material.
+/// Returns the names of a kind's result files: its table, the table of cracks if points can break, and without steps
+/// the tables of the material.
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
 /// Plans a test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.

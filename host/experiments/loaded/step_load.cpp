@@ -62,7 +62,7 @@ class SteppedLoad : public Solution {
         cracks_(scene, prepared, at_.cracks),
         owns_checkpoint_(resumed) {}
 
-  /// Makes the stepper now, so that it refuses the scene before a file is touched.
+  /// Makes the stepper before any file is changed, so that a scene that it refuses leaves all files as they were.
   void make(RunResult& result, const std::filesystem::path& checkpoint) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const LoadPlan& p = at_.plan;

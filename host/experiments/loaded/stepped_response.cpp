@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_response.cpp  Reports a stepped test of a load in summary.json and for people.
+// stepped_response.cpp  Reports a stepped test of a load in summary.json and in the text that the command prints.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// monotonic.cpp  Kind "monotonic": stress under a strain that grows evenly.
+// monotonic.cpp  Implements kind "monotonic": stress under a strain that grows evenly.
 #include "host/experiments/loaded/load_test.hpp"
 #include "macadam/drives/constant_rate.hpp"
 

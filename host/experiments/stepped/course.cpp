@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// course.cpp  The loop over samples, for every experiment that is stepped in time. Steps are taken in pieces; after
+// course.cpp  Runs the loop over samples for every experiment that is stepped in time. Steps are taken in pieces; after
 // each piece the run looks whether it must stop or write a checkpoint. Samples that need no more than an observation
 // are taken several at a time by one call of the stepper.
 #include "host/experiments/stepped/course.hpp"

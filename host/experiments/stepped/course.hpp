@@ -20,14 +20,14 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// One run in time: at which steps it is sampled, and what is done there.
+/// Describes one run in time: at which steps it is sampled, and the functions that are called there.
 struct Course {
   std::string name;                                   ///< name in messages: "20 Hz", "creep"
   double dt = 0;                                      ///< [s]
   double frequency = 0;                               ///< [Hz], of a cyclic test
   std::int64_t first = 0, last = 0;                   ///< numbers of the first and last sample; sample 0 is at step 0
   std::function<std::int64_t(std::int64_t)> step_of;  ///< the step of a sample; never falls
-  std::function<bool(std::int64_t)> taken;            ///< whether anybody uses this sample
+  std::function<bool(std::int64_t)> taken;            ///< whether this sample is used at all
   /// Receives a sample. The stepper may already have gone beyond it.
   std::function<void(std::int64_t sample, const Observation& now)> take;
   bool looks_at_stepper = false;     ///< `take` uses the stepper, which is then still at the sample
@@ -36,7 +36,8 @@ struct Course {
   /// second time for the step from which it continues.
   std::function<void(const Observation& now)> between = {};
   std::int64_t between_every = 0;
-  std::function<std::string(std::int64_t step, double steps_a_second)> shown;  ///< describes the progress, for people
+  std::function<std::string(std::int64_t step, double steps_a_second)>
+      shown;        ///< returns a text about the progress, to be printed
   Content content;  ///< of a checkpoint, without the stepper's state
   /// Called after the first seconds with the predicted remaining time [s]. May be empty.
   std::function<void(double seconds)> foretold = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cracks.cpp  Broken contact points: events, counts, and the question whether intact contacts still join the walls.
+// cracks.cpp  Records and counts broken contact points, and determines whether intact contacts still join the walls.
 #include "host/experiments/stepped/cracks.hpp"
 
 #include <fmt/format.h>

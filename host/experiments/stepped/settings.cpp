@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// settings.cpp  Settings from [solver] for steppers, and in summary.json.
+// settings.cpp  Converts `[solver]` into stepper options, and writes the settings used to summary.json.
 #include "host/experiments/stepped/settings.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file settings.hpp  Settings that all stepped tests have in common, for their steppers and in summary.json.
+/// \file settings.hpp  Makes the stepper options that all stepped tests have in common, and writes the settings used to
+/// summary.json.
 #pragma once
 
 #include <memory>
@@ -13,8 +14,8 @@
 
 namespace macadam {
 
-/// Returns the form that the scene asks for. Otherwise it is condensed, or points if a law is not linear or if every
-/// facet has one point, which then has three chains instead of six.
+/// Returns the form that the scene asks for. Otherwise returns points if a law is not linear or if every facet has one
+/// point (three chains per facet then instead of six), else condensed.
 ContactForm form_of(const Scene& scene);
 
 /// Returns the options that all steppers of a run have in common, from `[solver]` and the choices made for the run.
@@ -26,10 +27,11 @@ std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Back
                                       const Preparation& prepared, const Inertia& inertia,
                                       const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);
 
-/// \throws RunError for 1e12 steps or more. `what` names the part of the run that takes them.
+/// Checks the number of steps. `what` names the part of the run that takes them. \throws RunError for 1e12 steps or
+/// more.
 void require_possible(double steps, double dt, const std::string& what);
 
-/// Adds to `solver` of summary.json how a test was stepped.
+/// Adds the settings with which a test was stepped to `solver` of summary.json.
 void add_settings(const experiments::Stepped& found, const Scene& scene, const RunResult& run, std::int64_t steps,
                   std::optional<double> dt_s, nlohmann::ordered_json& solver);
 

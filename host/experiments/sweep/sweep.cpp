@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sweep.cpp  Kind "sweep": solves the cyclic test's steady states over a range of frequencies and writes sweep.csv.
+// sweep.cpp  Implements kind "sweep": solves the cyclic test's steady states over a range of frequencies and writes
+// sweep.csv.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cholesky.cpp  METIS orders particles instead of unknowns (35,000 nodes in place of 215,000); CHOLMOD factors by
-// supernodes (groups of columns with the same structure, as dense blocks).
+// cholesky.cpp  Factors the matrix. METIS orders particles instead of unknowns (35,000 nodes in place of 215,000).
+// CHOLMOD works on supernodes (groups of columns with the same structure) as dense blocks.
 #include "host/harmonic/direct/cholesky.hpp"
 
 #include <cholmod.h>
@@ -45,9 +45,10 @@ std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::
   return {place.begin(), place.end()};
 }
 
-/// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. OpenBLAS divides products by its number
-/// of threads, so that the last digits of the factors would depend on it, and its threads are not counted among those
-/// of a job. More threads would not help either: most supernodes are small, and 16 threads took twice as long as four.
+/// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. OpenBLAS divides products among its
+/// threads, so the last digits of the factors would depend on their number. Its threads are also not counted among the
+/// threads of a job. More threads would not help either: most supernodes are small, and 16 threads took twice as long
+/// as four.
 void limit_blas_threads() {
   if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
 }
@@ -97,7 +98,7 @@ struct Cholesky::Factor {
     make_room_for_blas();
     cholmod_start(&common);
   }
-  /// \throws RunError when CHOLMOD's last call failed; `what` says what it did.
+  /// Checks CHOLMOD's last call. `what` names the operation, for the message. \throws RunError if the call failed.
   void require(const char* what, std::size_t particles) const {
     if (common.status >= CHOLMOD_OK) return;
     const char* why = common.status == CHOLMOD_OUT_OF_MEMORY ? "not enough memory"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cholesky.hpp  Cholesky factors of a real stiffness matrix, by CHOLMOD, applied to complex vectors.
+/// \file cholesky.hpp  Computes the Cholesky factors of a real stiffness matrix by CHOLMOD, and applies them to complex
+/// vectors.
 #pragma once
 
 #include <memory>

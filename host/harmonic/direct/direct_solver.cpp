@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// direct_solver.cpp  COCG (conjugate gradients for complex symmetric matrices) with a real Cholesky preconditioner.
+// direct_solver.cpp  Solves by COCG (conjugate gradients for complex symmetric matrices) with a real Cholesky
+// preconditioner.
 //
 // K*(s) is the real stiffness matrix of the network with each contact multiplied by the complex number of its pair.
 // Preconditioned by the real parts at one frequency, its eigenvalues lie close to the few ratios of these numbers. So

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// block_cocg.cpp  COCG is the conjugate-gradient method with products xᵀ·y without conjugates, for complex symmetric
-// matrices. The preconditioner adds a fine level (the inverse block of each particle) and a coarse level (rigid motions
-// of boxes). One iteration has three sweeps over the particles: q = K·p; x, r and the fine level of z; the coarse level
-// of z, and p. Sums are computed per block of particles and then added in order, so that they do not depend on the
-// number of threads.
+// block_cocg.cpp  Implements COCG, the conjugate-gradient method with products xᵀ·y without conjugates, for complex
+// symmetric matrices. The preconditioner adds a fine level (the inverse block of each particle) and a coarse level
+// (rigid motions of boxes). One iteration has three sweeps over the particles: q = K·p; x, r and the fine level of z;
+// the coarse level of z, and p. Sums are computed per block of particles and then added in order, so that they do not
+// depend on the number of threads.
 #include "host/harmonic/iterative/block_cocg.hpp"
 
 #include <algorithm>

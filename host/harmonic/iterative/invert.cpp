@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// invert.cpp  Cholesky factorization by blocks, then the columns of the inverse by triangular solves. Eigen would use
-// one thread for both.
+// invert.cpp  Computes the Cholesky factors by blocks, then the columns of the inverse by triangular solves. Eigen
+// would use one thread for both.
 #include "host/harmonic/iterative/invert.hpp"
 
 #include <Eigen/Cholesky>

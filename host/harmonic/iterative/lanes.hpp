@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file lanes.hpp  One complex number for each of F solutions in a SIMD register: first the real parts, then the
-/// imaginary parts.
+/// \file lanes.hpp  Stores one complex number for each of F solutions in a SIMD register: first the real parts, then
+/// the imaginary parts.
 ///
 /// Real factors (frames, lever arms, moments, the preconditioner) then multiply 2F plain numbers, and the data of a
 /// contact are read once for all solutions.
@@ -69,7 +69,8 @@ struct Lanes {
 /// A complex factor for each solution, prepared for multiplication.
 template <int F>
 struct Factor {
-  Lanes<F> real, imaginary;  ///< each in both lanes; the imaginary part has the sign of i·i in the real lanes
+  Lanes<F> real,
+      imaginary;  ///< each in both lanes of a number; the imaginary part is negated in the real lanes (i·i = −1)
 
   void set(int f, std::complex<double> z) {
     real.v[f] = real.v[F + f] = z.real();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_system.cpp  The coarse matrix RᵀKR is summed over contacts between boxes only, because a rigid motion of a box
-// does not strain the contacts inside.
+// make_system.cpp  Builds the arrays. The coarse matrix RᵀKR is summed only over contacts between boxes, because a
+// rigid motion of a box does not strain the contacts inside it.
 #include "host/harmonic/iterative/make_system.hpp"
 
 #include "host/harmonic/iterative/invert.hpp"

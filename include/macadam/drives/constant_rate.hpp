@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file constant_rate.hpp  A displacement or a force that grows linearly, for monotonic tests.
+/// \file constant_rate.hpp  Defines a displacement or a force that grows linearly, for monotonic tests.
 #pragma once
 
 #include <cmath>

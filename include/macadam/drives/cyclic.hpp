@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cyclic.hpp  A sine: −A·r(t)·sin(2πft). On the top wall it begins with compression ([1], section 4.4; model
-/// (13.1)).
+/// \file cyclic.hpp  Defines a sine, −A·r(t)·sin(2πft). On the top wall it begins with compression ([1], section 4.4;
+/// model (13.1)).
 #pragma once
 
 #include <cmath>

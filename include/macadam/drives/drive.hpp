@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file drive.hpp  The contract of a drive: a displacement or a force as a function of the step number.
+/// \file drive.hpp  Defines the contract of a drive: a displacement or a force as a function of the step number.
 #pragma once
 
 #include <cstdint>

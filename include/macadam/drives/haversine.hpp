@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file haversine.hpp  Pulses with pauses between them: the load of resilient modulus, permanent deformation and
-/// fatigue tests.
+/// \file haversine.hpp  Defines pulses with pauses between them: the load of resilient modulus, permanent deformation
+/// and fatigue tests.
 #pragma once
 
 #include <cmath>

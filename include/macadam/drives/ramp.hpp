@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ramp.hpp  A ramp from 0 to a value, a hold and, if wanted, a ramp back to 0: relaxation, creep and recovery.
+/// \file ramp.hpp  Defines a ramp from 0 to a value, a hold and, if requested, a ramp back to 0, for relaxation, creep
+/// and recovery.
 #pragma once
 
 #include <algorithm>

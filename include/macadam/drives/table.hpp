@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file table.hpp  Values at given times, connected by straight lines, for example measured ones.
+/// \file table.hpp  Defines a drive by values at given times, for example measured ones, connected by straight lines.
 #pragma once
 
 #include <algorithm>

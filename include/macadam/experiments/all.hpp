@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file all.hpp  The list of experiments that a scene may ask for.
+/// \file all.hpp  Lists the experiments that a scene may request.
 #pragma once
 
 #include <variant>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cracks.hpp  Contact points that broke during a stepped test.
+/// \file cracks.hpp  Describes the contact points that broke during a stepped test.
 #pragma once
 
 #include <array>

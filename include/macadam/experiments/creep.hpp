@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file creep.hpp  The creep test: a stress is applied, at once or by a ramp, held, and removed if asked for. Strain
-/// grows and recovers.
+/// \file creep.hpp  Defines the creep test: a stress is applied, at once or by a ramp, held, and removed if requested.
+/// Strain grows and recovers.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cyclic.hpp  The cyclic test: the top wall moves as −A·sin(2πft), the stress is a sine, |E*| and φ follow.
+/// \file cyclic.hpp  Defines the cyclic test: the top wall moves as −A·sin(2πft), and |E*| and φ follow from the sine
+/// of the stress.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file frequency.hpp  The result at one frequency, found by stepping or as the steady state of the frequency domain.
+/// \file frequency.hpp  Defines the result at one frequency, found by stepping or as the steady state of the frequency
+/// domain.
 #pragma once
 
 #include <optional>
@@ -32,7 +33,7 @@ struct Frequency {
 /// Result of the frequency domain.
 struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
-  ModulusParts parts;   ///< |E*| and φ are those of the sum of these parts
+  ModulusParts parts;   ///< parts of E*; |E*| and φ belong to their sum
   Stiffness bottom;     ///< from the reaction of the bottom wall
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file material.hpp  The viscoelastic functions of the mixture that a test in time determines besides its own
-/// response.
+/// \file material.hpp  Defines the viscoelastic functions of the mixture that a test in time determines in addition to
+/// its own response.
 #pragma once
 
 #include "macadam/spectrum.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file monotonic.hpp  The monotonic test: the top wall moves at a constant strain rate, in tension or compression.
+/// \file monotonic.hpp  Defines the monotonic test: the top wall moves at a constant strain rate, in tension or
+/// compression.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file relaxation.hpp  The relaxation test: the top wall is displaced, at once or by a ramp, and held; the stress
-/// decays.
+/// \file relaxation.hpp  Defines the relaxation test: the top wall is displaced, at once or by a ramp, and held; the
+/// stress decays.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file response.hpp  The results of relaxation, creep and monotonic tests: strain and stress at given times.
+/// \file response.hpp  Defines the results of relaxation, creep and monotonic tests: strain and stress at given times.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepped.hpp  Whether an experiment can be stepped in time, and the report of its stepping.
+/// \file stepped.hpp  Defines whether an experiment can be stepped in time, and what a stepped run reports.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ namespace macadam::experiments {
 /// method.
 enum class Stepping : std::uint8_t { never, if_asked, usual };
 
-/// How an experiment was stepped.
+/// Report on how an experiment was stepped.
 struct Stepped {
   double seconds_planning = 0;  ///< wall time before the first stepper was made, harmonic solutions included; for a
                                 ///< resumed run, of the interrupted run
-  ContactForm form = ContactForm::condensed;  ///< the form that ran, and so geometry and precision
+  ContactForm form = ContactForm::condensed;  ///< form, geometry and precision with which it ran
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
   std::int64_t bytes = 0;               ///< Stepper::bytes()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sweep.hpp  The complex modulus over a range of frequencies and temperatures: the data of a master curve.
+/// \file sweep.hpp  Defines the sweep: the complex modulus over a range of frequencies and temperatures, which are the
+/// data of a master curve.
 #pragma once
 
 #include <array>

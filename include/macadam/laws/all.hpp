@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file all.hpp  The list of contact laws. The scene reader, steppers, tests and benchmarks use it.
+/// \file all.hpp  Lists the contact laws. The scene reader, steppers, tests and benchmarks use this list.
 #pragma once
 
 #include <array>

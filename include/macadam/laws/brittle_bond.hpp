@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file brittle_bond.hpp  An elastic bond that breaks permanently, model (6.10) and (6.11).
+/// \file brittle_bond.hpp  Defines an elastic bond that breaks permanently, model (6.10) and (6.11).
 #pragma once
 
 #include <limits>

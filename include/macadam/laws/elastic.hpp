@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file elastic.hpp  Linear elastic contact, Eq. 9–12, model (6.1).
+/// \file elastic.hpp  Defines the linear elastic contact law, Eq. 9–12, model (6.1).
 #pragma once
 
 #include <complex>

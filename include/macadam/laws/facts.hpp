@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file facts.hpp  The properties of a law that code may need without knowing its type, and the traits that tell which
-/// optional parts a law has.
+/// \file facts.hpp  Defines the properties of a law that code may need without knowing its type, and traits that tell
+/// which optional members a law has.
 #pragma once
 
 #include <array>

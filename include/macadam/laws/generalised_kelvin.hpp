@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generalised_kelvin.hpp  A Maxwell unit in series with any number of Kelvin units: Eq. 13–17, corrected as
-/// docs/model.md, section 6, says.
+/// \file generalised_kelvin.hpp  Defines a Maxwell unit in series with any number of Kelvin units: Eq. 13–17, corrected
+/// as docs/model.md, section 6, says.
 ///
 /// Displacement x = f/k_m + ∫f/η_m dt + Σ x_l with η_l·dx_l/dt + k_l·x_l = f. The trapezoidal rule over one step gives
 ///   c·f(t+Δt) = Δx + Σ (1 − b_l/a_l)·x_l(t) − g·f(t),   x_l(t+Δt) = [b_l·x_l(t) + Δt/(2η_l)·(f(t+Δt) + f(t))]/a_l.
@@ -127,10 +127,10 @@ struct GeneralisedKelvin {
     return out;
   }
 
-  /// M steps taken as one block, in which f changes little. x_l at step k of the block is the sum of three parts: x_l
-  /// at its beginning, what it has lost since, and what f has added. The first two, and the part of f at the beginning,
-  /// are evaluated at the mean step (M − 1)/2. The part of the change δf of f since the beginning is exact, from the
-  /// sum s of δf' + δf over the steps so far:
+  /// Coefficients of M steps taken as one block, in which f changes little. x_l at step k of the block is the sum of
+  /// three parts: x_l at the beginning of the block, its decay since then, and its growth by f. The first two, and the
+  /// part of f at the beginning, are evaluated at the mean step (M − 1)/2. The part of the change δf of f since the
+  /// beginning is exact, from the sum s of δf' + δf over the steps so far:
   ///   δf(t+Δt) = δf(t) + rate·Δx + drift + follow·s − relax·δf(t)   (model (6.8)),
   ///   drift = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
   /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with the same weight for all steps (model (6.9)). The error

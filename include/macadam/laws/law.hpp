@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file law.hpp  The contract of a contact law: the members that a law must have, and those that it may have.
+/// \file law.hpp  Defines the contract of a contact law: the members that a law must have, and those that it may have.
 ///
 /// A law relates one displacement component x of a contact (opening, slip, relative rotation) to a force-like value f
 /// along it, tension positive (docs/model.md, section 6). Moduli are per unit of area over distance: the force of a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shift.hpp  Time–temperature superposition: how temperature changes the times of a law: docs/model.md, section
-/// 23.
+/// \file shift.hpp  Defines time–temperature superposition, by which temperature changes the times of a law:
+/// docs/model.md, section 23.
 ///
 /// A thermorheologically simple law at temperature T and frequency f equals the law at its reference temperature and
 /// frequency f·a_T. Every viscosity of the law is multiplied by a_T; its springs stay the same.

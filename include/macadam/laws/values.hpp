@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file values.hpp  Access to the coefficients of any law by name, for reading, shifting with temperature and
+/// \file values.hpp  Gives access to the coefficients of any law by name, for reading, shifting with temperature and
 /// calibration.
 #pragma once
 
