@@ -64,11 +64,6 @@ std::vector<std::string> files_of(const Experiment& experiment) {
                     experiment);
 }
 
-std::vector<std::string> files_written(const Scene& scene) {
-  return std::visit([&]<class Spec>(const Spec& spec) { return ExperimentOf<Spec>::files(spec, scene); },
-                    scene.experiment);
-}
-
 std::vector<std::string> result_files() {
   std::vector<std::string> out = {"contacts.csv", "summary.json", "cracks.csv"};
   for_each_kind([&](const Experiment& experiment) {

@@ -56,4 +56,9 @@ std::string results_table(const RunResult& result) {
                   []<class Result>(const Result& found) { return ResultOf<Result>::table(found); });
 }
 
+std::vector<std::string> files_written(const Scene& scene) {
+  return std::visit([&]<class Spec>(const Spec& spec) { return ExperimentOf<Spec>::files(spec, scene); },
+                    scene.experiment);
+}
+
 }  // namespace macadam
