@@ -76,7 +76,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
 # Runs, lists or checks a study, as the options say. Returns the exit code.
 def _command(options: argparse.Namespace, stop: _Stop) -> int:
     from macadam.study import StudyError, study
-    from macadam.study.design import read_design
+    from macadam.study.driver import checked_design
     from macadam.study.program import find_program, version_of
 
     shown = sys.stderr.isatty()
@@ -89,7 +89,7 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
     try:
         if options.list or options.check:
             program = find_program()
-            design = read_design(options.study, version_of(program))
+            design = checked_design(options.study, version_of(program), options.on, options.workers)
             _print_notes(design.notes)
             for job in design.jobs if options.list else ():
                 print(job.key, job.experiment, *(f"{k}={v}" for k, v in job.values.items()))

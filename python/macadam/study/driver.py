@@ -64,14 +64,9 @@ def study(
     folder = Path(out).resolve()
     program = program or find_program()
     version = version_of(program)
-    design = read_design(source, version)
-    design.run = {**design.run, **({"on": on} if on else {}), **({"workers": workers} if workers else {})}
-    executors.check(design.run)
+    design = checked_design(source, version, on, workers)
     if executor is None:
         executors.check_programs(design.run)
-    table.check(design.report)
-    if not design.jobs:
-        raise StudyError("the study has no points")
     if folder.exists() and not folder.is_dir():
         raise StudyError(f"{folder}: found a file, expected a folder")
     for name in ("results", "failures", "running"):
@@ -97,6 +92,21 @@ def study(
         except KeyboardInterrupt:
             _written(design, folder, reason)
             raise
+
+
+def checked_design(source: str | Path | dict[str, Any], version: str, on: str | None, workers: int | None) -> Design:
+    """Reads the design of a study, and checks all its sections. on, workers: replace those of [run] if they are not
+    None. Raises StudyError if the study or these values are wrong."""
+    if workers is not None:
+        executors.check_count("workers", workers)
+    design = read_design(source, version)
+    asked = {"on": on, "workers": workers}
+    design.run = {**design.run, **{key: value for key, value in asked.items() if value is not None}}
+    executors.check(design.run)
+    table.check(design.report)
+    if not design.jobs:
+        raise StudyError("the study has no points")
+    return design
 
 
 def _written(design: Design, folder: Path, reason: str) -> Study:
