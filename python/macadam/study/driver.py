@@ -31,8 +31,9 @@ DIED = "their workers died; the logs are in the folder parsl"
 @dataclass
 class Study:
     """The results of a study. `table`: one row per frequency, temperature or time of each result, SI units; `failures`:
-    key, experiment, values and message of each failed result; `missing`: number of results that were not computed, and
-    `reason`: why not; `notes`: sentences about points that have the same scene as another point."""
+    key, experiment, values, exit_code and message of each failed point, in which points with the same scene have the
+    same key; `missing`: number of results that were not computed, and `reason`: why not; `notes`: sentences about points
+    that have the same scene as another point."""
 
     folder: Path
     table: pd.DataFrame
@@ -206,7 +207,7 @@ def _round(
 # Returns the job as the dictionary that compute() of job.py expects.
 def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[str, Any]:
     command = [*job.command]
-    if job.command[0] == "run" and "--threads" not in command:
+    if job.command[0] == "run" and "--threads" not in {word.partition("=")[0] for word in command}:
         command += ["--threads", str(executors.threads(run))]
     return {
         "key": job.key,

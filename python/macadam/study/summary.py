@@ -15,6 +15,7 @@ from macadam.report.page import Page
 from macadam.study import table
 from macadam.study.design import Design, number_and_unit
 from macadam.study.effects import FEW, Effect, Quantity, continuous, effects, numeric, quantities, scatter, short
+from macadam.study.programs import error_line
 
 if TYPE_CHECKING:
     from macadam.study.driver import Study
@@ -49,7 +50,8 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
             "failure",
         )
     if failed:
-        page.text(f"{len(failed)} of {len(design.results)} failed; they are listed below.", "warning")
+        number = table.failed_results(failed)
+        page.text(f"{number} of {len(design.results)} failed; they are listed below.", "warning")
     page.text(f"{done} results at {_count(design)}.", "lead")
     for note in study.notes[:NOTES]:
         page.text(f"{note}.", "warning")
@@ -78,7 +80,7 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
                 [
                     f["experiment"] or "–",
                     "; ".join(f"{k} = {v}" for k, v in f["values"].items()),
-                    f["message"].splitlines()[-1],
+                    error_line(f["message"]),
                 ]
                 for f in failed
             ],
