@@ -156,7 +156,7 @@ def test_names_of_pure_scatter_are_an_effect_in_one_of_twenty_studies() -> None:
 
 
 def test_each_point_counts_with_its_own_number_of_seeds() -> None:
-    """Level 0 has a point with one seed and one with three, level 1 a point with four and one with two."""
+    """The points of level 0 have one and three seeds, those of level 1 four and two."""
     seeds = {(0, "x"): 1, (0, "y"): 3, (1, "x"): 4, (1, "y"): 2}
     jobs = pd.DataFrame(
         [
