@@ -126,6 +126,11 @@ def test_the_key_is_of_scene_files_and_version(program: Path, tmp_path: Path) ->
         ({"grid": {"contacts.M-X.delta": [1]}}, "found no 'M-X' in the scene; it has the pairs M-M, M-A"),
         ({"grid": {"loading.kind.x": [1]}}, "found the value 'cyclic' in the scene, expected a section"),
         ({"latin_hypercube": {"points": 0, KEY: [1, 2]}}, "points: found 0"),
+        ({"latin_hypercube": {"points": True, KEY: [1, 2]}}, "latin_hypercube: points: found True, expected a number"),
+        ({"latin_hypercube": {"points": 2, "seed": "x", KEY: [1, 2]}}, "seed: found 'x', expected a whole number, at"),
+        ({"latin_hypercube": {"points": 2, "seed": -1, KEY: [1, 2]}}, "latin_hypercube: seed: found -1, expected"),
+        ({"latin_hypercube": {"points": 2, "seed": True, KEY: [1, 2]}}, "latin_hypercube: seed: found True, expected"),
+        ({"latin_hypercube": {"points": 2, "seed": 1.5, KEY: [1, 2]}}, "latin_hypercube: seed: found 1.5, expected"),
         ({"latin_hypercube": {"points": 2, KEY: [2, 1]}}, "expected low below high"),
         ({"latin_hypercube": {"points": 2, KEY: ["1 %", 2]}}, "two numbers of one unit"),
         ({"grid": {KEY: [1]}, "list": [{KEY: 2}]}, f"{KEY}: set by grid and by list, expected one of them"),
@@ -230,6 +235,32 @@ def test_wrong_arguments_of_the_command(program: Path, tmp_path: Path, capsys) -
     (tmp_path / "bad.toml").write_text("scene = [")
     assert command.main(["bad.toml", "--out", str(tmp_path / "out")]) == 2
     assert "bad.toml" in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("mode", [[], ["--list"], ["--check"]])
+@pytest.mark.parametrize(
+    "more, options, says",
+    [
+        ("", ["--workers", "-1"], "workers: found -1, expected a whole number above 0"),
+        ("", ["--workers", "0"], "workers: found 0, expected a whole number above 0"),
+        ("[run]\nworkers = -2\n", [], "run.workers: found -2, expected a whole number above 0"),
+        ("[run]\nworker = 2\n", [], "run: found the unknown key worker, expected"),
+        ("[report]\nfrequency = '10 Hz'\n", [], "report.frequency: found '10 Hz', expected a number"),
+        ("[latin_hypercube]\npoints = 2\nseed = 'x'\n", [], "latin_hypercube: seed: found 'x', expected"),
+    ],
+)
+def test_wrong_sections_and_options_are_refused_in_every_mode(
+    more: str, options: list[str], says: str, mode: list[str], program: Path, tmp_path: Path, capsys
+) -> None:
+    Path("study.toml").write_text(f'scene = "scene.toml"\n[grid]\n"{KEY}" = [1.0]\n{more}')
+    assert command.main(["study.toml", "--out", str(tmp_path / "out"), *options, *mode]) == 2
+    said = capsys.readouterr()
+    assert said.err.startswith(f"macadam study: {says}") and not said.out and not (tmp_path / "out").exists()
+
+
+def test_the_caller_of_python_cannot_ask_for_no_workers(program: Path, tmp_path: Path) -> None:
+    with pytest.raises(StudyError, match="workers: found 0, expected a whole number above 0"):
+        study(asked(), tmp_path / "out", workers=0)
 
 
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")

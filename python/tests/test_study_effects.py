@@ -11,7 +11,8 @@ import pytest
 
 from macadam.study.design import Design, read_design
 from macadam.study.driver import Study
-from macadam.study.effects import effects, quantities, scatter, student_95
+from macadam.study.effects import Quantity, effects, quantities, scatter
+from macadam.study.quantiles import fisher_95, student_95
 from macadam.study.summary import write_report
 
 
@@ -99,10 +100,111 @@ def test_the_scatter_of_a_line() -> None:
     assert np.isclose(effect.scatter, student_95(10) * 9 * error)
 
 
-def test_students_t() -> None:
+def of_levels(means: dict, offs: tuple[float, ...] = (-0.2, 0.0, 0.2)) -> pd.DataFrame:
+    """Returns a table with a binder of each mean. offs: deviation of each seed; all in GPa."""
+    return pd.DataFrame(
+        [
+            {"binder": level, "seed": seed, "frequency_hz": 10.0, "e_star_pa": 1e9 * (mean + off)}
+            for level, mean in means.items()
+            for seed, off in enumerate(offs)
+        ]
+    )
+
+
+def test_a_course_that_goes_up_and_down_is_an_effect(tmp_path: Path) -> None:
+    """The first and the last level have the same mean. The largest minus the smallest one is the change."""
+    rows = of_levels({4: 10.02, 5: 14.0, 6: 10.02})
+    design = asked(grid={"binder": [4, 5, 6], "seed": [0, 1, 2]})
+    (effect,) = effects(quantities(rows, design)[0])
+    assert not effect.within_scatter and np.allclose(effect.ends, (10.02, 14.0)) and effect.at_ends == (0, 1)
+    # Scheffé's interval with F(2, 6) = 5.143 from a table
+    assert np.isclose(effect.scatter, 0.2 * (2 / 3 * 2 * 5.143) ** 0.5, rtol=1e-3)
+    write_report(design, Study(tmp_path, rows.assign(key="k"), [], 0), tmp_path)
+    page = (tmp_path / "report.html").read_text("utf-8")
+    assert "with binder it changes by +39.7 % from 4 to 5" in page and "4 … 5" in page
+    assert "within the scatter of seeds (" not in page and "the effect is within it" not in page
+    (falling,) = effects(quantities(of_levels({4: 14.0, 5: 11.0, 6: 10.0}), design)[0])
+    assert np.allclose(falling.ends, (14.0, 10.0))
+
+
+def test_small_differences_between_levels_are_within_the_scatter(tmp_path: Path) -> None:
+    rows = of_levels({4: 10.0, 5: 10.2, 6: 10.1})
+    design = asked(grid={"binder": [4, 5, 6], "seed": [0, 1, 2]})
+    (effect,) = effects(quantities(rows, design)[0])
+    assert effect.within_scatter and np.isclose(np.diff(effect.ends)[0], 0.2) and effect.scatter > 0.2
+    write_report(design, Study(tmp_path, rows.assign(key="k"), [], 0), tmp_path)
+    page = (tmp_path / "report.html").read_text("utf-8")
+    assert "the change with binder, +2 % from 4 to 5, is within the scatter of seeds (±5.2 %)" in page
+    assert "the effect is within it" in page
+
+
+def test_names_of_pure_scatter_are_an_effect_in_one_of_twenty_studies() -> None:
+    """Twelve names with three seeds of one normal distribution, a thousand times. The difference between the largest
+    and the smallest mean exceeds the interval of two means in most of them."""
+    draw = np.random.default_rng(1)
+    names, seeds = np.repeat([f"binder {k}" for k in range(12)], 3), np.tile([1, 2, 3], 12)
+    found = []
+    for _ in range(1000):
+        jobs = pd.DataFrame({"binder": names, "seed": seeds, "value": 10 + draw.normal(size=36)})
+        (effect,) = effects(Quantity("|E*|", "GPa", "", "", jobs, ["binder"], ["seed"]))
+        first, last = effect.ends
+        of_two = student_95(24) * 2**0.5 * effect.errors[0]
+        found.append((not effect.within_scatter, last - first > effect.scatter, last - first > of_two))
+    effect, beyond, beyond_of_two = np.mean(found, axis=0)
+    assert 0.03 < effect < 0.07  # 5 % and three standard deviations of a thousand random numbers
+    assert beyond <= effect and beyond_of_two > 0.5
+
+
+def test_each_point_counts_with_its_own_number_of_seeds() -> None:
+    """The points of level 0 have one and three seeds, those of level 1 four and two."""
+    seeds = {(0, "x"): 1, (0, "y"): 3, (1, "x"): 4, (1, "y"): 2}
+    jobs = pd.DataFrame(
+        [
+            {"a": a, "b": b, "seed": k, "value": 10.0 + a + 0.1 * (-1) ** k}
+            for (a, b), number in seeds.items()
+            for k in range(number)
+        ]
+    )
+    quantity = Quantity("|E*|", "GPa", "", "", jobs, ["a", "b"], ["seed"])
+    chance = scatter(quantity)
+    assert (chance.points, chance.fewest, chance.most, chance.freedom) == (3, 1, 4, 2 + 3 + 1)
+    effect = next(e for e in effects(quantity) if e.factor == "a")
+    variances = [(1 / 1 + 1 / 3) / 4, (1 / 4 + 1 / 2) / 4]  # of the means of two points each
+    assert np.allclose(effect.errors, chance.deviation * np.sqrt(variances))
+    assert np.isclose(effect.scatter, student_95(6) * chance.deviation * sum(variances) ** 0.5)
+
+
+def test_a_line_has_the_error_of_points_with_unequal_numbers_of_seeds() -> None:
+    x, numbers = np.arange(10.0), np.array([1, 1, 1, 5, 2, 2, 3, 1, 1, 4])
+    jobs = pd.DataFrame(
+        [
+            {"a": v, "seed": k, "value": 100 + v + (-1) ** k}
+            for v, number in zip(x, numbers, strict=True)
+            for k in range(number)
+        ]
+    )
+    quantity = Quantity("|E*|", "GPa", "", "", jobs, ["a"], ["seed"])
+    (effect,), chance = effects(quantity), scatter(quantity)
+    off = x - x.mean()
+    error = chance.deviation * (off**2 / numbers).sum() ** 0.5 / (off**2).sum()  # of the slope
+    assert np.isclose(effect.scatter, student_95(chance.freedom) * 9 * error) and effect.errors is None
+
+
+@pytest.mark.parametrize(
+    "numerator, denominator, value",
+    [(1, 1, 161.4), (1, 4, 7.709), (2, 6, 5.143), (4, 10, 3.478), (7, 60, 2.167), (30, 1, 250.1)],
+)
+def test_quantiles_are_those_of_tables(numerator: int, denominator: int, value: float) -> None:
+    assert np.isclose(fisher_95(numerator, denominator), value, rtol=3e-4)  # the tables have four digits
+
+
+def test_quantiles_are_those_of_scipy() -> None:
     stats = pytest.importorskip("scipy.stats")
-    for freedom in (1, 2, 3, 4, 5, 6, 8, 20, 1000):
-        assert np.isclose(student_95(freedom), stats.t.ppf(0.975, freedom), rtol=2e-3)  # three digits
+    for freedom in (1, 2, 3, 4, 5, 6, 8, 20, 1000, 10000):
+        assert np.isclose(student_95(freedom), stats.t.ppf(0.975, freedom), rtol=1e-5)
+        for numerator in (2, 3, 7, 30, 500):
+            wanted = stats.f.ppf(0.95, numerator, freedom)
+            assert np.isclose(fisher_95(numerator, freedom), wanted, rtol=1e-5)
 
 
 def test_a_factor_of_a_hypercube_does_not_count_as_another() -> None:
@@ -116,5 +218,3 @@ def test_a_factor_of_a_hypercube_does_not_count_as_another() -> None:
     first, second = effects(quantity)
     assert first.factor == "a" and np.isclose(first.share, 1) and np.isclose(np.diff(first.means), 2 * np.ptp(a))
     assert second.share < 1e-20
-
-

@@ -9,12 +9,14 @@ import os
 import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 from slurm_cluster import cluster, why_not
 
 from macadam.study import StudyError, executors
+from macadam.study.parsl_pool import slurm_lines
 from report_folders import ENVIRONMENT, PROGRAM
 from study_faults import lines, scene, stand_in
 
@@ -73,16 +75,37 @@ def test_a_stopped_study_leaves_no_job(tmp_path: Path) -> None:
             running.process.terminate()
             running.process.communicate(timeout=280)
             assert running.process.returncode == 130
-            while subprocess.run(["squeue", "-h"], env=environment, capture_output=True, timeout=280).stdout:
-                pass  # waits until all jobs have ended
+            _wait_for_jobs(environment)
             assert len(list((tmp_path / "out/results").iterdir())) == 1
             assert "the study was stopped" in (tmp_path / "out/report.html").read_text("utf-8")
         finally:
             running.kill()
 
 
+def _wait_for_jobs(environment: dict[str, str], rounds: int = 600) -> None:
+    """Returns when the cluster has no jobs; an assertion fails if it still has some after `rounds` half seconds."""
+    for _ in range(rounds):
+        listed = subprocess.run(["squeue", "-h"], env=environment, capture_output=True, text=True, timeout=280)
+        assert listed.returncode == 0, listed.stderr
+        if not listed.stdout:
+            return
+        time.sleep(0.5)
+    raise AssertionError(f"the cluster still has jobs:\n{listed.stdout}")
+
+
+def test_the_wait_for_jobs_ends(tmp_path: Path) -> None:
+    squeue = tmp_path / "squeue"
+    squeue.write_text("#!/bin/sh\necho 7 debug macadam\n")
+    squeue.chmod(0o755)
+    with pytest.raises(AssertionError, match="still has jobs:\n7 debug"):
+        _wait_for_jobs({"PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}, rounds=2)
+    squeue.write_text("#!/bin/sh\n")
+    _wait_for_jobs({"PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}, rounds=2)
+
+
 REFUSED = """#!/bin/sh
-echo "sbatch: error: invalid partition specified: nowhere" >&2
+echo "sbatch: error: User's group not permitted to use this partition" >&2
+echo "sbatch: error: invalid partition specified: 'nowhere'" >&2
 echo "sbatch: error: Batch job submission failed: Invalid partition name specified" >&2
 exit 1
 """
@@ -130,9 +153,24 @@ def test_the_words_of_slurm_are_told(tmp_path: Path) -> None:
     done = _study(tmp_path, f"{programs}{os.pathsep}{os.environ['PATH']}")
     assert done.returncode == 1, done.stderr
     assert (
-        "6 results were not computed: no worker could start: error: invalid partition specified: nowhere; "
-        "error: Batch job submission failed: Invalid partition name specified\n"
+        "6 results were not computed: no worker could start: error: User's group not permitted to use this partition; "
+        "error: invalid partition specified: 'nowhere'; error: Batch job submission failed: Invalid partition name specified\n"
     ) in done.stderr
     assert "Traceback" not in done.stderr
     page = (tmp_path / "out/report.html").read_text("utf-8")
-    assert "invalid partition specified: nowhere" in page
+    assert "invalid partition specified: " in page
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "stderr=sbatch: error: User's group not permitted\nsbatch: error: no partition 'a'\n",
+        "stderr=sbatch: error: User's group not permitted\nsbatch: error: no partition 'a'",
+        """(stderr="sbatch: error: User's group not permitted\\nsbatch: error: no partition 'a'\\n")""",
+        """stderr="sbatch: error: User's group not permitted\\nsbatch: error: no partition 'a'\"""",
+    ],
+)
+def test_the_words_of_slurm_end_with_their_lines(message: str) -> None:
+    """Parsl's versions put Slurm's lines into their message as they are, or as a text of Python in quotes."""
+    found = slurm_lines(message)
+    assert found == ["error: User's group not permitted", "error: no partition 'a'"]

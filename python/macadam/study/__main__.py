@@ -76,7 +76,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
 # Runs, lists or checks a study, as the options say. Returns the exit code.
 def _command(options: argparse.Namespace, stop: _Stop) -> int:
     from macadam.study import StudyError, study
-    from macadam.study.design import read_design
+    from macadam.study.driver import checked_design
     from macadam.study.program import find_program, version_of
 
     shown = sys.stderr.isatty()
@@ -89,7 +89,7 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
     try:
         if options.list or options.check:
             program = find_program()
-            design = read_design(options.study, version_of(program))
+            design = checked_design(options.study, version_of(program), options.on, options.workers)
             _print_notes(design.notes)
             for job in design.jobs if options.list else ():
                 print(job.key, job.experiment, *(f"{k}={v}" for k, v in job.values.items()))
@@ -134,11 +134,14 @@ def _print_notes(notes: list[str]) -> None:
 
 def _print_study(found: Any, out: str) -> int:
     """Prints the results of a study. Returns the exit code."""
+    from macadam.study.programs import error_line
+    from macadam.study.table import failed_results
+
     _print_notes(found.notes)
     for failure in found.failures:
         values = ", ".join(f"{k} = {v}" for k, v in failure["values"].items())
         print(
-            f"failed: {failure['experiment']} {values}: {failure['message'].splitlines()[-1]}".replace(":  ", ": "),
+            f"failed: {failure['experiment']} {values}: {error_line(failure['message'])}".replace(":  ", ": "),
             file=sys.stderr,
         )
     if found.missing:
@@ -148,7 +151,7 @@ def _print_study(found: Any, out: str) -> int:
         )
     names = [n for n in ("table.csv", "table.parquet", "failures.csv", "report.html") if (found.folder / n).is_file()]
     print(
-        f"{found.table['key'].nunique() if len(found.table) else 0} results, {len(found.failures)} failed | files in "
+        f"{found.table['key'].nunique() if len(found.table) else 0} results, {failed_results(found.failures)} failed | files in "
         f"{out}: {' '.join(names)}"
     )
     return 1 if found.failures or found.missing else 0

@@ -31,8 +31,9 @@ DIED = "their workers died; the logs are in the folder parsl"
 @dataclass
 class Study:
     """The results of a study. `table`: one row per frequency, temperature or time of each result, SI units; `failures`:
-    key, experiment, values and message of each failed result; `missing`: number of results that were not computed, and
-    `reason`: why not; `notes`: sentences about points that have the same scene as another point."""
+    key, experiment, values, exit_code and message of each failed point, in which points with the same scene have the
+    same key; `missing`: number of results that were not computed, and `reason`: why not; `notes`: sentences about points
+    that have the same scene as another point."""
 
     folder: Path
     table: pd.DataFrame
@@ -64,14 +65,9 @@ def study(
     folder = Path(out).resolve()
     program = program or find_program()
     version = version_of(program)
-    design = read_design(source, version)
-    design.run = {**design.run, **({"on": on} if on else {}), **({"workers": workers} if workers else {})}
-    executors.check(design.run)
+    design = checked_design(source, version, on, workers)
     if executor is None:
         executors.check_programs(design.run)
-    table.check(design.report)
-    if not design.jobs:
-        raise StudyError("the study has no points")
     if folder.exists() and not folder.is_dir():
         raise StudyError(f"{folder}: found a file, expected a folder")
     for name in ("results", "failures", "running"):
@@ -97,6 +93,21 @@ def study(
         except KeyboardInterrupt:
             _written(design, folder, reason)
             raise
+
+
+def checked_design(source: str | Path | dict[str, Any], version: str, on: str | None, workers: int | None) -> Design:
+    """Reads the design of a study, and checks all its sections. on, workers: replace those of [run] if they are not
+    None. Raises StudyError if the study or these values are wrong."""
+    if workers is not None:
+        executors.check_count("workers", workers)
+    design = read_design(source, version)
+    asked = {"on": on, "workers": workers}
+    design.run = {**design.run, **{key: value for key, value in asked.items() if value is not None}}
+    executors.check(design.run)
+    table.check(design.report)
+    if not design.jobs:
+        raise StudyError("the study has no points")
+    return design
 
 
 def _written(design: Design, folder: Path, reason: str) -> Study:
@@ -196,7 +207,7 @@ def _round(
 # Returns the job as the dictionary that compute() of job.py expects.
 def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[str, Any]:
     command = [*job.command]
-    if job.command[0] == "run" and "--threads" not in command:
+    if job.command[0] == "run" and "--threads" not in {word.partition("=")[0] for word in command}:
         command += ["--threads", str(executors.threads(run))]
     return {
         "key": job.key,

@@ -11,6 +11,7 @@ import pandas as pd
 
 from macadam.study import table
 from macadam.study.design import Design
+from macadam.study.quantiles import fisher_95
 
 FEW = 8  # a factor with at most so many different values has levels; a numeric factor with more values is continuous
 
@@ -40,6 +41,13 @@ class Quantity:
         if not self.factors:
             return pd.DataFrame({"value": [self.jobs["value"].mean()]})
         return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].mean().reset_index()
+
+    @property
+    def repetitions(self) -> np.ndarray:
+        """Number of seeds of each point, in the order of `points`."""
+        if not self.factors:
+            return np.array([len(self.jobs)])
+        return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].size().to_numpy()
 
 
 # column of the table, key of [report], default value, and unit of what a quantity is shown at; infinity: the largest
@@ -121,19 +129,34 @@ class Effect:
     errors: list[float] | None = None  # standard errors of the means, from the scatter of seeds; None: it is unknown
     # half the 95 % interval of the change between the ends, also from the scatter of seeds
     scatter: float | None = None
+    within_scatter: bool = False  # whether different seeds alone can explain all differences between the means
+
+    @property
+    def at_ends(self) -> tuple[int, int]:
+        """The numbers of the two levels whose difference is the change: the first and the last one if the levels are
+        numbers and the means only rise or only fall, otherwise those with the smallest and the largest mean."""
+        steps = np.diff(self.means)
+        if all(isinstance(v, (int, float)) for v in self.levels) and ((steps >= 0).all() or (steps <= 0).all()):
+            return 0, len(self.levels) - 1
+        return int(np.argmin(self.means)), int(np.argmax(self.means))
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The means at the first and the last level; if the levels are names, the lowest and the highest mean."""
-        if isinstance(self.levels[0], (int, float)):
-            return self.means[0], self.means[-1]
-        return min(self.means), max(self.means)
+        """The means at the two levels of `at_ends`."""
+        first, last = self.at_ends
+        return self.means[first], self.means[last]
 
-    @property
-    def within_scatter(self) -> bool:
-        """Whether different seeds alone can explain the change; false if the scatter is unknown."""
-        first, last = self.ends
-        return self.scatter is not None and abs(last - first) <= self.scatter
+    def compare(self, variances: np.ndarray, chance: Scatter) -> None:
+        """Compares the means with the scatter of seeds by an F-test over all levels: the mean square between the levels
+        against the variance of seeds. Half the interval of the change is Scheffé's, which is Student's for two levels:
+        a change is never larger than it if the test finds no effect. variances: of each mean, relative to that of a
+        seed."""
+        means, freedom = np.array(self.means), len(self.means) - 1
+        limit = freedom * fisher_95(freedom, chance.freedom) * chance.deviation**2
+        between = (((means - np.average(means, weights=1 / variances)) ** 2) / variances).sum()
+        self.errors = [float(e) for e in chance.deviation * variances**0.5]
+        self.scatter = float((limit * variances[list(self.at_ends)].sum()) ** 0.5)
+        self.within_scatter = bool(between <= limit)
 
 
 # Whether a factor is numeric and has more than FEW different values.
@@ -141,10 +164,11 @@ def continuous(points: pd.DataFrame, factor: str) -> bool:
     return numeric(points, factor) and points[factor].nunique() > FEW
 
 
-def _lines(points: pd.DataFrame, factors: list[str]) -> dict[str, tuple[float, float]]:
-    """Returns the slope of each continuous factor, and the standard error that the slope would have if the points had a
+def _lines(points: pd.DataFrame, factors: list[str], repetitions: np.ndarray) -> dict[str, tuple[float, float]]:
+    """Returns the slope of each continuous factor, and the standard error that the slope would have if every seed had a
     standard deviation of 1. All factors are fitted together by least squares, factors with levels as 0/1 columns: the
-    values of a hypercube are not quite independent, and the effect of one factor must not be attributed to another."""
+    values of a hypercube are not quite independent, and the effect of one factor must not be attributed to another.
+    repetitions: number of seeds of each point. As in the means of levels, each point counts once."""
     smooth = [f for f in factors if continuous(points, f)]
     if not smooth:
         return {}
@@ -154,38 +178,39 @@ def _lines(points: pd.DataFrame, factors: list[str]) -> dict[str, tuple[float, f
     for factor in (f for f in factors if f not in smooth):
         codes = pd.factorize(points[factor])[0]
         matrix += [(codes == k).astype(float) for k in range(1, codes.max() + 1)]
-    all_of_them = np.column_stack([*matrix, np.ones(len(points))])
-    found = np.linalg.lstsq(all_of_them, points["value"].to_numpy(float), rcond=None)[0]
-    errors = np.sqrt(np.diag(np.linalg.pinv(all_of_them.T @ all_of_them)))
+    inverse = np.linalg.pinv(np.column_stack([*matrix, np.ones(len(points))]))
+    found = inverse @ points["value"].to_numpy(float)
+    errors = np.sqrt(inverse**2 @ (1 / repetitions))
     return {f: (float(v / s), float(e / s)) for f, v, e, s in zip(smooth, found, errors, scales, strict=False)}
 
 
 def effects(quantity: Quantity) -> list[Effect]:
     """Returns one effect per factor, the largest share of the variance first. A continuous factor has two levels, the
     ends of its fitted line."""
-    points, out = quantity.points, []
+    points, repetitions, out = quantity.points, quantity.repetitions, []
     total = float(((points["value"] - points["value"].mean()) ** 2).sum())
-    lines, chance = _lines(points, quantity.factors), scatter(quantity)
+    lines, chance = _lines(points, quantity.factors, repetitions), scatter(quantity)
     for factor in quantity.factors:
         if factor in lines:
             x, (slope, error) = points[factor].to_numpy(float), lines[factor]
             ends = [float(x.min()), float(x.max())]
             means = [float(points["value"].mean() + slope * (e - x.mean())) for e in ends]
             effect = Effect(factor, ends, means, float(((slope * (x - x.mean())) ** 2).sum()) / total if total else 0.0)
-            if chance:  # error of the change between the ends; each point is a mean over seeds
-                each = error * (ends[1] - ends[0]) * chance.deviation / chance.fewest**0.5
-                effect.scatter = student_95(chance.freedom) * each
+            if chance:
+                # the two ends share the error of one slope: half of the change's variance is given to each
+                effect.compare(np.full(2, 0.5 * (error * (ends[1] - ends[0])) ** 2), chance)
+                effect.errors = None  # a line has no means
             out.append(effect)
             continue
-        groups = points.groupby(factor, sort=numeric(points, factor), dropna=False)["value"]
+        by = points[factor]
+        groups = points["value"].groupby(by, sort=numeric(points, factor), dropna=False)
         mean, number = groups.mean(), groups.size()
         between = float((number * (mean - points["value"].mean()) ** 2).sum())
         levels = [v.item() if isinstance(v, np.generic) else v for v in mean.index]
         effect = Effect(factor, levels, list(map(float, mean)), between / total if total else 0.0)
-        if chance:
-            effect.errors = [chance.deviation / (n * chance.fewest) ** 0.5 for n in number]
-            first, last = (effect.errors[effect.means.index(e)] for e in effect.ends)
-            effect.scatter = student_95(chance.freedom) * (first**2 + last**2) ** 0.5
+        if chance:  # a level's mean is over its points, and each point's value is a mean over seeds
+            inverse = pd.Series(1 / repetitions, points.index).groupby(by, sort=numeric(points, factor), dropna=False)
+            effect.compare(inverse.sum().to_numpy() / number.to_numpy() ** 2, chance)
         out.append(effect)
     return sorted(out, key=lambda e: -e.share)
 
@@ -197,7 +222,8 @@ class Scatter:
     deviation: float  # standard deviation, in the quantity's unit
     relative: float  # the same, relative to each point's mean
     points: int  # number of points with several seeds
-    fewest: int  # smallest number of seeds of such a point
+    fewest: int  # smallest number of seeds of a point, 1 if a point has a single seed
+    most: int  # largest number of seeds of a point
     freedom: int  # degrees of freedom
 
 
@@ -207,22 +233,13 @@ def scatter(quantity: Quantity) -> Scatter | None:
         return None
     groups = quantity.jobs.groupby(quantity.factors, dropna=False)["value"] if quantity.factors else None
     values = [g.to_numpy(float) for _, g in groups] if groups is not None else [quantity.jobs["value"].to_numpy(float)]
-    values = [v for v in values if len(v) > 1]
-    if not values:
+    several = [v for v in values if len(v) > 1]
+    if not several:
         return None
-    freedom = sum(len(v) - 1 for v in values)
-    squares = sum(float(((v - v.mean()) ** 2).sum()) for v in values)
-    relative = sum(float(((v / v.mean() - 1) ** 2).sum()) for v in values if v.mean())
+    freedom = sum(len(v) - 1 for v in several)
+    squares = sum(float(((v - v.mean()) ** 2).sum()) for v in several)
+    relative = sum(float(((v / v.mean() - 1) ** 2).sum()) for v in several if v.mean())
+    numbers = [len(v) for v in values]
     return Scatter(
-        (squares / freedom) ** 0.5, (relative / freedom) ** 0.5, len(values), min(map(len, values)), freedom
+        (squares / freedom) ** 0.5, (relative / freedom) ** 0.5, len(several), min(numbers), max(numbers), freedom
     )
-
-
-def student_95(freedom: int) -> float:
-    """Returns Student's t for a two-sided 95 % interval: 95 % of random differences are within this number of standard
-    errors. Correct to three digits."""
-    few = (12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228)
-    if freedom <= len(few):
-        return few[freedom - 1]
-    z = 1.959964  # value of the normal distribution; below, the first terms of the series in 1/freedom
-    return z + (z**3 + z) / (4 * freedom) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * freedom**2)

@@ -101,9 +101,7 @@ def check(run: dict[str, Any]) -> None:
     if run.get("on", "local") not in PLACES:
         raise StudyError(f"run.on: found {run['on']!r}, expected {', '.join(PLACES)}")
     for key in ("workers", "threads", "patience"):
-        value = run.get(key, 1)
-        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-            raise StudyError(f"run.{key}: found {value!r}, expected a whole number above 0")
+        check_count(f"run.{key}", run.get(key, 1))
     gpus = run.get("gpus", 0)
     if gpus != "all" and (isinstance(gpus, bool) or not isinstance(gpus, int) or gpus < 0):
         raise StudyError(f'run.gpus: found {gpus!r}, expected a number or "all"')
@@ -118,6 +116,12 @@ def check(run: dict[str, Any]) -> None:
             f'run.slurm.walltime: found {walltime!r}, expected hours, minutes and seconds such as "01:30:00", at least '
             "a minute"
         )
+
+
+def check_count(name: str, value: Any) -> None:
+    """Raises StudyError if a value is not a whole number above 0. name: of the value, for the message."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+        raise StudyError(f"{name}: found {value!r}, expected a whole number above 0")
 
 
 def check_programs(run: dict[str, Any]) -> None:

@@ -59,7 +59,7 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
             (work / "checkpoint.h5").unlink(missing_ok=True)
             work.rename(done)
             return {"key": key, "status": "done"}
-        _write(failed, record | {"exit_code": code, "message": _message(code, said).replace(f"{work}/", "")})
+        _write(failed, record | {"exit_code": code, "message": message_of(code, said).replace(f"{work}/", "")})
         shutil.rmtree(work, ignore_errors=True)
         return {"key": key, "status": "failed"}
 
@@ -82,9 +82,9 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
         (work / "scene.toml").write_text(job["scene"], encoding="utf-8")
     line = [job["program"], command, str(work / "scene.toml"), "--out", str(work), *arguments, *resume]
     try:
-        # The variables limit threads that the option --threads does not: waiting for a core that another program uses
-        # costs more time than an additional thread saves.
-        environment = {"OMP_NUM_THREADS": str(job["threads"]), "OMP_WAIT_POLICY": "passive", **os.environ}
+        # `macadam specimen` has no option --threads. Waiting for a core that another program uses costs more time than
+        # an additional thread saves, so threads sleep, unless the user wants another policy.
+        environment = {"OMP_WAIT_POLICY": "passive", **os.environ, "OMP_NUM_THREADS": str(job["threads"])}
         code, said = programs.run(
             job["folder"],
             line,
@@ -107,12 +107,15 @@ def _die_with_parent() -> None:
     _LIBC.prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
-# Returns the message of a failure: the last lines of the program's messages, or the signal that killed it.
-def _message(code: int, said: str) -> str:
-    text = "\n".join(said.strip().splitlines()[-_LINES:])
+def message_of(code: int, said: str) -> str:
+    """Returns the message of a failure: the program's error and the last lines of its messages, or the signal that
+    killed it. code: exit code of the program; said: all its messages."""
+    lines = said.strip().splitlines()
+    error, kept = programs.error_line(said), lines[-_LINES:]
+    text = "\n".join([error] * (error not in kept) + kept)
     if code < 0:
         text = (
-            f"killed by signal {-code} ({signal.Signals(-code).name}) {KILLS + 1} times; memory may have ended\n{text}"
+            f"macadam: killed by signal {-code} ({signal.Signals(-code).name}) {KILLS + 1} times; memory may have ended\n{text}"
         )
     return text.strip() or f"exit code {code} without a message"
 

@@ -123,10 +123,19 @@ def _trouble(executor: Any) -> Trouble:
         if status.state in (JobState.FAILED, JobState.MISSING):
             message = status.message or ""
             words = f"{message}\n{status.stderr_summary or ''}"
-            said = re.findall(r"(?:sbatch|slurmstepd): *(.*?)(?:\\n|\n|'|\"|$)", words)
-            text = "; ".join(said) or " ".join(words.split()) or f"exit code {status.exit_code}"
+            text = "; ".join(slurm_lines(words)) or " ".join(words.split()) or f"exit code {status.exit_code}"
             return Trouble(text, message.startswith("Failed to start block"))
     return Trouble()
+
+
+def slurm_lines(message: str) -> list[str]:
+    """Returns the lines of sbatch and slurmstepd in a message of Parsl, without the names of these programs. A version
+    of Parsl may write line ends as `\\n`, and quotes around the text."""
+    found = []
+    for line in re.findall(r"(?:sbatch|slurmstepd): *(.*?) *(?:\\n|\n|$)", message):
+        lone = line[-1:] in ("'", '"') and line.count(line[-1]) == 1  # it closes a quote that began before the line
+        found.append(line[:-1] if lone else line)
+    return found
 
 
 def _end(pool: Any, executor: Any, config: Any, seconds: float) -> None:

@@ -110,8 +110,10 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     each part contains one point."""
     block = _flat(block, lambda value: "low" in value or "high" in value)
     number, seed = block.pop("points", None), block.pop("seed", 1)
-    if not isinstance(number, int) or not 1 <= number <= MOST:
+    if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= MOST:
         raise StudyError(f"latin_hypercube: points: found {number!r}, expected a number of points, at most {MOST:,}")
+    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
+        raise StudyError(f"latin_hypercube: seed: found {seed!r}, expected a whole number, at least 0")
     if not block:
         raise StudyError("latin_hypercube: found no key with a range")
     try:

@@ -18,6 +18,14 @@ _stopped: set[str] = set()  # folders of studies that were stopped
 _change = threading.Lock()  # guards both
 
 
+def error_line(message: str) -> str:
+    """Returns the line of the program's messages that says what is wrong: the first one that begins with `macadam:` and
+    is not a warning; without such a line the last one, or "" if there are none. The lines after an error are hints."""
+    lines = message.strip().splitlines() or [""]
+    errors = (line for line in lines if line.startswith("macadam:") and not line.startswith("macadam: warning:"))
+    return next(errors, lines[-1])
+
+
 def start(folder: str) -> None:
     """Allows programs of the study in this folder to start, also after an earlier stop()."""
     with _change:

@@ -15,6 +15,7 @@ from macadam.report.page import Page
 from macadam.study import table
 from macadam.study.design import Design, number_and_unit
 from macadam.study.effects import FEW, Effect, Quantity, continuous, effects, numeric, quantities, scatter, short
+from macadam.study.programs import error_line
 
 if TYPE_CHECKING:
     from macadam.study.driver import Study
@@ -49,7 +50,8 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
             "failure",
         )
     if failed:
-        page.text(f"{len(failed)} of {len(design.results)} failed; they are listed below.", "warning")
+        number = table.failed_results(failed)
+        page.text(f"{number} of {len(design.results)} failed; they are listed below.", "warning")
     page.text(f"{done} results at {_count(design)}.", "lead")
     for note in study.notes[:NOTES]:
         page.text(f"{note}.", "warning")
@@ -78,7 +80,7 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
                 [
                     f["experiment"] or "–",
                     "; ".join(f"{k} = {v}" for k, v in f["values"].items()),
-                    f["message"].splitlines()[-1],
+                    error_line(f["message"]),
                 ]
                 for f in failed
             ],
@@ -95,7 +97,7 @@ def _strongest(q: Quantity) -> str:
     if not found:
         return ""
     first = found[0]
-    name, change = short(first.factor), _change(q, first)
+    name, change = short(first.factor), _change(q, first) + _from_to(first)
     if first.within_scatter:
         most = f"the change with {name}" if len(found) == 1 else f"the largest change, with {name}"
         return f"; {most}, {change}, is within the scatter of seeds ({_chance(q, first)})"
@@ -152,14 +154,14 @@ def _main_effects(page: Page, q: Quantity) -> None:
         for axis, effect in zip(axes[0], shown, strict=True):
             _panel(axis, effect, points)
         axes[0, 0].set_ylabel(f"{q.name} ({q.unit})")
-        words = "; ".join(f"{short(e.factor)}: {_change(q, e)}" for e in shown)
+        words = "; ".join(f"{short(e.factor)}: {_change(q, e)}{_from_to(e)}" for e in shown)
         bars = any(e.errors for e in shown)
         dots = "Dots with bars" if bars else "Dots"
         error = ", and its standard error from the scatter of seeds" if bars else ""
         page.figure(
             figure,
             f"Main effects on {q.title}. {dots}: mean over all points at that value{error}. "
-            f"Changes from one end to the other: {words}.",
+            f"Changes: {words}.",
             f"main effects on {q.title}",
         )
     _table_of_effects(page, q, found)
@@ -169,14 +171,15 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
     """Adds the table of effects, with the scatter of seeds if it is known, and with shares of the variance if there are
     several factors."""
     heads, notes = ["factor", "from … to", f"change of {q.name}"], []
-    rows = [[e.factor, f"{_level(e.levels[0])} … {_level(e.levels[-1])}", _change(q, e)] for e in found]
+    rows = [[e.factor, " … ".join(_level(e.levels[k]) for k in e.at_ends), _change(q, e)] for e in found]
     if any(e.scatter is not None for e in found):
         heads.append("scatter of seeds (95 %)")
         for row, e in zip(rows, found, strict=True):
-            row.append(_chance(q, e) + (": the change is within it" if e.within_scatter else ""))
+            row.append(_chance(q, e) + (": the effect is within it" if e.within_scatter else ""))
         notes.append(
-            "The scatter of seeds is the change between the two ends that other seeds alone may cause: half the 95 % "
-            "interval, by Student's t, of seeds that are independent of each other. A change within it may be chance."
+            "The scatter of seeds is the change between these two values that other seeds alone may cause: half the "
+            "95 % interval of seeds that are independent of each other. An F-test over all values of the factor decides "
+            "whether its effect is within the scatter. Such an effect may be chance."
         )
     if len(found) > 1:
         heads.append("share of the variance")
@@ -188,17 +191,26 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
 
 def _level(value: Any) -> str:
     if not isinstance(value, (int, float)):
-        return str(value)
+        return str(value) if len(str(value)) < 40 else f"{str(value)[:37]}…"
     text = f"{value:.4g}"
     return look.number(float(value), 3) if "e" in text else text.replace("-", "−")
 
 
 def _change(q: Quantity, effect: Effect) -> str:
-    """Returns the change from one end to the other as text: of angles in degrees, otherwise in per cent of the
-    first."""
+    """Returns the change of an effect as text: of angles in degrees, otherwise in per cent of the first of its two
+    means."""
     first, last = effect.ends
     text = f"{last - first:+.2g}°" if q.unit == "°" else f"{100 * (last / first - 1):+.3g} %" if first else "–"
     return text.replace("-", "−")
+
+
+def _from_to(effect: Effect) -> str:
+    """Returns the two values between which the change is, as the end of a sentence; empty if they are the first and the
+    last of a factor that is a number."""
+    first, last = effect.at_ends
+    if isinstance(effect.levels[0], (int, float)) and (first, last) == (0, len(effect.levels) - 1):
+        return ""
+    return f" from {_level(effect.levels[first])} to {_level(effect.levels[last])}"
 
 
 def _chance(q: Quantity, effect: Effect) -> str:
@@ -278,13 +290,15 @@ def _seeds(page: Page, values: list[Quantity]) -> None:
         known = scatter(q)
         if known:
             of_mean = look.percent(known.relative / known.fewest**0.5)
-            rows.append([q.title, look.percent(known.relative), of_mean, known.points, known.fewest])
+            numbers = f"{known.fewest} to {known.most}" if known.fewest < known.most else known.fewest
+            rows.append([q.title, look.percent(known.relative), of_mean, known.points, numbers])
     if rows:
         page.table(
-            ["quantity", "standard deviation", "of the mean over seeds", "points", "seeds of each"],
+            ["quantity", "standard deviation", "of the mean over seeds", "points with several seeds", "seeds per point"],
             rows,
             "Deviation of single specimens of a mix from the mean of its point, relative to this mean, pooled over the "
-            "points. Differences between points that are smaller than this may be chance.",
+            "points. The third column is for a point with the fewest seeds. Differences between points that are "
+            "smaller than this may be chance.",
             words=1,
         )
 

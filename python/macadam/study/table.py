@@ -92,9 +92,20 @@ def _results(summary: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def failures(design: Design, folder: Path) -> list[dict[str, Any]]:
-    """Returns the record of each failed job of the study."""
-    files = (folder / "failures" / f"{job.key}.json" for job in design.results)
-    return [read_json(file) for file in files if file.is_file()]
+    """Returns the record of each failed job of the study, one per job. Points with the same scene share a record, and
+    an earlier study with other factors may have written it, so experiment and values are those of this study's jobs."""
+    files = {job.key: folder / "failures" / f"{job.key}.json" for job in design.results}
+    records = {key: read_json(file) for key, file in files.items() if file.is_file()}
+    return [
+        records[job.key] | {"experiment": job.experiment, "values": job.values}
+        for job in design.jobs
+        if job.key in records
+    ]
+
+
+def failed_results(failed: list[dict[str, Any]]) -> int:
+    """Returns the number of failed results. Points with the same scene have one result. failed: from failures()."""
+    return len({failure["key"] for failure in failed})
 
 
 def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> None:
