@@ -12,6 +12,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <sstream>
+#include <string>
 #include <typeinfo>
 
 #include "macadam/error.hpp"
@@ -51,15 +53,29 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Checks that a message is one line that begins with the file and states what was found and what was expected.
-void check_message(const std::string& message) {
+/// Checks one line of a message: it begins with the file, states what was found and what was expected, and has no
+/// control characters.
+void check_line(const std::string& line) {
   static const std::string name = file_name();
-  const bool line = std::none_of(message.begin(), message.end(),
-                                 [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7F; });
-  const bool whole = message.starts_with(name) && message.find(": found ") != std::string::npos &&
-                     message.find(", expected ") != std::string::npos;
-  if (!line || !whole)
-    finding("a message that is not 'FILE:LINE: WHAT: found F, expected E' in a line: %s", message.c_str());
+  const bool printable =
+      std::none_of(line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7F; });
+  const bool whole = line.starts_with(name) && line.find(": found ") != std::string::npos &&
+                     line.find(", expected ") != std::string::npos;
+  if (!printable || !whole)
+    finding("a message that is not 'FILE:LINE: WHAT: found F, expected E' in a line: %s", line.c_str());
+}
+
+/// Checks a message. A table of a laboratory may have several faults: then each has a line, at most ten, and a last
+/// line counts the others.
+void check_message(const std::string& message) {
+  std::istringstream lines(message);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    if (count > 0 && line.starts_with("and ") && line.ends_with(" more in this file") && lines.peek() == EOF) return;
+    check_line(line);
+  }
+  constexpr int most = 10;
+  if (count == 0 || count > most) finding("a message of %d lines: %s", count, message.c_str());
 }
 
 void attempt(std::string_view bytes) {
