@@ -26,7 +26,7 @@ def number(pattern):
 @mark
 def took():
     """Returns the time of the whole command, from the comment in the committed output."""
-    return f"{number(r'^the whole command: ([0-9.]+) s'):.0f} seconds"
+    return f"{number(r'^the whole command: ([0-9.]+) s'):.1f} seconds"
 
 
 @mark
