@@ -236,5 +236,18 @@ TEST_F(FitCommand, FaultyDataAreNamedByLineAndColumn) {
   EXPECT_HAS(macadam("fit --out x").err, "what to fit: found nothing");
 }
 
+/// Curves without a slope do not say how far apart they are: the shift between them is bounded, and the fit ends.
+TEST_F(FitCommand, FlatIsothermsFarApartAreFitted) {
+  std::string table = "temperature_c,frequency_hz,e_star_pa,phase_deg\n";
+  for (const auto& [temperature, modulus] : {std::pair{-20.0, 3e10}, {60.0, 1e9}}) {
+    for (int k = 0; k < 5; ++k)
+      table += fmt::format("{},{},{},2\n", temperature, std::pow(10.0, 0.5 * k - 1), modulus * (1 + 0.005 * k));
+  }
+  write(folder_ / "flat.csv", table);
+  const Outcome fit =
+      macadam(fmt::format("fit {} --shift free --no-pictures --out {}", path("flat.csv"), path("flat")));
+  EXPECT_EQ(fit.code, 0) << fit.err;
+}
+
 }  // namespace
 }  // namespace macadam::test
