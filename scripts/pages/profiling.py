@@ -2,7 +2,7 @@
 """Marks of docs/profiling.md on the operations of a step and their rate, from bench/steps/operations."""
 import re
 
-from pages.data import head, one, rows, table
+from pages.data import head, minus, one, rows, table
 from pages.marks import mark
 
 DOCUMENT = "docs/profiling.md"
@@ -55,3 +55,9 @@ def waiting():
         sleep = one(rows("waiting.csv"), beside=r["beside"], command=r["command"], waiting="sleep")
         lines.append((r["command"], r["beside"], *(f"{x[key]:.2f}" for key in ("seconds", "processor_s") for x in (r, sleep))))
     return table(["command", "beside it", "spin (s)", "sleep (s)", "spin, processor (s)", "sleep, processor (s)"], lines, range(2, 6))
+
+
+@mark
+def steps_by_sleeping():
+    """Time of a step with threads that sleep over that with threads that spin, %."""
+    return minus(f"{min(d := [100 * (r['sleep_us'] / r['spin_us'] - 1) for r in rows('waiting-steps.csv')]):+.0f} to {max(d):+.0f} %")
