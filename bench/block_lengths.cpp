@@ -10,7 +10,7 @@
 #include "host/experiments/cyclic/error_model.hpp"
 #include "kernels/contact_kinematics.hpp"
 #include "kernels/layout.hpp"
-#include "test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace macadam::bench {
 namespace {

@@ -15,7 +15,7 @@
 #include "host/experiments/cyclic/error_model.hpp"
 #include "kernels/block_length.hpp"
 #include "macadam/laws/facts.hpp"
-#include "test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace macadam::bench {
 namespace {

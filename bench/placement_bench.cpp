@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "shape_tests.hpp"
+#include "tests/support/shape_tests.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "tests/cluster_specimens.hpp"
+#include "tests/support/cluster_specimens.hpp"
 
 namespace macadam::accuracy {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // aggregate_cube.cpp  Computes the modulus of cubes of aggregate. Writes a CSV with one row per cube to standard
 // output.
-#include "tests/aggregate_cube.hpp"
+#include "tests/support/aggregate_cube.hpp"
 
 #include <fmt/format.h>
 

@@ -10,8 +10,8 @@
 #include <chrono>
 #include <filesystem>
 
-#include "tests/general_laws.hpp"
-#include "tests/test_scenes.hpp"
+#include "tests/support/general_laws.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace macadam {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/stability/stability.hpp"
-#include "tests/cluster_specimens.hpp"
+#include "tests/support/cluster_specimens.hpp"
 
 namespace macadam::stability {
 namespace {

@@ -2,7 +2,7 @@
 /// \file hostile_scenes.hpp  Elastic networks on which a solver may fail.
 #pragma once
 
-#include "tests/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace macadam::stability {
 

@@ -9,7 +9,7 @@
 
 #include "bench/stability/modes.hpp"
 #include "bench/stability/stability.hpp"
-#include "tests/cluster_specimens.hpp"
+#include "tests/support/cluster_specimens.hpp"
 
 namespace macadam::stability {
 namespace {

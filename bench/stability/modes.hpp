@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "tests/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace macadam::stability {
 

@@ -3,7 +3,7 @@
 /// measures it and gives a verdict.
 ///
 /// A case is a function that takes an effort and returns rows. The program stability_bench runs all cases and writes
-/// the table; tests/stability_test.cpp runs the same functions with little effort.
+/// the table; tests/step/stability_test.cpp runs the same functions with little effort.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "macadam/harmonic.hpp"
-#include "tests/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace macadam::stability {
 

@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "macadam/macadam.hpp"
-#include "test_files.hpp"
+#include "tests/support/test_files.hpp"
 
 #ifdef MACADAM_CUDA
 #include <cuda_runtime_api.h>

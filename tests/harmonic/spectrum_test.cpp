@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spectrum_test.cpp  Relaxation and creep spectra: closed forms, Laplace inversions of full solutions, and conversions
+// between both.
+#include "macadam/spectrum.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "macadam/harmonic.hpp"
+#include "tests/support/talbot.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace macadam::test {
+namespace {
+
+using Complex = std::complex<double>;
+
+laws::GeneralisedKelvin am1(PairType pair) {
+  return std::get<laws::GeneralisedKelvin>(*am1_laws()[static_cast<std::size_t>(pair)]);
+}
+
+TEST(Series, OfALawIsTheLaw) {
+  laws::GeneralisedKelvin solid = am1(PairType::mm), maxwell = solid, twins = solid;
+  solid.C_m = std::numeric_limits<double>::infinity();
+  maxwell.E.clear(), maxwell.C.clear();
+  twins.E.push_back(twins.E[1]), twins.C.push_back(twins.C[1]);  // two units with the same retardation time
+  for (const auto& law : {am1(PairType::mm), solid, maxwell, twins}) {
+    const PronySeries series = prony_series(law);
+    for (const Complex s : {Complex(1e-6, 0), Complex(0, 1e-3), Complex(3, 40), Complex(0, 1e5), Complex(-1e-3, 1)}) {
+      // few units, but roots whose last digits are rounding
+      EXPECT_LT(std::abs(series.stiffness(s) / law.stiffness(s) - 1.0), 1e-12) << s;
+    }
+    EXPECT_EQ(series.long_term == 0, std::isfinite(law.C_m));
+  }
+  EXPECT_EQ(prony_series(laws::Elastic{3e9, 0.1}).modulus(5), 3e9);
+}
+
+// The creep of a chain follows from its constants, and must be the inverse of E*.
+TEST(Series, CreepOfALawIsItsChain) {
+  const laws::GeneralisedKelvin law = am1(PairType::mm);
+  const CreepSeries creep = creep_series(prony_series(law));
+  for (const double t : {0.0, 1e-4, 0.01, 1.0, 1e3}) {
+    double expected = 1 / law.E_m + t / law.C_m;
+    for (std::size_t l = 0; l < law.E.size(); ++l) expected -= std::expm1(-t * law.E[l] / law.C[l]) / law.E[l];
+    EXPECT_NEAR(creep.compliance(t) / expected, 1, 1e-11) << t;
+  }
+}
+
+/// Two spheres between the walls, joined by one contact with a chain.
+TEST(Spectrum, OfOneContactIsTheClosedForm) {
+  Specimen specimen;
+  specimen.box.size = {2e-3, 2e-3, 4e-3};
+  for (const double z : {1e-3, 3e-3}) {
+    specimen.centre.push_back({1e-3, 1e-3, z});
+    specimen.radius.push_back(1e-3);
+    specimen.phase.push_back(Phase::mastic);
+    specimen.body.push_back(-1);
+  }
+  Laws laws = am1_laws();
+  // so that nothing can slide freely
+  std::get<macadam::laws::Elastic>(*laws[static_cast<std::size_t>(PairType::mw)]).alpha = 0.1;
+  const TestScene scene = make_scene(specimen, {}, laws);
+  const Spectrum found = spectrum_of(scene.specimen, scene.network, scene.laws);
+  // Three contacts in series, each with area over distance a/d; those at the walls have half the distance.
+  double compliance_at_walls = 0, between = 0;
+  for (const Contact& c : scene.network.contacts) (c.b < 0 ? compliance_at_walls : between) += c.distance / c.moments.a;
+  const auto& wall = *scene.laws[static_cast<std::size_t>(PairType::mw)];
+  const laws::GeneralisedKelvin law = am1(PairType::mm);
+  const double area_over_height = 4e-6 / 4e-3;
+  for (const double t : {1e-3, 0.1, 1.0, 100.0, 1e4}) {
+    double creep = 1 / law.E_m + t / law.C_m;
+    for (std::size_t l = 0; l < law.E.size(); ++l) creep -= std::expm1(-t * law.E[l] / law.C[l]) / law.E[l];
+    const double expected =
+        area_over_height * (creep * between + compliance_at_walls / std::get<laws::Elastic>(wall).E);
+    EXPECT_NEAR(found.creep.compliance(t) / expected, 1, 1e-8) << t;
+    const double relaxed = talbot(
+        [&](Complex s) {
+          return 1.0 / s /
+                 (area_over_height *
+                  (between / law.stiffness(s) + compliance_at_walls / std::get<laws::Elastic>(wall).E));
+        },
+        t, 24);
+    // Talbot's sum is only accurate to 1e-11 of E(0), which limits the comparison beyond 100 s.
+    EXPECT_NEAR(found.relaxation.modulus(t), relaxed, 1e-8 * relaxed + 1e-11 * found.relaxation.instantaneous()) << t;
+  }
+}
+
+TEST(Series, ARampIsTheMeanOfSteps) {
+  const PronySeries series{1e8, {{2e9, 0.01}, {5e8, 3}}};
+  const CreepSeries creep = creep_series(series);
+  for (const double duration : {1e-6, 0.02, 5.0}) {
+    for (const double t : {0.3 * duration, duration, 1.7 * duration}) {
+      // Midpoint rule: steps of 1/2,000 of the ramp, at most 1/20 of a relaxation time, so errors of (1/20)²/24.
+      constexpr int steps = 2000;
+      double stress = 0, strain = 0;
+      for (int i = 0; i < steps; ++i) {
+        const double since = t - (i + 0.5) * duration / steps;
+        stress += series.modulus(since) / steps, strain += creep.compliance(since) / steps;
+      }
+      EXPECT_NEAR(series.after_ramp(t, duration) / stress, 1, 1e-3) << t << " of " << duration;
+      EXPECT_NEAR(creep.after_ramp(t, duration) / strain, 1, 1e-3) << t << " of " << duration;
+    }
+  }
+  EXPECT_EQ(series.after_ramp(2, 0), series.modulus(2));
+  EXPECT_EQ(series.after_ramp(-1, 0), 0);
+  EXPECT_EQ(creep.after_ramp(-1, 3), 0);
+}
+
+// A sufficiently slow Kelvin unit acts as a dashpot, except for the fraction t/τ of its strain.
+TEST(Series, ASlowUnitFlowsAfterARamp) {
+  const CreepSeries dashpot{0, 1e-9, {}};
+  const double duration = 0.02;
+  for (const double time : {1e3, 1e6, 1e10, 1e14, 1e20}) {
+    const CreepSeries unit{0, 0, {{1e-9 * time, time}}};
+    for (const double t : {1e-3, 0.02, 0.021, 0.25, 0.3}) {
+      const double flowed = dashpot.after_ramp(t, duration);
+      EXPECT_NEAR(unit.after_ramp(t, duration) / flowed, 1, t / time + 1e-14) << t << " s, unit of " << time << " s";
+    }
+  }
+}
+
+TEST(Series, FewUnitsAreAsGoodAsAsked) {
+  PronySeries many{2e7, {}};
+  for (const double t : log_range(1e-4, 1e3, 30)) many.units.push_back({1e8 * (1 + std::sin(3 * std::log(t))), t});
+  std::size_t more = 1;
+  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    const PronySeries few = few_units(many, 1e-3, 1e3, tolerance);
+    // the error is also checked between the times of the fit
+    EXPECT_LE(difference(few, many, 1e-3, 1e3), 1.01 * tolerance);
+    EXPECT_GT(few.units.size(), more);
+    EXPECT_LT(few.units.size(), many.units.size() / 4);
+    more = few.units.size();
+    for (const auto& u : few.units) EXPECT_GT(u.modulus, 0);
+  }
+}
+
+TEST(Series, RangesAreEvenInTheLogarithm) {
+  const std::vector<double> range = log_range(1e-3, 10, 3);
+  ASSERT_EQ(range.size(), 13u);
+  EXPECT_EQ(range.front(), 1e-3);
+  EXPECT_EQ(range.back(), 10);
+  EXPECT_NEAR(range[3], 1e-2, 1e-16);
+  EXPECT_EQ(log_range(1, 2, 1).size(), 2u);
+  const std::vector<double> widest = log_range(1e-300, 1e300, 1);  // the ratio of the ends is not finite
+  ASSERT_EQ(widest.size(), 601u);
+  for (std::size_t k = 0; k < widest.size(); ++k)
+    EXPECT_NEAR(std::log10(widest[k]), static_cast<double>(k) - 300, 1e-9);
+}
+
+/// The spectrum of a network against Laplace inversions of its full solutions, which share only the solver with it.
+TEST(Spectrum, OfANetworkIsTheInversionOfItsSolutions) {
+  for (const TestScene& scene : {make_scene(random_specimen(3)), make_scene(random_specimen(4), {}, am2_laws())}) {
+    SpectrumOptions options;
+    options.shortest = 1e-2, options.longest = 1e2, options.tolerance = 1e-7;
+    const Spectrum found = spectrum_of(scene.specimen, scene.network, scene.laws, options);
+    EXPECT_LT(found.error, 1e-7);
+    EXPECT_LT(found.checked, 1e-7);
+    const auto modulus = [&](Complex s) {
+      Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, std::abs(s) / 6);
+      return harmonic.solve({{s.imag() / (2 * std::numbers::pi), 0, 0, s.real()}}).front().parts.modulus();
+    };
+    for (const double t : {1e-2, 1.0, 1e2}) {
+      const double relaxed = talbot([&](Complex s) { return modulus(s) / s; }, t, 18);
+      EXPECT_NEAR(found.relaxation.modulus(t) / relaxed, 1, 1e-6) << t;
+      const double creep = talbot([&](Complex s) { return 1.0 / (s * modulus(s)); }, t, 18);
+      EXPECT_NEAR(found.creep.compliance(t) / creep, 1, 1e-6) << t;
+    }
+    // Creep and relaxation are inverse to each other: ∫ E(t − t')·J(t') dt' = t.
+    const double t = 3;
+    const auto product = talbot(
+        [&](Complex s) {
+          Complex j = found.creep.instantaneous + found.creep.fluidity / s;
+          for (const auto& u : found.creep.units) j += u.compliance / (1.0 + s * u.time);
+          return found.relaxation.stiffness(s) * j / (s * s);
+        },
+        t, 18);
+    EXPECT_NEAR(product / t, 1, 1e-8);
+  }
+}
+
+TEST(Spectrum, TheErrorThatIsStatedHolds) {
+  const TestScene scene = make_scene(random_specimen(3));
+  const auto known_to = [&](double tolerance) {
+    SpectrumOptions options;
+    options.tolerance = tolerance;
+    return spectrum_of(scene.specimen, scene.network, scene.laws, options);
+  };
+  const Spectrum truth = known_to(1e-10);
+  int solutions = 0;
+  for (const double tolerance : {0.1, 1e-3, 1e-5, 1e-7}) {
+    const Spectrum found = known_to(tolerance);
+    EXPECT_LE(found.error, tolerance);
+    EXPECT_LE(difference(found.relaxation, truth.relaxation, 1e-3, 1e4), found.error + truth.error) << tolerance;
+    EXPECT_GE(found.solutions, solutions);
+    solutions = found.solutions;
+  }
+  EXPECT_GE(truth.solutions, solutions);
+}
+
+TEST(Spectrum, ElasticNetworksDoNotRelax) {
+  TestScene scene = make_scene(random_specimen(3));
+  for (auto& law : scene.laws)
+    if (law) law = laws::Elastic{std::visit([](const auto& l) { return l.instantaneous(); }, *law), 0.1};
+  const Spectrum found = spectrum_of(scene.specimen, scene.network, scene.laws);
+  EXPECT_TRUE(found.relaxation.units.empty());
+  EXPECT_NEAR(found.relaxation.long_term * found.creep.compliance(7), 1, 1e-12);
+}
+
+TEST(Spectrum, WhatMakesNoSenseIsRefused) {
+  const TestScene scene = make_scene(random_specimen(3));
+  const auto with = [&](auto&& change) {
+    SpectrumOptions options;
+    change(options);
+    spectrum_of(scene.specimen, scene.network, scene.laws, options);
+  };
+  EXPECT_THROW(with([](auto& o) { o.shortest = 0; }), InputError);
+  EXPECT_THROW(with([](auto& o) { o.longest = o.shortest; }), InputError);
+  EXPECT_THROW(with([](auto& o) { o.tolerance = 0; }), InputError);
+  EXPECT_THROW(with([](auto& o) { o.stop = [] { return true; }; }), InterruptedError);
+  EXPECT_THROW(creep_series({}), InputError);
+}
+
+}  // namespace
+}  // namespace macadam::test

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file surface_distance_test.cpp  Depth of points below a surface, against closed forms.
+#include "host/shapes/surface_distance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/spheres/random_stream.hpp"
+#include "tests/support/test_surfaces.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr double tolerance = 1e-13;  // a few roundings of lengths of order 1 to 10
+
+/// Calls `visit` with random points in and around the cube from 0 to `edge`.
+template <class Visit>
+void at_random_points(double edge, const Visit& visit) {
+  RandomStream random(1, 0);
+  for (int k = 0; k < 20'000; ++k) {
+    const double x = random.uniform(-0.3, 1.3), y = random.uniform(-0.3, 1.3);
+    visit(Vec3d{edge * x, edge * y, edge * random.uniform(-0.3, 1.3)});
+  }
+}
+
+TEST(SurfaceDistance, IsExactInAndAroundABox) {
+  const SurfaceDistance distance(test::box_surface(3, 2, 1));
+  at_random_points(3, [&](const Vec3d& p) {
+    ASSERT_NEAR(distance.depth(p), test::depth_in_box(p, 3, 2, 1), tolerance) << p.x << " " << p.y << " " << p.z;
+  });
+}
+
+TEST(SurfaceDistance, KnowsInsideFromOutsideAtAReentrantEdge) {
+  const SurfaceDistance distance(test::l_surface(3, 1, 1));
+  at_random_points(3, [&](const Vec3d& p) {
+    // Outside, the distance from a union is that from the nearer part. Inside, the depth in the deeper part is a lower
+    // bound.
+    const double union_of_two = std::max(test::depth_in_box(p, 3, 1, 1), test::depth_in_box(p, 1, 3, 1));
+    const double depth = distance.depth(p);
+    ASSERT_EQ(depth > 0, union_of_two > 0) << p.x << " " << p.y << " " << p.z;
+    if (depth > 0) {
+      ASSERT_GE(depth, union_of_two - tolerance);
+    } else {
+      ASSERT_NEAR(depth, union_of_two, tolerance);
+    }
+  });
+  // This point is on the bisector of the re-entrant edge, which is its nearest place; the four sides are farther away.
+  EXPECT_NEAR(distance.depth({0.7, 0.7, 0.5}), std::hypot(0.3, 0.3), tolerance);
+}
+
+TEST(SurfaceDistance, GrowsAlongTheDirectionItGives) {
+  const SurfaceDistance distance(subdivided_icosahedron(1));
+  at_random_points(1, [&](const Vec3d& p) {
+    const Vec3d q = p - Vec3d{0.5, 0.5, 0.5};
+    const auto [depth, inward] = distance.below(q, 10);
+    ASSERT_NEAR(norm(inward), 1, tolerance);
+    // Inside, a step against the direction reduces the distance to the nearest point by its length, and no other point
+    // becomes nearer. Outside of a convex surface a step away increases it by its length.
+    ASSERT_NEAR(distance.depth(q - 0.1 * inward), depth - 0.1, 1e-12);
+  });
+}
+
+TEST(SurfaceDistance, BeyondTheReachGivesALowerBound) {
+  const SurfaceDistance distance(subdivided_icosahedron(1));
+  int bounded = 0;
+  at_random_points(1, [&](const Vec3d& p) {
+    const double reach = 0.2, depth = distance.depth(p), found = distance.below(p, reach).depth;
+    ASSERT_LE(found, depth + tolerance);
+    if (found < depth - tolerance) {
+      ++bounded;
+      ASSERT_GT(found, reach);
+    }
+  });
+  EXPECT_GT(bounded, 100);  // otherwise limiting the reach would save nothing
+}
+
+}  // namespace
+}  // namespace macadam

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file shape_packing_test.cpp  The complete design formulation of Table 3 of [1]: 56.3 % of the box is aggregate.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "host/spheres/size_law.hpp"
+#include "tests/support/long_tests.hpp"
+#include "tests/support/shape_tests.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr double asked_of_solid[] = {0.14, 0.11, 0.207, 0.136};
+
+/// Packs the mix of examples/ac14_ms_design: the shipped shapes, or one sphere if fewer than eight spheres of 1 to 2 mm
+/// would fill a shape.
+TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
+  if (!test::long_tests) GTEST_SKIP() << "minutes with sanitizers";
+  std::vector<ShapeTemplate> shapes;
+  for (const Surface& s : shape_library()) shapes.push_back(shape_template(s));
+  const SpecimenSpec recipe = test::design_formulation();
+  // The number of spheres is rounded, so eight begin at 7.5; the mean cube of radii of 1 to 2 mm is 3.75 mm³.
+  const double eight = 7.5 * 3.75 * sphere_volume(2e-3);
+  const auto is_sphere = [&](int shape, double size) { return aggregate_volume(shapes[shape], size, false) < eight; };
+  const ShapeComposition composition = compose_shapes(recipe, shapes, is_sphere);
+  const auto start = std::chrono::steady_clock::now();
+  const ShapePlacement p = place_shapes(recipe.box, shapes, composition, {});
+  const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("%zu aggregates packed in %.1f s\n", p.aggregate.size(), took);
+  EXPECT_LT(took, 300);  // limit for two cores; usually it takes a tenth of this
+
+  for (int k = 0; k < 4; ++k)
+    EXPECT_NEAR(p.row[k].fraction / 0.95, asked_of_solid[k], 1e-3 * asked_of_solid[k]) << p.row[k].name;
+  double reach = 0;  // largest distance of a point of any shape from its centre, over D^I
+  for (const ShapeTemplate& t : shapes)
+    for (const Vec3d& x : t.surface.points) reach = std::max(reach, norm(x) / t.d_intermediate);
+  const auto size = [&](std::size_t i) {
+    return p.aggregate[i].pose.scale * shapes[p.aggregate[i].shape].d_intermediate;
+  };
+  std::vector<Surface> surface;  // for a sphere only its centre; `radius` is its radius
+  std::vector<double> radius;
+  for (const PlacedAggregate& a : p.aggregate) {
+    radius.push_back(a.sphere ? size(surface.size()) / 2 : 0);
+    surface.push_back(a.sphere ? Surface{"", {a.pose.centre}, {}} : test::placed_surface(a, shapes));
+  }
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    for (const Vec3d& x : surface[i].points) {
+      EXPECT_GT(std::min({x.x, x.y, x.z}), radius[i]) << i;
+      EXPECT_GT(std::min({0.05 - x.x, 0.05 - x.y, 0.08 - x.z}), radius[i]) << i;
+    }
+  // Independent check of overlap: every eighth point of an aggregate must be outside of the aggregates near it, by
+  // solid angles. shape_placement_test checks edges against facets.
+  std::size_t looked = 0;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    for (std::size_t j = 0; j < surface.size(); ++j) {
+      if (i == j || norm(p.aggregate[i].pose.centre - p.aggregate[j].pose.centre) > reach * (size(i) + size(j)))
+        continue;
+      for (std::size_t k = 0; k < surface[i].points.size(); k += 8) {
+        const Vec3d& x = surface[i].points[k];
+        const double away = norm(x - p.aggregate[j].pose.centre);
+        if (p.aggregate[j].sphere) {
+          EXPECT_GT(away, radius[i] + radius[j]) << i << " in " << j;
+          continue;
+        }
+        if (away > reach * size(j)) continue;
+        EXPECT_LT(test::winding(surface[j], x), 0.5) << i << " in " << j;
+        ++looked;
+      }
+    }
+  EXPECT_GT(looked, 1000u);
+
+  EXPECT_GT(test::evenness_of_directions(p.aggregate, shapes), 0.01);
+  for (int size_class = 2; size_class < 4; ++size_class) {
+    std::array<double, 4> quarter{};
+    double n = 0;
+    for (const PlacedAggregate& a : p.aggregate)
+      if (a.size_class == size_class) quarter[std::min(3, static_cast<int>(a.pose.centre.z / 0.02))] += 1, n += 1;
+    // A random count with mean n/4 has the standard deviation √(3n)/4; four of these are allowed.
+    for (double count : quarter) EXPECT_NEAR(count, n / 4, std::sqrt(3 * n)) << "class " << size_class;
+  }
+}
+
+// placement_bench packs shapes without single spheres, and icosahedra; this takes minutes.
+
+}  // namespace
+}  // namespace macadam

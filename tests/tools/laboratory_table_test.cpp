@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// laboratory_table_test.cpp  Tables of measured moduli as laboratories write them: units, spellings, and error
+// messages.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/test_folder.hpp"
+
+namespace macadam::test {
+namespace {
+
+class LaboratoryTable : public TestFolder {
+ protected:
+  ModulusData read_text(const std::string& text, std::optional<double> poisson = {},
+                        Measured needed = Measured::modulus_and_phase) const {
+    write(folder_ / "lab.csv", text);
+    return read_modulus_data(folder_ / "lab.csv", poisson, needed);
+  }
+  std::string refusal(const std::string& text, std::optional<double> poisson = {},
+                      Measured needed = Measured::modulus_and_phase) const {
+    return message_of([&] { read_text(text, poisson, needed); });
+  }
+};
+
+/// Expects two measurements: 2.5 GPa at 1.5 Hz and 5 GPa at 10 Hz, at 20 °C.
+void expect_the_two(const ModulusData& data, const std::string& what) {
+  ASSERT_EQ(data.points.size(), 2u) << what;
+  EXPECT_TRUE(data.temperatures) << what;
+  const double frequencies[] = {1.5, 10}, moduli[] = {2.5e9, 5e9}, phases[] = {30.5, 20};
+  for (std::size_t i = 0; i < 2; ++i) {
+    // Products of two or three rounded factors.
+    EXPECT_NEAR(data.points[i].frequency_hz / frequencies[i], 1, 1e-14) << what;
+    EXPECT_NEAR(data.points[i].e_star_pa / moduli[i], 1, 1e-14) << what;
+    EXPECT_NEAR(data.points[i].phase_deg, phases[i], 1e-12) << what;
+    EXPECT_NEAR(data.points[i].temperature_c, 20, 1e-12) << what;
+  }
+}
+
+TEST_F(LaboratoryTable, SpellingsOfLaboratoriesGiveTheSameNumbers) {
+  const std::string plain = "frequency_hz,e_star_pa,phase_deg,temperature_c\n1.5,2.5e9,30.5,20\n10,5e9,20,20\n";
+  for (const std::string& text : {
+           plain,
+           plain.substr(0, plain.size() - 1),  // no newline at the end of the file
+           "\xEF\xBB\xBF" + plain,
+           std::string("\"frequency_hz\",\"e_star_pa\",\"phase_deg\",\"temperature_c\"\r\n1.5,2.5e9,\"30.5\",20\r\n"
+                       "10,5e9,20,20\r\n"),
+           std::string("Frequency_Hz;E_star_MPa;Phase_deg;Temperature_C\n1,5;2500;30,5;20\n10;5,0e3;20;20\n;;;\n"),
+           std::string("# rheometer\n\nfrequency_hz\te_star_gpa\tphase_deg\ttemperature_k\n1.5\t2.5\t30.5\t293.15\n"
+                       "10\t5\t20\t293.15\n"),
+           std::string("frequency_hz,e_star_mpa,phase_deg,temperature_c\nHz,[MPa],deg,\xC2\xB0"
+                       "C\n1.5,2500,30.5,20\n10,5000,20,20\n"),
+           std::string("frequency,e_star,phase,temperature\n(Hz),(kPa),(\xC2\xB0),K\n1.5,2500000,30.5,293.15\n"
+                       "10,5e6,20,293.15\n"),
+           std::string("sample,frequency_hz,e_star_pa,phase_deg,temperature_c,,strain\nA1,1.5,2.5e9,30.5,20,,1e-4\n"
+                       "A1,10,5e9,20,20,,\n"),
+       })
+    expect_the_two(read_text(text), text);
+  expect_the_two(read_text("omega_rad_s,g_star_kpa,phase_rad,temperature_c\n9.42477796076938,1e6,0.532325421858271,20\n"
+                           "62.83185307179586,2e6,0.349065850398866,20\n",
+                           0.25),
+                 "shear, angular frequency, radians");  // |E*| = 2.5 |G*|
+}
+
+TEST_F(LaboratoryTable, DeviationsHaveTheUnitsOfTheirColumns) {
+  const ModulusData data = read_text("frequency_hz,e_star_mpa,phase_rad,e_star_std,phase_std\n1,2500,0.5,50,0.01\n");
+  EXPECT_TRUE(data.deviations);
+  EXPECT_DOUBLE_EQ(data.points[0].e_star_std, 50e6);
+  EXPECT_NEAR(data.points[0].phase_std, 0.572957795130823, 1e-14);
+}
+
+TEST_F(LaboratoryTable, RealAndImaginaryPartsMakeModulusAndPhase) {
+  const ModulusData data = read_text("frequency_hz,e_prime_mpa,e_double_prime_gpa\n1,3000,4\n");
+  EXPECT_DOUBLE_EQ(data.points[0].e_star_pa, 5e9);
+  EXPECT_NEAR(data.points[0].phase_deg, 53.1301023541560, 1e-12);
+  EXPECT_DOUBLE_EQ(read_text("frequency_hz,g_prime_kpa,g_double_prime_kpa\n1,3e6,4e6\n", 0.5).points[0].e_star_pa,
+                   15e9);
+  EXPECT_DOUBLE_EQ(read_text("frequency_hz,e_star_pa,phase_deg,e_prime_pa,e_double_prime_pa\n1,1e9,10,3e9,4e9\n")
+                       .points[0]
+                       .e_star_pa,
+                   1e9)
+      << "modulus and phase are there, the parts are passed over";
+}
+
+TEST_F(LaboratoryTable, OneMessageListsAllThatIsWrong) {
+  const std::string said = refusal("frequency_hz,e_star_pa,phase_deg\n1,1e9,10\n-2,1e9,10\n3,none,10\n5,1e9,200\n");
+  for (const char* line : {"lab.csv:3: column frequency_hz: found \"-2\"",
+                           "lab.csv:4: column e_star_pa: found \"none\"", "lab.csv:5: column phase_deg: found \"200\""})
+    EXPECT_HAS(said, line);
+  const std::string cells = refusal("frequency_hz,e_star,phase_dg\n1,1e9\n2,1e9,10,3\n");
+  for (const char* line : {"lab.csv:1: header: found \"e_star\"", "lab.csv:1: header: found \"phase_dg\"",
+                           "lab.csv:2: columns: found 2", "lab.csv:3: columns: found 4"})
+    EXPECT_HAS(cells, line);
+  std::string many = "frequency_hz,e_star_pa,phase_deg\n";
+  for (int i = 0; i < 30; ++i) many += "1,x,10\n";
+  EXPECT_HAS(refusal(many), "and 20 more in this file");
+}
+
+TEST_F(LaboratoryTable, UnitsThatCannotBeMeantAreAskedAbout) {
+  const std::string header = "frequency_hz,e_star_pa,phase_deg,temperature_c\n";
+  EXPECT_HAS(refusal(header + "1,9000,15,20\n10,14000,9,20\n"), "is it in Pa? Moduli in MPa");
+  EXPECT_HAS(refusal(header + "1,2e5,40,20\n"), "is it in Pa?");
+  EXPECT_HAS(refusal(header + "1,9e9,15,283.15\n1,5e9,20,303.15\n"),
+             "are these kelvins? They have a column temperature_k");
+  EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg,temperature_k\n1,9000,15,20\n"), "are these degrees Celsius?");
+  EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg\n1,9e9,15\n"), "another unit than the name of the column says");
+  EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_deg\nHz,MPa,deg\n1,9000,15\n"),
+             "unit of e_star_pa: found \"MPa\", expected Pa, which the name says");
+  // A hot binder is soft, and a rubber has a modulus of some MPa; both are accepted.
+  EXPECT_NO_THROW(read_text(header + "0.01,20,89,80\n10,9e3,84,80\n"));
+  EXPECT_NO_THROW(read_text("frequency_hz,e_star_mpa,phase_deg\n1,2,5\n"));
+}
+
+TEST_F(LaboratoryTable, ColumnsThatAreNotNeededNeedNotBeThere) {
+  const std::string moduli = "frequency_hz,e_star_pa\n1,9e9\n", phases = "frequency_hz,phase_deg\n1,15\n";
+  EXPECT_HAS(refusal(moduli), "with phase_deg");
+  EXPECT_FALSE(read_text(moduli, {}, Measured::modulus).phases);
+  EXPECT_FALSE(read_text(phases, {}, Measured::phase).moduli);
+  EXPECT_TRUE(read_text("frequency_hz,e_star_pa,e_star_std\n1,9e9,1e8\n", {}, Measured::modulus).deviations);
+  EXPECT_EQ(read_text("sample,frequency_hz,e_star_pa,phase_deg,residual\nA,1,9e9,15,0\n").unused,
+            (std::vector<std::string>{"sample", "residual"}));
+  EXPECT_FALSE(read_text("temperature_c,frequency_hz,e_star_pa,phase_deg\n,1,9e9,15\n").temperatures)
+      << "an empty column";
+}
+
+TEST_F(LaboratoryTable, MisspeltColumnsAreNotPassedOver) {
+  EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_dg\n1,9e9,15\n"),
+             "found \"phase_dg\", expected phase_deg (the nearest");
+  EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_deg,temperature\n1,9e9,15,20\n"),
+             "found \"temperature\", expected temperature_c");
+  EXPECT_HAS(refusal("frequency_hz,e_star_pa,e_star_mpa,phase_deg\n1,9e9,9e3,15\n"), "beside e_star_pa");
+  EXPECT_HAS(refusal("frequency_hz,e_star_pa,g_star_pa,phase_deg\n1,9e9,9e3,15\n"), "columns of E* and of G*");
+  EXPECT_HAS(refusal("frequency_hz;e_star_pa;phase_deg\n1,5;9.000,0;15\n"), "found \"9.000,0\"");
+  EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_deg\n1,\"9e9,15\n"), "as many opening as closing");
+  // One of the two separates thousands.
+  EXPECT_HAS(refusal("frequency_hz;e_star_mpa;phase_deg\n0,1;14.082;15\n"),
+             "decimal sign: found \"14.082\", expected the same as in \"0,1\" of line 2");
+}
+
+}  // namespace
+}  // namespace macadam::test
