@@ -2,14 +2,14 @@
 // block_lengths.cpp  Measures the error of |E*| and phase from taking steps in blocks, for several block lengths.
 // Writes CSV to standard output.
 //
-// The program repeats the stepping in blocks of the GPU backend (kernels/cuda_tile_runner.hpp) in simple code and in
+// The program repeats the stepping in blocks of the GPU backend (kernels/cuda/tiles/tile_runner.hpp) in simple code and in
 // double precision, for small networks of spheres with fixed geometry, from the steady state. Each row compares with
 // blocks of one step at the same time step and masses. It takes some minutes.
 #include <fmt/format.h>
 
 #include "host/experiments/cyclic/error_model.hpp"
-#include "kernels/contact_kinematics.hpp"
-#include "kernels/layout.hpp"
+#include "kernels/contact/contact_kinematics.hpp"
+#include "kernels/layout/layout.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace macadam::bench {

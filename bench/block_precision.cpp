@@ -13,7 +13,7 @@
 #include <string>
 
 #include "host/experiments/cyclic/error_model.hpp"
-#include "kernels/block_length.hpp"
+#include "kernels/step/block_length.hpp"
 #include "macadam/laws/facts.hpp"
 #include "tests/support/test_scenes.hpp"
 

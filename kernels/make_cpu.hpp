@@ -2,8 +2,8 @@
 /// \file make_cpu.hpp  Makes a stepper on the CPU for a list of laws.
 #pragma once
 
-#include "kernels/exec_cpu.hpp"
-#include "kernels/stepper_impl.hpp"
+#include "kernels/cpu/exec_cpu.hpp"
+#include "kernels/step/stepper_impl.hpp"
 #include "kernels/steppers.hpp"
 
 namespace macadam::kernels {

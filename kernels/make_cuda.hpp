@@ -3,9 +3,9 @@
 /// blocks and fits, else ExecCuda.
 #pragma once
 
-#include "kernels/exec_cuda.hpp"
-#include "kernels/exec_cuda_tiles.hpp"
-#include "kernels/stepper_impl.hpp"
+#include "kernels/cuda/two_kernels/exec_cuda.hpp"
+#include "kernels/cuda/tiles/exec_cuda_tiles.hpp"
+#include "kernels/step/stepper_impl.hpp"
 #include "kernels/steppers.hpp"
 
 namespace macadam::kernels {
@@ -36,7 +36,7 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
 
 }  // namespace macadam::kernels
 
-/// Compiles the steppers for a list of laws, given by name, in one of the precisions of kernels/precision.hpp.
+/// Compiles the steppers for a list of laws, given by name, in one of the precisions of kernels/contact/precision.hpp.
 #define MACADAM_CUDA_STEPPER(P, Any)                                                                   \
   template std::unique_ptr<macadam::Stepper> macadam::kernels::make_cuda_in<macadam::kernels::P, Any>( \
       const macadam::Specimen&, const macadam::ContactNetwork&,                                        \

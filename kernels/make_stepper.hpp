@@ -3,7 +3,7 @@
 /// Macadam's own laws.
 #pragma once
 
-#include "kernels/precision.hpp"
+#include "kernels/contact/precision.hpp"
 #include "kernels/steppers.hpp"
 #include "macadam/error.hpp"
 

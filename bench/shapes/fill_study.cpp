@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 #include "macadam/shape.hpp"
 

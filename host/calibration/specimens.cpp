@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/scene/shift_keys.hpp"
 #include "host/simulation/harmonic_options.hpp"
 #include "macadam/error.hpp"

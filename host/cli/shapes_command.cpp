@@ -13,7 +13,7 @@
 #include "host/cli/shapes_fill.hpp"
 #include "host/cli/shapes_generate.hpp"
 #include "host/cli/streams.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
 #include "host/shapes/statistics.hpp"

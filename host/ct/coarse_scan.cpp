@@ -2,7 +2,7 @@
 // coarse_scan.cpp  Computes block means one layer of blocks after the other.
 #include "host/ct/coarse_scan.hpp"
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::ct {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::ct {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/shapes/surface_distance.hpp"
 
 namespace macadam::ct {

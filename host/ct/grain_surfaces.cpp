@@ -5,7 +5,7 @@
 
 #include <mutex>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/shapes/convex_hull.hpp"
 #include "macadam/error.hpp"
 #include "host/ct/voxel_phases.hpp"

@@ -2,7 +2,7 @@
 // grains.cpp  Measures neck, solidity and grey value between two touching pieces, and joins pieces.
 #include "host/ct/grains.hpp"
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/shapes/convex_hull.hpp"
 #include "host/shapes/surface_numbers.hpp"
 #include "macadam/error.hpp"

@@ -2,7 +2,7 @@
 // grey_levels.cpp  Fits mixtures to histograms by expectation maximisation.
 #include "host/ct/grey_levels.hpp"
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {

@@ -2,7 +2,7 @@
 // labels.cpp  Transfers labels from the grid on which grains were separated to the grid of the scan.
 #include "host/ct/labels.hpp"
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {

@@ -11,7 +11,7 @@
 #include "host/ct/grain_gaps.hpp"
 #include "host/ct/scan_faults.hpp"
 #include "host/ct/voxelise.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/shapes/icosahedron.hpp"
 #include "macadam/error.hpp"
 

@@ -2,7 +2,7 @@
 // phases.cpp  Computes the thresholds, and the Markov random field that removes the effect of noise on the phases.
 #include "host/ct/phases.hpp"
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {

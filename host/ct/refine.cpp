@@ -4,7 +4,7 @@
 #include "host/ct/refine.hpp"
 
 #include "host/ct/smoothing.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {

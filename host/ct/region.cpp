@@ -3,7 +3,7 @@
 #include "host/ct/region.hpp"
 
 #include "host/ct/grey_levels.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {

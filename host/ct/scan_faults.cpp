@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "host/ct/itk_image.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/spheres/random_stream.hpp"
 
 namespace macadam::ct {

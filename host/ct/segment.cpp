@@ -13,7 +13,7 @@
 #include "host/ct/segment_steps.hpp"
 #include "host/ct/smoothing.hpp"
 #include "host/ct/valleys.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -2,7 +2,7 @@
 // smoothing.cpp  Implements edge-preserving diffusion with explicit steps.
 #include "host/ct/smoothing.hpp"
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::ct {
 

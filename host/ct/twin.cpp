@@ -12,7 +12,7 @@
 #include "host/ct/grain_files.hpp"
 #include "host/ct/void_spheres.hpp"
 #include "host/network/clusters.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/shapes/fill.hpp"
 #include "host/specimen/composition.hpp"
 #include "host/specimen/mastic.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host/harmonic/law_stiffness.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::harmonic {
 

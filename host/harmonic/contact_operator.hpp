@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/contact_kinematics.hpp"
+#include "kernels/contact/contact_kinematics.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/sensitivity.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/parallel.hpp"
-#include "kernels/contact_kinematics.hpp"
+#include "kernels/base/parallel.hpp"
+#include "kernels/contact/contact_kinematics.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {

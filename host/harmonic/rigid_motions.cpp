@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "host/harmonic/sliding_parts.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {

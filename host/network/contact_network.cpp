@@ -11,7 +11,7 @@
 #include <string>
 
 #include "host/counted.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/shapes/crushed_stone.hpp"
 #include "host/shapes/library_targets.hpp"
 #include "macadam/error.hpp"

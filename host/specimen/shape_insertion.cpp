@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam {
 namespace {

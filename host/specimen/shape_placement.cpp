@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/specimen/shape_body.hpp"
 #include "host/specimen/shape_insertion.hpp"
 #include "host/specimen/shape_packing.hpp"

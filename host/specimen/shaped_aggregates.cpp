@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/shapes/fill.hpp"
 #include "host/specimen/composition.hpp"
 #include "host/specimen/shape_placement.hpp"

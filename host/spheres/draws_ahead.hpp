@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "host/spheres/random_stream.hpp"
 
 namespace macadam {

@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam {
 namespace {

@@ -9,7 +9,7 @@
 #include <exception>
 #include <vector>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam {
 

@@ -9,7 +9,7 @@
 #include "host/reference/reference_stepper.hpp"
 #include "host/stepping/cuda_code.hpp"
 #include "host/stepping/processor_code.hpp"
-#include "kernels/stepper_input.hpp"
+#include "kernels/step/stepper_input.hpp"
 #include "kernels/steppers.hpp"
 #include "macadam/error.hpp"
 

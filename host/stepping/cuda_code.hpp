@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-#include "kernels/cuda_plugin.hpp"
+#include "kernels/compiled/cuda_plugin.hpp"
 
 namespace macadam {
 

@@ -4,7 +4,7 @@
 #include "host/stepping/processor_code.hpp"
 
 #include "host/harmonic/iterative/block_cocg.hpp"
-#include "kernels/precision.hpp"
+#include "kernels/contact/precision.hpp"
 #include "kernels/steppers.hpp"
 
 #ifndef MACADAM_CODE

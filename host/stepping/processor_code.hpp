@@ -10,7 +10,7 @@
 #include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
 #include "kernels/harmonic/linear_system.hpp"
-#include "kernels/layout.hpp"
+#include "kernels/layout/layout.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam {

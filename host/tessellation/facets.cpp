@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -19,7 +19,7 @@
 #include <unordered_map>
 
 #include "host/specimen/sparse_box.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam {
 namespace {

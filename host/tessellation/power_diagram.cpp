@@ -14,7 +14,7 @@
 
 #include "host/tessellation/dual_point.hpp"
 #include "host/tessellation/part_of_diagram.hpp"
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -3,7 +3,7 @@
 /// load on a particle to the load on the rigid motions.
 #pragma once
 
-#include "kernels/contact_kinematics.hpp"
+#include "kernels/contact/contact_kinematics.hpp"
 
 namespace macadam::kernels {
 

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "kernels/contact_kinematics.hpp"
+#include "kernels/contact/contact_kinematics.hpp"
 
 namespace macadam::kernels {
 

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "kernels/aligned.hpp"
+#include "kernels/base/aligned.hpp"
 #include "kernels/harmonic/box_motion.hpp"
 #include "kernels/harmonic/contact_end.hpp"
 #include "macadam/backend.hpp"

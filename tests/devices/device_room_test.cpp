@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // device_room_test.cpp  The order in which steppers and harmonic solutions get the multiprocessors of a device. Events
 // are plain addresses here, so no device is needed.
-#include "kernels/device_room.hpp"
+#include "kernels/cuda/device/multiprocessor_lease.hpp"
 
 #include <gtest/gtest.h>
 

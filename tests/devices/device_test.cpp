@@ -7,7 +7,7 @@
 #endif
 
 #include "host/stepping/choose_devices.hpp"
-#include "kernels/device_code.hpp"
+#include "kernels/cuda/device/compiled_for.hpp"
 #include "kernels/make_stepper.hpp"
 #include "tests/support/test_files.hpp"
 #include "tests/support/stepper_cases.hpp"

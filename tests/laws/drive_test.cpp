@@ -6,8 +6,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "kernels/block_length.hpp"
-#include "kernels/wall_motion.hpp"
+#include "kernels/step/block_length.hpp"
+#include "kernels/step/wall_motion.hpp"
 #include "tests/support/stepper_cases.hpp"
 #include "tests/support/test_networks.hpp"
 

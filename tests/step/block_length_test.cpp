@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // block_length_test.cpp  Number of steps per block. A block is a set fraction of the shortest time scale of laws and
 // load, and ends at observations if that costs little.
-#include "kernels/block_length.hpp"
+#include "kernels/step/block_length.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // carried_frame_test.cpp  The series that rotate a contact's frame from step to step, against closed forms. They are
 // meant for the small rotations of a step. The rotations here are so large that the first omitted term is visible, and
 // so is any other error.
-#include "kernels/carried_frame.hpp"
+#include "kernels/contact/carried_frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // contact_data_test.cpp  The memory predicted for a group of contacts equals the size of its arrays.
-#include "kernels/contact_data.hpp"
+#include "kernels/contact/contact_data.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/general_laws.hpp"
-#include "kernels/precision.hpp"
+#include "kernels/contact/precision.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace macadam::test {

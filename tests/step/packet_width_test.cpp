@@ -4,8 +4,8 @@
 // run of the tests checks the CPU kernels, even if the library is not built with sanitizers.
 #include <gtest/gtest.h>
 
-#include "kernels/exec_cpu.hpp"
-#include "kernels/stepper_impl.hpp"
+#include "kernels/cpu/exec_cpu.hpp"
+#include "kernels/step/stepper_impl.hpp"
 #include "tests/support/stepper_cases.hpp"
 #include "tests/support/test_files.hpp"
 #include "tests/support/test_scenes.hpp"

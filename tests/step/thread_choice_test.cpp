@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // thread_choice_test.cpp  The choice between all threads and one, given measured times of steps: it takes the faster
 // and notices changes.
-#include "kernels/thread_choice.hpp"
+#include "kernels/cpu/thread_choice.hpp"
 
 #include <gtest/gtest.h>
 

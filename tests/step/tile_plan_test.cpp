@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // tile_plan_test.cpp  The plan of tiles, executed here in plain loops: every load is added once, and in the same order
 // for any division into tiles.
-#include "kernels/tile_plan.hpp"
+#include "kernels/layout/tile_plan.hpp"
 
 #include <gtest/gtest.h>
 

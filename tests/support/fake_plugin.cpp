@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "kernels/cuda_plugin.hpp"
+#include "kernels/compiled/cuda_plugin.hpp"
 #include "macadam/error.hpp"
 
 #ifndef FAKE_INTERFACE

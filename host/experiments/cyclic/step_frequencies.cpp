@@ -23,7 +23,7 @@
 #include "host/simulation/phases.hpp"
 #include "host/experiments/cyclic/plan.hpp"
 #include "host/experiments/cyclic/methods.hpp"
-#include "kernels/block_length.hpp"
+#include "kernels/step/block_length.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

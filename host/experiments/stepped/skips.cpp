@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made (kernels/contact_data.hpp).
+// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made (kernels/contact/contact_data.hpp).
 #include "host/experiments/stepped/skips.hpp"
 
 #include <fmt/format.h>

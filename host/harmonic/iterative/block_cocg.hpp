@@ -7,7 +7,7 @@
 
 #include "host/harmonic/linear_solver.hpp"
 #include "kernels/harmonic/linear_system.hpp"
-#include "kernels/layout.hpp"
+#include "kernels/layout/layout.hpp"
 
 namespace macadam::harmonic {
 

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "kernels/aligned.hpp"
+#include "kernels/base/aligned.hpp"
 
 namespace macadam::harmonic {
 

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numeric>
 
-#include "kernels/parallel.hpp"
+#include "kernels/base/parallel.hpp"
 #include "kernels/harmonic/particle_block.hpp"
 
 namespace macadam::harmonic {

@@ -4,7 +4,7 @@
 
 #include "host/harmonic/rigid_motions.hpp"
 #include "kernels/harmonic/linear_system.hpp"
-#include "kernels/layout.hpp"
+#include "kernels/layout/layout.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam::harmonic {

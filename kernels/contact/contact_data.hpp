@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_data.hpp  Defines and fills the arrays of one group of contacts. Constant arrays are filled from the
+/// network once, states at every start.
+///
+/// Layout: blocked structure of arrays. Word w of the contact in lane j of packet p is at [(p·words + w)·lanes + j]. A
+/// packet is a SIMD register on the CPU and a warp on the device; both load one word of all lanes at once.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kernels/base/aligned.hpp"
+#include "kernels/contact/carried_frame.hpp"
+#include "kernels/layout/layout.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam::kernels {
+
+/// Words of ContactView::geometry, in order. `distance` is only present if the geometry is updated or the law is
+/// coupled.
+enum GeometryWord { n_x, n_y, n_z, arm_a, arm_b, moment_0, distance = moment_0 + 6 };
+/// Words of one row of ContactView::points.
+enum PointWord { point_s, point_t, point_weight, point_words };
+
+/// Pointers to the arrays of one group, as kernels receive them. A row is one contact point of each lane of a packet.
+template <class P>
+struct ContactView {
+  using State = typename P::State;
+  using Geometry = typename P::Geometry;
+  const std::int32_t* body_a;       ///< [slot] body number
+  const std::int32_t* body_b;       ///< [slot]
+  const Geometry* geometry;         ///< [packet][geometry_words][lane]; arms [m], moments over d [m] [m²] [m³]
+  const Geometry* points;           ///< [row][point_words][lane]; s, t [m], A_J/d [m]; points form only
+  const std::uint32_t* packet_row;  ///< [packet + 1]; points form only
+  /// Condensed form [packet], points form [row]: [components][1 + units][lane]; f [Pa·m], x_l [m]; null: stateless.
+  State* chain;
+  State* frame;  ///< [packet][frame_words][lane] ŝ and, in single precision, the spin not yet applied to it
+  std::uint32_t packets;
+  std::int32_t geometry_words;
+  std::int32_t frame_words;
+  /// Number of components that have chains. Condensed: 6, 3 (no shear) or 1 (no shear, no turns); points: 3 or 1 (no
+  /// shear).
+  std::int32_t components;
+  std::int32_t units;  ///< Kelvin units
+  bool by_points;      ///< whether rows of chains belong to points
+  bool wall;           ///< whether body_b is a wall, whose plane is the facet
+  Geometry alpha;
+};
+
+/// The arrays of one group on the host. Devices receive copies.
+template <class P>
+struct ContactArrays {
+  ZeroVector<std::int32_t> body_a, body_b;
+  ZeroVector<typename P::Geometry> geometry, points;
+  AlignedVector<std::uint32_t> packet_row;
+  ZeroVector<typename P::State> chain, frame;
+  ContactView<P> shape{};  ///< the numbers of the view; its pointers are null
+
+  /// Calls f(name, unit, array, pointer of the view that addresses the array) for every array.
+  template <class F>
+  void for_each_array(ContactView<P>& view, F&& f) {
+    f("body_a", "1", body_a, view.body_a);
+    f("body_b", "1", body_b, view.body_b);
+    f("geometry", "1, m, m, m2, m3", geometry, view.geometry);
+    f("points", "m, m, m", points, view.points);
+    f("packet_row", "1", packet_row, view.packet_row);
+    f("chain", "Pa m, m", chain, view.chain);
+    f("frame", "1, rad", frame, view.frame);
+  }
+};
+
+/// Sizes of the arrays of a group.
+template <class P>
+struct GroupShape {
+  ContactView<P> view{};  ///< numbers only; pointers are null
+  bool by_points, stateless;
+  std::size_t slots, lanes, rows;  ///< rows: of chains, one per packet or one per point
+
+  /// `options.skip_rotations` has been decided before.
+  GroupShape(const Layout& layout, const GroupLayout& group, const LawFacts& law, const StepperOptions& options)
+      : by_points(options.form == ContactForm::points),
+        stateless(options.geometry == Geometry::fixed && law.memoryless),
+        slots(group.contact.size()),
+        lanes(static_cast<std::size_t>(layout.lanes)),
+        rows(by_points ? group.packet_row.back() : group.packets()) {
+    const bool shear = law.alpha != 0 || !options.skip_shear || law.coupled, turns = !options.skip_rotations;
+    view.by_points = by_points;
+    view.alpha = static_cast<typename P::Geometry>(law.alpha);
+    view.packets = static_cast<std::uint32_t>(group.packets());
+    view.geometry_words = options.geometry == Geometry::updated || law.coupled ? distance + 1 : distance;
+    view.frame_words = options.geometry == Geometry::updated ? tangent_words<typename P::State> : 0;
+    view.components = by_points ? (shear ? 3 : 1) : shear ? 6 : turns ? 3 : 1;
+    view.units = law.units;
+    view.wall = group.pair == PairType::aw || group.pair == PairType::mw;
+  }
+  std::size_t geometry() const { return slots * static_cast<std::size_t>(view.geometry_words); }
+  std::size_t frame() const { return slots * static_cast<std::size_t>(view.frame_words); }
+  std::size_t chain() const {
+    return stateless ? 0 : rows * lanes * static_cast<std::size_t>(view.components * (1 + view.units));
+  }
+  std::size_t points() const { return by_points ? rows * lanes * point_words : 0; }
+  std::size_t packet_row() const { return by_points ? slots / lanes + 1 : 0; }
+  /// Bytes of all arrays of the group.
+  std::size_t bytes() const {
+    return 2 * slots * sizeof(std::int32_t) + (geometry() + points()) * sizeof(typename P::Geometry) +
+           (chain() + frame()) * sizeof(typename P::State) + packet_row() * sizeof(std::uint32_t);
+  }
+};
+
+/// Returns the arrays of a group that no step changes, and its numbers. An inert slot reads `body_a` of a real contact
+/// and has zero arms and moments, so it adds zero. `options.skip_rotations` has been decided before.
+template <class P>
+ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
+                               const LawFacts& law, const StepperOptions& options);
+
+/// Fills the arrays that a step changes, with the start state of the options, or at rest without one.
+template <class P>
+void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const LawFacts& law,
+                 const StepperOptions& options, ContactArrays<P>& out);
+
+}  // namespace macadam::kernels

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_readout.hpp  Computes forces and deformation of the contacts of a group from the states of an
+/// executor, on the host and in double precision, for output.
+#pragma once
+
+#include <cmath>
+
+#include "kernels/contact/contact_data.hpp"
+#include "kernels/contact/contact_step.hpp"
+
+namespace macadam::kernels {
+
+/// Copies of the arrays of a group that steps change.
+template <class P>
+struct GroupState {
+  std::vector<typename P::State> chain, frame;  ///< as in ContactView
+  std::vector<float> change;                    ///< [slot][6] change of f since the chains were updated; empty: none
+};
+
+/// Reads one group of contacts, with the current displacements.
+template <class P, class L>
+class GroupReading {
+ public:
+  GroupReading(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const L& law,
+               const StepperOptions& options, const std::vector<double>& displacement, GroupState<P> state)
+      : network_(network),
+        layout_(layout),
+        group_(group),
+        law_(law.template step<double>(options.dt)),
+        shape_(layout, group, facts_of(law), options),
+        updated_(options.geometry == Geometry::updated),
+        alpha_(law.alpha),
+        displacement_(displacement),
+        state_(std::move(state)) {}
+
+  /// Returns how many numbers contact c has in ContactState::chain.
+  std::size_t numbers(const Contact& c) const {
+    return words() * (shape_.by_points ? 3 * (c.point_end - c.point_begin) : 6);
+  }
+
+  /// Fills in the entries of the group's contacts. `out.chain_begin` must be complete.
+  void read(ContactState& out) const {
+#pragma omp parallel for schedule(static)
+    for (std::size_t slot = 0; slot < group_.contact.size(); ++slot) {
+      if (group_.contact[slot] != inert) read(slot, out);
+    }
+  }
+
+ private:
+  using Vector = Vec3<double>;
+  std::size_t words() const { return static_cast<std::size_t>(1 + shape_.view.units); }
+  /// Returns the displacement (first = 0) or rotation (first = 4) of a body.
+  Vector moved(std::int32_t body, std::size_t first) const {
+    const double* u = &displacement_[static_cast<std::size_t>(body) * displacement_words + first];
+    return {u[0], u[1], u[2]};
+  }
+
+  /// Fills in the entries of the contact in one slot.
+  void read(std::size_t slot, ContactState& out) const {
+    const std::uint32_t number = group_.contact[slot];
+    const Contact& c = network_.contacts[number];
+    const std::int32_t a = layout_.body_of(c.a), b = layout_.body_of(c.b);
+    const Twist<double> of_a{moved(a, 0), moved(a, 4)}, of_b{moved(b, 0), moved(b, 4)};
+    const Placement<double> frame = placement(slot, c, of_b.linear - of_a.linear);
+    double u[6];
+    relative_rates(frame, of_a, of_b, u);
+    std::copy(u, u + 6, out.relative[number].begin());
+    double* chain = &out.chain[out.chain_begin[number]];
+    const FacetLoad<double> load = shape_.by_points ? points(slot, c, u, chain) : condensed(slot, c, u, chain);
+    if constexpr (breakable_law<L>) read_breaks(c, chain, out.broken[number], out.point_breaks);
+    out.force[number] = load.n * frame.n + load.s * frame.s + load.t * frame.t;
+    out.moment[number] = load.moment_n * frame.n + load.moment_s * frame.s + load.moment_t * frame.t;
+  }
+
+  /// Counts broken points. `chain`: the numbers of the contact's points, one point after another.
+  void read_breaks(const Contact& c, const double* chain, double& fraction, std::vector<Break>& point_breaks) const {
+    const std::uint32_t points = c.point_end - c.point_begin;
+    std::uint32_t broken = 0;
+    for (std::uint32_t j = 0; j < points; ++j) {
+      const Break how = L::break_of(chain + 3 * j * words());
+      point_breaks[c.point_begin + j] = how;
+      broken += how != Break::none;
+    }
+    fraction = points == 0 ? 0 : double(broken) / double(points);
+  }
+
+  /// Returns the current frame by Eq. 5–7. `apart`: displacement of B minus displacement of A.
+  Placement<double> placement(std::size_t slot, const Contact& c, const Vector& apart) const {
+    Placement<double> out{c.n, c.s, c.t, c.arm_a, c.arm_b};
+    if (!updated_) return out;
+    follow_branch(out, c.n, c.distance, c.distance * c.n + apart, shape_.view.wall);
+    const std::size_t lanes = shape_.lanes, count = static_cast<std::size_t>(shape_.view.frame_words);
+    const auto* stored = &state_.frame[slot / lanes * count * lanes + slot % lanes];
+    const Vector s{double(stored[0]), double(stored[lanes]), double(stored[2 * lanes])};
+    const double pending = count == 4 ? stored[3 * lanes] : 0;
+    out.s = spun(swung(s, out.n, out.n), out.n, pending);
+    out.t = cross(out.n, out.s);
+    return out;
+  }
+
+  /// Returns f of a chain and copies the chain's numbers to `out`. A stateless contact returns f of the displacement x.
+  double chain(std::size_t row, int component, std::size_t lane, double x, double* out) const {
+    if constexpr (memoryless_law<L>) {
+      if (shape_.stateless) return *out = law_.value(x);
+    }
+    const auto at = (row * static_cast<std::size_t>(shape_.view.components) + static_cast<std::size_t>(component)) *
+                    words() * shape_.lanes;
+    for (std::size_t w = 0; w < words(); ++w) out[w] = state_.chain[at + w * shape_.lanes + lane];
+    return out[0];
+  }
+
+  /// Returns the load of a contact in condensed form; copies its chains to `out`.
+  FacetLoad<double> condensed(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
+    double f[6] = {0, 0, 0, 0, 0, 0};
+    for (int k = 0; k < shape_.view.components; ++k) {
+      double* own = out + static_cast<std::size_t>(k) * words();
+      f[k] = chain(slot / shape_.lanes, k, slot % shape_.lanes, u[k], own);
+      if (!state_.change.empty() && !shape_.stateless)
+        *own = f[k] += state_.change[6 * slot + static_cast<std::size_t>(k)];
+    }
+    const AreaMoments& m = c.moments;
+    const double d = c.distance, moments[6] = {m.a / d, m.s / d, m.t / d, m.ss / d, m.st / d, m.tt / d};
+    return condensed_load(f, alpha_, moments);
+  }
+
+  /// Returns the load of a contact in points form; copies the chains of its points to `out`.
+  FacetLoad<double> points(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
+    FacetLoad<double> load;
+    for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j) {
+      const std::uint32_t point = c.point_begin + j;
+      const double s = network_.point_s[point], t = network_.point_t[point],
+                   weight = network_.point_area[point] / c.distance;
+      const double x[3] = {u[0] + s * u[1] + t * u[2], u[3] - t * u[5], u[4] + s * u[5]};
+      double f[3] = {0, 0, 0};
+      for (int k = 0; k < shape_.view.components; ++k) {
+        const std::size_t row = group_.packet_row[slot / shape_.lanes] + j;
+        f[k] = weight * chain(row, k, slot % shape_.lanes, x[k], out + (3 * j + static_cast<std::size_t>(k)) * words());
+      }
+      const double along_s = alpha_ * f[1], along_t = alpha_ * f[2];
+      load.n += f[0], load.s += along_s, load.t += along_t;
+      load.moment_s += t * f[0], load.moment_t -= s * f[0], load.moment_n += s * along_t - t * along_s;
+    }
+    return load;
+  }
+
+  const ContactNetwork& network_;
+  const Layout& layout_;
+  const GroupLayout& group_;
+  typename L::template Step<double> law_;
+  GroupShape<P> shape_;
+  bool updated_;
+  double alpha_;
+  const std::vector<double>& displacement_;
+  GroupState<P> state_;
+};
+
+}  // namespace macadam::kernels

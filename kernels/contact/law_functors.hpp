@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file law_functors.hpp  Maps a list of laws, std::variant<…>, to the functors that step their contacts.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
+#include "kernels/contact/contact_step.hpp"
+#include "macadam/laws/law.hpp"
+
+namespace macadam::kernels {
+
+/// Stops the compilation with a message if L does not satisfy the contract of a law.
+template <class L>
+struct Steppable {
+  static_assert(laws::SteppableLaw<L>,
+                "this law lacks a part of the contract of macadam/laws/law.hpp: the notes say which one");
+};
+template <class... L>
+constexpr void require_steppable(std::type_identity<std::variant<L...>>) {
+  (static_cast<void>(Steppable<L>{}), ...);
+}
+
+/// Calls f(std::integral_constant<int, Units>) with the `Units` of ContactForces that suit the law.
+template <bool room_for_five, class L, class F>
+void dispatch_units(const L& law, F&& f) {
+  if constexpr (units_of<L>() >= 0) {
+    f(std::integral_constant<int, units_of<L>()>{});
+  } else {
+    if (law.units() == 3)
+      f(std::integral_constant<int, 3>{});
+    else if (room_for_five && law.units() <= 5)
+      f(std::integral_constant < int, room_for_five ? 5 : -1 > {});
+    else
+      f(std::integral_constant<int, -1>{});
+  }
+}
+
+/// Placeholder in a list for a law that has no functor there.
+struct NoFunctor {};
+
+/// The functor type of a law in a launch for `Units` units, or NoFunctor. Laws without memory fit any number of units.
+template <class P, class L, ContactForm form, Geometry geometry, int Units>
+struct StepFunctor {
+  static constexpr bool memoryless = memoryless_law<L>;
+  static constexpr bool fits =
+      (linear_law<L> || form == ContactForm::points) &&
+      (memoryless || units_of<L>() == Units || (units_of<L>() < 0 && (Units == 3 || Units == 5 || Units < 0)));
+  template <bool any>
+  static auto make() {
+    if constexpr (any)
+      return std::type_identity<
+          ContactForces<P, typename L::template Step<typename P::State>, memoryless ? 0 : Units, form, geometry>>{};
+    else
+      return std::type_identity<NoFunctor>{};
+  }
+  using type = typename decltype(make<fits>())::type;
+};
+
+/// One of several functors, stored by value so that it can be passed to a kernel: its number in the list, and its
+/// bytes.
+template <class... Functors>
+struct AnyFunctor {
+  int kind = 0;
+  alignas(8) unsigned char bytes[std::max({sizeof(NoFunctor), sizeof(Functors)...})] = {};
+
+  /// Stores a functor.
+  template <class F>
+  void put(const F& functor) {
+    static_assert((std::is_same_v<F, Functors> || ...), "a law without a kernel");
+    int number = 0;
+    ((std::is_same_v<F, Functors> ? (kind = number, true) : (++number, false)) || ...);
+    std::memcpy(bytes, &functor, sizeof functor);
+  }
+  /// Calls f(functor) with the stored functor.
+  template <int number = 0, class F>
+  MACADAM_HD void visit(F&& f) const {
+    if constexpr (number < static_cast<int>(sizeof...(Functors))) {
+      using Functor = std::tuple_element_t<static_cast<std::size_t>(number), std::tuple<Functors...>>;
+      constexpr bool last = number + 1 == static_cast<int>(sizeof...(Functors));
+      if (last || kind == number) {
+        if constexpr (!std::is_same_v<Functor, NoFunctor>) f(*reinterpret_cast<const Functor*>(bytes));
+      } else {
+        visit<number + 1>(f);
+      }
+    }
+  }
+};
+
+template <class List>
+struct AnyFunctorOf;
+template <class... Functors>
+struct AnyFunctorOf<std::tuple<Functors...>> {
+  using type = AnyFunctor<Functors...>;
+};
+
+}  // namespace macadam::kernels

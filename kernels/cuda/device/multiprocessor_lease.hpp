@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file multiprocessor_lease.hpp  Decides which specimen may use the multiprocessors of a device if several specimens share it.
+///
+/// The thread blocks of a launch of resident tiles wait for one another, and each occupies one multiprocessor. If two
+/// such launches each had only some of the multiprocessors that they need, neither would end. So a specimen takes as
+/// many multiprocessors as it has tiles before it launches (TileRunner::run() calls take()), and gives them back when
+/// its steps have finished (give()). Room in the identifiers means these multiprocessors; a Share is the number of them
+/// on each device.
+///
+/// The oldest waiting specimen goes first. So the oldest two take turns and finish while others are still being
+/// prepared. If all specimens took turns, all would finish at the same time, and the device would be idle until the
+/// next ones are ready.
+///
+/// If one specimen has all its steps enqueued (is_queued()), the next one may take the device already: its steps are
+/// enqueued behind an event at the end of the first one's. So the device does not pause while host threads wake each
+/// other.
+///
+/// A solution in the frequency domain goes before all steps that need room. While it runs, only steps that need no room
+/// may use its devices. It consists of hundreds of short kernels in sequence; each of them would otherwise wait for
+/// steps to end.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+
+#include "macadam/backend.hpp"
+
+namespace macadam::kernels {
+
+/// The leases of all devices of this process. All functions may be called from any thread.
+class DeviceRoom {
+ public:
+  /// Number of multiprocessors of each device.
+  using Share = std::map<int, int>;
+  /// A CUDA event. This class only stores and passes it.
+  using Event = void*;
+  /// Makes everything that the caller enqueues from now on wait for an event.
+  using QueueBehind = std::function<void(Event)>;
+  /// Kind of work that needs room.
+  enum class Work { steps, solution };
+
+  /// Returns a number for a specimen that is to be stepped, or for a solution. Lower numbers go first. Numbers of one
+  /// kind rise. All numbers of solutions are below all numbers of specimens.
+  static std::uint64_t next_number(Work work = Work::steps) {
+    constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
+    DeviceRoom& room = instance();
+    const std::lock_guard lock(room.mutex_);
+    return room.next_++ + (work == Work::steps ? first_of_steps : 0);
+  }
+  /// Waits until `wanted` can be taken: no lower number waits for one of these devices, and all of it is free or will
+  /// be free at an event. In the latter case, calls `queue_behind` with that event while the lock prevents its owner
+  /// from destroying it. `of_device`: number of multiprocessors that each device has.
+  static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
+    DeviceRoom& room = instance();
+    std::unique_lock lock(room.mutex_);
+    room.waiting_[number] = wanted;
+    Event end = nullptr;
+    room.changed_.wait(lock, [&] {
+      end = nullptr;
+      return room.is_first(number) && (room.is_free(wanted, of_device) || (end = room.end_before(wanted)));
+    });
+    room.waiting_.erase(number);
+    room.changed_.notify_all();  // the next one in the queue may fit beside this one, or behind it
+    if (end) queue_behind(end);
+    room.taken_[number] = {wanted, nullptr};
+  }
+  /// Reports that all work of a specimen is enqueued; `end` is the event behind it.
+  static void is_queued(std::uint64_t number, Event end) {
+    DeviceRoom& room = instance();
+    {
+      const std::lock_guard lock(room.mutex_);
+      room.taken_.at(number).end = end;
+    }
+    room.changed_.notify_all();
+  }
+  /// Returns whether a specimen or solution waits for its turn.
+  static bool waits(std::uint64_t number) {
+    DeviceRoom& room = instance();
+    const std::lock_guard lock(room.mutex_);
+    return room.waiting_.contains(number);
+  }
+  /// Gives back what `number` has taken.
+  static void give(std::uint64_t number) {
+    DeviceRoom& room = instance();
+    {
+      const std::lock_guard lock(room.mutex_);
+      room.taken_.erase(number);
+    }
+    room.changed_.notify_all();
+  }
+
+  /// Takes the devices of a solution for its lifetime; nobody else has room on them.
+  class ForSolution {
+   public:
+    ForSolution(const DeviceList& devices, const QueueBehind& queue_behind) {
+      constexpr int more_than_any_has = 1 << 20;
+      Share whole;
+      for (const int device : devices) whole[device] = more_than_any_has;
+      take(number_, whole, whole, queue_behind);
+    }
+    ForSolution(const ForSolution&) = delete;
+    ~ForSolution() { give(number_); }
+
+   private:
+    const std::uint64_t number_ = next_number(Work::solution);
+  };
+
+ private:
+  struct Taken {
+    Share share;
+    Event end = nullptr;  // behind everything enqueued; null: more will be enqueued
+  };
+
+  /// Returns whether no lower number waits for one of the same devices.
+  bool is_first(std::uint64_t mine) const {
+    const Share& wanted = waiting_.at(mine);
+    for (const auto& [earlier, others] : waiting_) {
+      if (earlier == mine) break;
+      for (const auto& [device, number] : others) {
+        if (wanted.contains(device)) return false;
+      }
+    }
+    return true;
+  }
+  /// Returns whether `wanted` fits beside what others have taken. An unused device always fits.
+  bool is_free(const Share& wanted, const Share& of_device) const {
+    for (const auto& [device, number] : wanted) {
+      int used = 0;
+      for (const auto& [specimen, taken] : taken_) {
+        const auto part = taken.share.find(device);
+        if (part != taken.share.end()) used += part->second;
+      }
+      if (used > 0 && used + number > of_device.at(device)) return false;
+    }
+    return true;
+  }
+  /// If only one device is wanted, and exactly one specimen holds it and holds no other device, returns the event at
+  /// the end of that specimen's enqueued work; else null.
+  Event end_before(const Share& wanted) const {
+    if (wanted.size() != 1) return nullptr;
+    const int device = wanted.begin()->first;
+    const Taken* only = nullptr;
+    for (const auto& [specimen, taken] : taken_) {
+      if (!taken.share.contains(device)) continue;
+      if (only || taken.share.size() > 1) return nullptr;
+      only = &taken;
+    }
+    return only ? only->end : nullptr;
+  }
+  static DeviceRoom& instance() {
+    static DeviceRoom room;
+    return room;
+  }
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::uint64_t, Taken> taken_;    // by number
+  std::map<std::uint64_t, Share> waiting_;  // by number
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file device_limits.hpp  Determines the limits of the devices, and whether a kernel of the tile path fits them.
+///
+/// TileRunner decides by these limits, never by a device's name, whether tiles stay on the chip (resident) or are
+/// streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made. The file also holds
+/// DeviceStore, which owns the device arrays of the tile path, and the kernel that sums the loads on the walls.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+
+#include "kernels/cuda/common/load_sums.hpp"
+#include "kernels/cuda/multi_gpu/device_team.hpp"
+#include "kernels/layout/tile_plan.hpp"
+
+namespace macadam::kernels {
+
+/// Limits of a device, or the smallest limits of all devices of a team.
+struct DeviceLimits {
+  /// Multiprocessors that may be used; shared memory that a thread block may request [byte].
+  int multiprocessors = 0, shared = 0;
+  bool cooperative = false;  ///< thread blocks of one launch may wait for one another
+  /// Words of 16 bytes are written and read by one instruction (compute capability 7.0 or later).
+  bool whole_words = false;
+
+  /// Returns the limits of the current device. `multiprocessors`: as in StepperOptions. `shares`: number of equal parts
+  /// into which the device is divided.
+  static DeviceLimits query(int multiprocessors, int shares = 1) {
+    int device = 0, cooperative = 0, major = 0;
+    DeviceLimits out;
+    check_cuda(cudaGetDevice(&device), "device");
+    check_cuda(cudaDeviceGetAttribute(&out.multiprocessors, cudaDevAttrMultiProcessorCount, device), "device");
+    check_cuda(cudaDeviceGetAttribute(&out.shared, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "device");
+    check_cuda(cudaDeviceGetAttribute(&cooperative, cudaDevAttrCooperativeLaunch, device), "device");
+    check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device), "device");
+    out.multiprocessors = std::max(1, out.multiprocessors / shares);
+    if (multiprocessors > 0) out.multiprocessors = std::min(out.multiprocessors, multiprocessors);
+    out.cooperative = cooperative != 0;
+    out.whole_words = major >= 7;
+    return out;
+  }
+  /// Returns limits that every member of the team satisfies.
+  static DeviceLimits of_each(const DeviceTeam& team, int multiprocessors) {
+    DeviceLimits out;
+    team.each([&](std::size_t m) {
+      const DeviceLimits own = query(multiprocessors, team.shares_of(m));
+      out = m == team.first()
+                ? own
+                : DeviceLimits{std::min(out.multiprocessors, own.multiprocessors), std::min(out.shared, own.shared),
+                               out.cooperative && own.cooperative, out.whole_words && own.whole_words};
+    });
+    if (Ranks* ranks = team.ranks()) {  // all ranks must plan the same tiles
+      out.multiprocessors = static_cast<int>(ranks->least(out.multiprocessors));
+      out.shared = static_cast<int>(ranks->least(out.shared));
+    }
+    return out;
+  }
+};
+
+/// Allows launches of a kernel to use all shared memory that the device offers to a thread block. The limit applies to
+/// the whole process: if it were set to the need of one specimen, another specimen that needs more could not launch.
+template <class... Parameters>
+void allow_all_shared_memory(const DeviceLimits& limits, void (*kernel)(Parameters...)) {
+  cudaFuncAttributes attributes{};
+  check_cuda(cudaFuncGetAttributes(&attributes, kernel), "shared memory");
+  check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                  limits.shared - static_cast<int>(attributes.sharedSizeBytes)),
+             "shared memory");
+}
+
+/// Returns whether all thread blocks of a kernel can run on the device at the same time, one per multiprocessor.
+template <class... Parameters>
+bool fits_resident(const DeviceLimits& limits, void (*kernel)(Parameters...), std::size_t blocks, int threads,
+                   std::uint32_t shared) {
+  if (!limits.cooperative || !limits.whole_words || blocks > static_cast<std::size_t>(limits.multiprocessors)) {
+    return false;
+  }
+  if (shared > static_cast<std::uint32_t>(limits.shared)) return false;
+  int fitting = 0;
+  allow_all_shared_memory(limits, kernel);
+  check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&fitting, kernel, threads, shared), "occupancy");
+  return fitting > 0;
+}
+
+/// Owns device arrays of any type; they are freed with this object.
+class DeviceStore {
+ public:
+  /// Copies a host array to the device and keeps it. Returns the device address.
+  template <class Array>
+  auto keep(const Array& array) {
+    using T = typename Array::value_type;
+    return own(DeviceArray<T>::of(array));
+  }
+  /// Does the same for an array whose items are spread over several devices.
+  template <class Array>
+  auto keep(const Array& array, const Shares& shares) {
+    using T = typename Array::value_type;
+    return own(DeviceArray<T>::of(array, shares));
+  }
+  /// Keeps an array of n zeros.
+  template <class T>
+  T* zeros(std::size_t n) {
+    return own(DeviceArray<T>(n));
+  }
+  /// Does the same for an array with `words` numbers per item, spread over several devices.
+  template <class T>
+  T* zeros(const Shares& shares, std::size_t words) {
+    return own(DeviceArray<T>(shares, words));
+  }
+  std::int64_t bytes() const { return bytes_; }  ///< size of all arrays
+
+ private:
+  template <class T>
+  T* own(DeviceArray<T> array) {
+    bytes_ += static_cast<std::int64_t>(array.bytes());
+    auto kept = std::make_shared<DeviceArray<T>>(std::move(array));
+    owned_.push_back(kept);
+    return kept->data();
+  }
+  std::vector<std::shared_ptr<void>> owned_;
+  std::int64_t bytes_ = 0;
+};
+
+/// Writes the load on each wall: its base load plus the sum of its rows of `wall_load`, added in fixed order. One
+/// thread block per wall; all arguments except `wall_load` are arrays of the walls alone.
+template <class R>
+__global__ void __launch_bounds__(body_threads)
+    add_wall_loads(const float* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {
+  __shared__ R part[body_threads];
+  const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
+  R sum = 0;
+  for (std::uint32_t r = wall_begin[blockIdx.x] + lane; r < wall_begin[blockIdx.x + 1]; r += bodies_a_block)
+    sum += wall_load[r * std::size_t{velocity_words} + w];
+  part[threadIdx.x] = sum;
+  __syncthreads();
+  if (lane > 0) return;
+  sum = base[blockIdx.x * velocity_words + w];
+  for (unsigned k = 0; k < bodies_a_block; ++k) sum += part[k * velocity_words + w];
+  force[blockIdx.x * velocity_words + w] = sum;
+}
+
+}  // namespace macadam::kernels

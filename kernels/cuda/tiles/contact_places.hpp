@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_places.hpp  Maps the contacts of the layout's groups to their places in the tiles.
+///
+/// A contact has one slot in its group (layout.hpp), and one or two places in TilePlan::contact: a contact between
+/// particles of two tiles is in both. TileRunner fills the map in add_contacts() and uploads it in prepare(). The
+/// kernels between two blocks of steps use it to find the words of a slot's contact (settle_kernels.hpp), and checkpoints
+/// use it to write the tiles' words in the order of the network.
+///
+/// Words: a slot is numbered over all groups, one group after the other; a place is packet · 32 + lane.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "kernels/cuda/multi_gpu/device_limits.hpp"
+#include "kernels/cuda/tiles/tile_step.hpp"
+
+namespace macadam::kernels {
+
+/// The places of every slot. They are on the host until keep(), then on the device.
+class TilePlaces {
+ public:
+  explicit TilePlaces(const Layout& layout) : layout_(layout) {
+    for (const auto& group : layout.groups) {
+      first_slot_.push_back(slots_);
+      slots_ += group.contact.size();
+    }
+    places_.assign(slots_, uint2{UINT32_MAX, UINT32_MAX});
+  }
+
+  /// Number of slots of all groups; first slot of one group.
+  std::size_t slots() const { return slots_; }
+  std::size_t first_slot(std::size_t group) const { return first_slot_[group]; }
+
+  /// Records that the contact of a slot is (also) at `place`.
+  void add(std::size_t group, std::size_t slot, std::uint32_t place) {
+    uint2& of_slot = places_[first_slot_[group] + slot];
+    (of_slot.x == UINT32_MAX ? of_slot.x : of_slot.y) = place;
+  }
+  /// Calls f(member, places) for the slots of each member of the team; only before keep().
+  template <class F>
+  void for_each_slot(const TeamCuts& cuts, F&& f) const {
+    each_slot(*this, cuts, f);
+  }
+  /// Orders the two places of each slot so that the first belongs to the slot's own member, because settling reads the
+  /// first one. `owner`: place → member.
+  template <class Owner>
+  void own_first(const TeamCuts& cuts, Owner&& owner) {
+    each_slot(*this, cuts, [&](std::size_t m, uint2& place) {
+      if (place.y != UINT32_MAX && owner(place.x) != m) std::swap(place.x, place.y);
+    });
+  }
+  /// Uploads the places; none can be added after this.
+  void keep(DeviceStore& store, const Shares& shares) {
+    on_device_ = store.keep(places_, shares);
+    places_ = {};
+  }
+  const uint2* on_device() const { return on_device_; }
+
+  /// Returns the order in which a checkpoint stores the words of an array [packet][count][lane] of the tiles: contacts
+  /// in the order of the network. `words`: offsets of the numbers of one contact.
+  StateOrder order(int count, std::vector<std::uint64_t> words) const {
+    const std::vector<uint2> places = copied(0, slots_);
+    const auto at = [&](std::uint32_t place) {
+      return place == UINT32_MAX ? StateOrder::none
+                                 : (std::uint64_t{place / 32} * static_cast<unsigned>(count) * 32 + place % 32) * 4;
+    };
+    StateOrder out{{}, std::move(words), {}};
+    for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
+      for (const std::uint32_t slot : slots_in_order(layout_.groups[g])) {
+        const uint2 place = places[first_slot_[g] + slot];
+        out.first.push_back(at(place.x));
+        out.twin.push_back(at(place.y));
+      }
+    }
+    return out;
+  }
+  /// Returns the words of a contact's constants that change between blocks.
+  static std::vector<std::uint64_t> words_of_block(bool carried) {
+    std::vector<std::uint64_t> out;
+    add_words(out, tile_drift_a, 4);
+    add_words(out, tile_drift_b, 2);
+    if (!carried) return out;
+    add_words(out, tile_normal, 4);
+    add_words(out, tile_moment_a, 1);
+    add_words(out, tile_tangent, 3);
+    return out;
+  }
+  /// Returns the words of a contact's state.
+  static std::vector<std::uint64_t> words_of_states() {
+    std::vector<std::uint64_t> out;
+    for (const int w : {tile_change, tile_both, tile_sum}) add_words(out, w, 4);
+    return out;
+  }
+
+  /// Returns δf of the contacts of a group, [slot][6], from the tiles' states. `count`: size of `state`.
+  std::vector<float> changes(std::size_t group, const float4* state, std::size_t count) const {
+    std::vector<float4> all(count);
+    copy_now(all.data(), state, count * sizeof(float4), "states");
+    const std::vector<uint2> places = copied(first_slot_[group], layout_.groups[group].contact.size());
+    std::vector<float> out(6 * places.size(), 0.0f);
+    for (std::size_t slot = 0; slot < places.size(); ++slot) {
+      const std::uint32_t place = places[slot].x;
+      if (place == UINT32_MAX) continue;
+      const float4* words = &all[place / 32 * std::size_t{tile_states} * 32 + place % 32];
+      const float4 a = words[tile_change * 32], b = words[tile_both * 32];
+      const float change[6] = {a.x, a.y, a.z, a.w, b.x, b.y};
+      std::copy(change, change + 6, &out[6 * slot]);
+    }
+    return out;
+  }
+
+ private:
+  template <class Self, class F>
+  static void each_slot(Self& self, const TeamCuts& cuts, F&& f) {
+    for (std::size_t g = 0; g < self.layout_.groups.size(); ++g) {
+      const GroupLayout& group = self.layout_.groups[g];
+      for (std::size_t m = 0; m < cuts.members(); ++m) {
+        for (std::size_t s = cuts.slot(group, m); s < cuts.slot(group, m + 1); ++s)
+          f(m, self.places_[self.first_slot_[g] + s]);
+      }
+    }
+  }
+  /// Returns a host copy of the places of some slots.
+  std::vector<uint2> copied(std::size_t first, std::size_t count) const {
+    std::vector<uint2> out(count);
+    if (count > 0) copy_now(out.data(), on_device_ + first, count * sizeof(uint2), "places");
+    return out;
+  }
+  /// Adds the offsets of the first `count` components of the 16-byte word w.
+  static void add_words(std::vector<std::uint64_t>& to, int w, int count) {
+    for (int k = 0; k < count; ++k)
+      to.push_back(static_cast<std::uint64_t>(w) * 32 * 4 + static_cast<std::uint64_t>(k));
+  }
+
+  const Layout& layout_;
+  std::size_t slots_ = 0;
+  std::vector<std::size_t> first_slot_;  // [group]
+  std::vector<uint2> places_;            // empty after keep()
+  const uint2* on_device_ = nullptr;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file settle_kernels.hpp  Defines the kernels that run between two blocks of steps on the tile path. They update the
+/// viscoelastic states in full precision and prepare the next block.
+///
+/// TileRunner launches two kernels in this order. settle_contacts (through Settling in settle_launch.hpp) takes each
+/// contact's δf and sum from the tiles' states, updates the contact's chain by model (6.9), writes the drift (and with
+/// updated geometry the frame) for the next block into the tiles' constants, and stores the loads of the current f as
+/// records. sum_base sums the records of each body to its new base loads and stores its displacement as that at the
+/// beginning of the block. The formulas of one contact are in block_settling.hpp.
+///
+/// Words: to settle is to update a contact between two blocks. A record is the load of one contact on one of its two
+/// bodies; the records of a body are consecutive (its row). Each contact is settled once, by its slot in the layout;
+/// its words are written to all its places in the tiles (one or two).
+#pragma once
+
+#include "kernels/contact/block_settling.hpp"
+#include "kernels/cuda/common/load_sums.hpp"
+#include "kernels/cuda/tiles/tile_step.hpp"
+
+namespace macadam::kernels {
+
+/// Passed instead of the number of steps of the block that ends: nothing has been stepped yet, and the constants become
+/// those of the undeformed contact.
+inline constexpr int settling_starts = -1;
+
+/// Settles the contacts of one group; one thread per contact.
+template <class P, class Block, int Units, Geometry geometry>
+struct SettleContact {
+  /// The update of one contact, as in block_settling.hpp.
+  BlockSettling<P, Block, Units, geometry> settling;
+
+  /// `place`: the one or two places of the contact in the tiles; x is UINT32_MAX for an inert slot. `now`, `before`:
+  /// displacements now and at the beginning of the block, [body][8]. `steps`: of the block that ends; 0: there is none;
+  /// settling_starts: see there. `record`: slot among all groups.
+  __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, const float4* state, const double* now,
+                             const double* before, int steps, const LoadRecords<typename P::Particle>& records,
+                             std::uint32_t record) const {
+    if (place.x == UINT32_MAX) return;
+    constexpr bool carried = geometry == Geometry::updated;
+    if (steps == settling_starts) {
+      begin(slot, place, constant);
+      return;
+    }
+    float change[6], sum[6];
+    load_state(at(state, place.x, tile_states), change, sum);
+    const auto [frame, drift, load] = settling(LaneItem{slot % 32}, slot / 32, change, sum, now, before, steps);
+    records.store(record, load);
+
+    for (const std::uint32_t p : {place.x, place.y}) {
+      if (p == UINT32_MAX) continue;
+      float4* out = at(constant, p, tile_constants(carried));
+      out[tile_drift_a * 32] = {drift[0], drift[1], drift[2], drift[3]};
+      *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {drift[4], drift[5]};
+      if constexpr (carried) {
+        out[tile_normal * 32] = {float(frame.n.x), float(frame.n.y), float(frame.n.z), float(frame.arm_a)};
+        out[tile_moment_a * 32].x = float(frame.arm_b);
+        out[tile_tangent * 32] = {float(frame.s.x), float(frame.s.y), float(frame.s.z), 0};
+      }
+    }
+  }
+
+ private:
+  /// Returns the address of the words of a contact at `place`, with `count` words per contact.
+  template <class Word>
+  __device__ __forceinline__ static Word* at(Word* words, std::uint32_t place, int count) {
+    return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
+  }
+
+  /// Writes constants without drift, with the frame of the undeformed contact.
+  __device__ void begin(std::uint32_t slot, uint2 place, float4* constant) const {
+    const ContactView<P>& view = settling.view;
+    const auto* g = view.geometry + static_cast<std::size_t>(slot / 32) * view.geometry_words * 32 + slot % 32;
+    const auto word = [&](int k) { return static_cast<float>(g[k * 32]); };
+    constexpr bool carried = geometry == Geometry::updated;
+    for (const std::uint32_t p : {place.x, place.y}) {
+      if (p == UINT32_MAX) continue;
+      float4* out = at(constant, p, tile_constants(carried));
+      out[tile_drift_a * 32] = {0, 0, 0, 0};
+      *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {0, 0};
+      if constexpr (carried) {
+        out[tile_normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
+        out[tile_moment_a * 32].x = word(arm_b);
+        out[tile_tangent * 32] = {0, 0, 0, 0};
+      }
+    }
+  }
+};
+
+/// Functor types that settle a law: one for each number of Kelvin units that has its own code; none for a law without
+/// blocks.
+template <class P, class L, Geometry geometry>
+auto settle_functors() {
+  if constexpr (!has_blocks<L>)
+    return std::tuple<>{};
+  else if constexpr (units_of<L>() >= 0)
+    return std::tuple<SettleContact<P, typename L::Block, units_of<L>(), geometry>>{};
+  else
+    return std::tuple<SettleContact<P, typename L::Block, 3, geometry>,
+                      SettleContact<P, typename L::Block, -1, geometry>>{};
+}
+
+/// The settling functors of all groups, passed to the kernel by value.
+template <class P, class AnyLaw, Geometry geometry>
+struct SettleGroups;
+template <class P, class... L, Geometry geometry>
+struct SettleGroups<P, std::variant<L...>, geometry> {
+  using Functors = decltype(std::tuple_cat(settle_functors<P, L, geometry>()...));
+  struct Group {
+    std::uint32_t first_slot = 0;  ///< number of the group's first slot among all groups
+    typename AnyFunctorOf<Functors>::type functor;
+  };
+  Group group[pair_types];
+  const uint2* place;  ///< [slot of all groups] the places of its contact in the tiles
+};
+
+/// The slots of each group that one launch settles. Thread blocks first_block, first_block + 1, … handle slots begin …
+/// end − 1.
+struct SettleRanges {
+  struct Range {
+    std::uint32_t first_block = UINT32_MAX, begin = 0, end = 0;
+  };
+  Range of[pair_types];
+  std::uint32_t blocks = 0;
+
+  /// Adds a group. Its thread blocks follow the thread blocks of the groups added before.
+  void add(int group, std::size_t begin, std::size_t end) {
+    of[group] = {blocks, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+    blocks += static_cast<std::uint32_t>((end - begin + contact_threads - 1) / contact_threads);
+  }
+};
+
+/// Settles the contacts of all groups. Each thread block handles contacts of one group only.
+template <class P, class AnyLaw, Geometry geometry>
+__global__ void __launch_bounds__(contact_threads)
+    settle_contacts(const __grid_constant__ SettleGroups<P, AnyLaw, geometry> groups,
+                    const __grid_constant__ SettleRanges ranges, float4* constant, const float4* state,
+                    const double* now, const double* before, int steps,
+                    const LoadRecords<typename P::Particle> records) {
+  int number = 0;
+  while (number + 1 < pair_types && ranges.of[number + 1].first_block <= blockIdx.x) ++number;
+  const auto& group = groups.group[number];
+  const auto& range = ranges.of[number];
+  const std::uint32_t slot = range.begin + (blockIdx.x - range.first_block) * contact_threads + threadIdx.x;
+  if (slot >= range.end) return;
+  const std::uint32_t record = group.first_slot + slot;
+  group.functor.visit([&](const auto& functor) {
+    functor(slot, groups.place[record], constant, state, now, before, steps, records, record);
+  });
+}
+
+/// Sets the loads to the body forces alone, before the first step.
+template <class R>
+__global__ void begin_with_weight(const R* weight, std::uint32_t particles, R* force) {
+  const std::uint32_t body = blockIdx.x * blockDim.x + threadIdx.x;
+  if (body >= particles) return;
+  for (unsigned w = 0; w < 3; ++w) force[body * std::size_t{velocity_words} + w] = weight[body * std::size_t{4} + w];
+}
+
+/// Sums the base loads (records and body force) of the bodies first … end − 1, walls included, and copies their
+/// displacements from `now` to `before`. The first `long_rows` thread blocks handle one body each, as in step_bodies().
+template <class P>
+__global__ void __launch_bounds__(body_threads)
+    sum_base(const LoadRecords<typename P::Particle> records, const std::uint32_t* long_body, std::uint32_t long_rows,
+             std::uint32_t first, std::uint32_t end, const typename P::Particle* weight, std::uint32_t particles,
+             typename P::Particle* base, const double* now, double* before) {
+  using R = typename P::Particle;
+  const unsigned w = threadIdx.x % velocity_words;
+  const auto keep = [&](std::uint32_t body, R sum) {
+    if (weight && body < particles && w < 3) sum += weight[body * std::size_t{4} + w];
+    base[body * std::size_t{velocity_words} + w] = sum;
+    before[body * std::size_t{displacement_words} + w] = now[body * std::size_t{displacement_words} + w];
+  };
+  if (blockIdx.x < long_rows) {
+    const std::uint32_t body = long_body[blockIdx.x];
+    const R sum = sum_by_block<R>(records, body);
+    if (threadIdx.x < velocity_words) keep(body, sum);
+    return;
+  }
+  const std::uint32_t body = first + (blockIdx.x - long_rows) * bodies_a_block + threadIdx.x / velocity_words;
+  if (body >= end) return;
+  const std::uint32_t row = records.row_begin[body], row_end = records.row_begin[body + 1];
+  if (row_end - row <= long_row) keep(body, sum_words<R>(records, row, row_end, 1, w));
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file step_contacts.hpp  Defines the kernel that steps the contacts of all groups in one launch (first of the two
+/// kernels of ExecCuda). Each thread block belongs to one group, so that all threads of a warp run the same code.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <type_traits>
+
+#include "kernels/cuda/common/lane_item.hpp"
+#include "kernels/cuda/device/launch.hpp"
+#include "kernels/contact/law_functors.hpp"
+
+namespace macadam::kernels {
+
+inline constexpr unsigned contact_threads = 128, contact_blocks = 4;  ///< thread blocks per multiprocessor, at least
+
+inline constexpr unsigned record_words = 6;
+
+/// The records in which contacts store their loads. A record is the load on one end; the records of a body are
+/// consecutive.
+template <class T>
+struct LoadRecords {
+  T* words;                        ///< [record][6] force, moment [N, N·m]
+  const std::uint32_t* row_begin;  ///< [body + 1]
+  const std::uint32_t* place;      ///< [slot][2] records of the A and the B end; UINT32_MAX in an inert slot
+
+  using Two = std::conditional_t<sizeof(T) == 8, double2, float2>;
+  static constexpr unsigned parts = record_words / 2;  ///< number of parts in which a record is written
+
+  /// Writes one record.
+  template <class U>
+  __device__ __forceinline__ static void store(Two* to, const Vec3<U>& force, const Vec3<U>& moment) {
+    to[0] = {T(force.x), T(force.y)};
+    to[1] = {T(force.z), T(moment.x)};
+    to[2] = {T(moment.y), T(moment.z)};
+  }
+  __device__ __forceinline__ Two* record(std::uint32_t number) const {
+    return reinterpret_cast<Two*>(words) + static_cast<std::size_t>(number) * parts;
+  }
+  /// Returns the numbers of a slot's two records.
+  __device__ __forceinline__ uint2 places(std::uint32_t slot) const {
+    return __ldg(reinterpret_cast<const uint2*>(place) + slot);
+  }
+
+  /// Writes the loads of the contact in a slot to its two records; does nothing for an inert slot.
+  template <class U>
+  __device__ __forceinline__ void store(std::uint32_t slot, const ContactLoad<U>& load) const {
+    const uint2 to = places(slot);
+    if (to.x == UINT32_MAX) return;
+    store(record(to.x), load.force_a, load.moment_a);
+    store(record(to.y), -load.force_a, load.moment_b);
+  }
+  /// Does the same as store(), by all threads of a warp together. The records are transposed in shared memory, so that
+  /// neighbouring threads write one record and memory receives whole sectors.
+  template <class U>
+  __device__ __forceinline__ void store_by_warp(std::uint32_t slot, const ContactLoad<U>& load) const {
+    __shared__ Two turned[contact_threads][parts];
+    const uint2 to = places(slot);
+    const unsigned lane = threadIdx.x % 32, first = threadIdx.x - lane;
+    const auto write = [&](std::uint32_t mine, const Vec3<U>& force, const Vec3<U>& moment) {
+      __syncwarp();
+      store(turned[threadIdx.x], force, moment);
+      __syncwarp();
+#pragma unroll
+      for (unsigned k = 0; k < parts; ++k) {
+        const unsigned of = (32 * k + lane) / parts, part = (32 * k + lane) % parts;
+        const std::uint32_t number = __shfl_sync(0xffffffff, mine, static_cast<int>(of));
+        if (number != UINT32_MAX) record(number)[part] = turned[first + of][part];
+      }
+    };
+    write(to.x, load.force_a, load.moment_a);
+    write(to.y, -load.force_a, load.moment_b);
+  }
+};
+
+/// The functors of the groups of a launch, passed to the kernel by value. `Units`: as in ContactForces; laws without
+/// memory fit any number.
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
+struct ContactGroups;
+template <class P, class... L, ContactForm form, Geometry geometry, int Units>
+struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
+  struct Group {
+    std::uint32_t first_block = UINT32_MAX;  ///< first thread block of this group
+    /// Number of its first slot among all groups; its slots in this launch.
+    std::uint32_t first_slot = 0, begin = 0, end = 0;
+    AnyFunctor<typename StepFunctor<P, L, form, geometry, Units>::type...> functor;
+  };
+  Group group[pair_types];
+  int groups = 0;
+  std::uint32_t blocks = 0;  ///< thread blocks of all groups
+
+  /// Adds a group. Its thread blocks follow the thread blocks of the groups added before.
+  template <class Forces>
+  void add(std::uint32_t first_slot, std::uint32_t begin, std::uint32_t end, const Forces& forces) {
+    Group& g = group[groups++];
+    g.first_block = blocks, g.first_slot = first_slot, g.begin = begin, g.end = end;
+    g.functor.put(forces);
+    blocks += (end - begin + contact_threads - 1) / contact_threads;
+  }
+};
+
+/// Counts the steps on the device, and copies the row of the walls' table for the current step to a fixed address where
+/// step_bodies reads it. One warp does this.
+template <class R>
+struct WallClock {
+  std::int64_t* step = nullptr;  ///< number of rows copied so far; null: no driven walls
+  const R* table = nullptr;
+  R* now = nullptr;    ///< [words] the row of the current step
+  unsigned words = 0;  ///< size of a row
+
+  /// Copies the row of the current step and increments the counter.
+  __device__ __forceinline__ void tick() const {
+    const unsigned lane = threadIdx.x;
+    if (lane >= 32) return;
+    const std::int64_t row = *step;
+    if (lane < words) now[lane] = table[static_cast<std::size_t>(row) * words + lane];
+    __syncwarp();
+    if (lane == 0) *step = row + 1;
+  }
+};
+/// Sets the counter to 0 and copies the first row.
+template <class R>
+__global__ void start_clock(const WallClock<R> clock) {
+  if (threadIdx.x == 0) *clock.step = 0;
+  __syncwarp();
+  clock.tick();
+}
+
+/// Steps every contact of a launch and writes its loads. If there is a clock, the first thread block runs it instead.
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
+__global__ void __launch_bounds__(contact_threads, contact_blocks)
+    step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units> groups,
+                  const MotionView<P> motion, const LoadRecords<typename P::Geometry> records,
+                  const WallClock<typename P::Particle> clock) {
+  std::uint32_t block = blockIdx.x;
+  if (clock.step && block-- == 0) return clock.tick();
+  int number = 0;
+  while (number + 1 < groups.groups && groups.group[number + 1].first_block <= block) ++number;
+  const auto& group = groups.group[number];
+  const std::uint32_t slot = group.begin + (block - group.first_block) * contact_threads + threadIdx.x;
+  if (slot >= group.end) return;  // true for whole warps only
+  group.functor.visit([&](const auto& forces) {
+    records.store_by_warp(group.first_slot + slot, forces(LaneItem{slot % 32}, slot / 32, motion));
+  });
+}
+
+/// The launches that step all contacts of a device: one for each number of Kelvin units that has its own code.
+template <class P, class AnyLaw>
+class ContactLaunches {
+ public:
+  using Records = LoadRecords<typename P::Geometry>;
+  using Clock = WallClock<typename P::Particle>;
+
+  /// Adds the slots begin … end − 1 of a group; `first_slot` is the number of its first slot among all groups.
+  template <class LawStep, int Units, ContactForm form, Geometry geometry>
+  void add(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t first_slot,
+           std::uint32_t begin, std::uint32_t end) {
+    constexpr int units = LawStep::memoryless ? 3 : Units;  // so that most scenes have one launch
+    using Groups = ContactGroups<P, AnyLaw, form, geometry, units>;
+    const auto kernel = step_contacts<P, AnyLaw, form, geometry, units>;
+    Launch& to = launches_[units];
+    if (!to.groups) to.groups = std::make_shared<Groups>();
+    auto groups = std::static_pointer_cast<Groups>(to.groups);
+    groups->add(first_slot, begin, end, forces);
+    to.run = [groups, kernel](cudaStream_t stream, const MotionView<P>& motion, const Records& records,
+                              const Clock& clock) {
+      launch("contacts", kernel, groups->blocks + (clock.step ? 1 : 0), contact_threads, 0, stream, *groups, motion,
+             records, clock);
+    };
+    to.use = kernel_use("contacts", kernel, contact_threads, 0);
+  }
+  /// Enqueues the step of all contacts. Only the first launch advances the clock.
+  void run(cudaStream_t stream, const MotionView<P>& motion, const Records& records, Clock clock) const {
+    for (const auto& [units, to] : launches_) {
+      to.run(stream, motion, records, clock);
+      clock = {};
+    }
+  }
+  std::vector<KernelUse> kernels() const {
+    std::vector<KernelUse> out;
+    for (const auto& [units, to] : launches_) out.push_back(to.use);
+    return out;
+  }
+
+ private:
+  struct Launch {
+    std::shared_ptr<void> groups;
+    KernelUse use;
+    std::function<void(cudaStream_t, const MotionView<P>&, const Records&, const Clock&)> run;
+  };
+  std::map<int, Launch> launches_;
+};
+
+}  // namespace macadam::kernels

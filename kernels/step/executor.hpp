@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file executor.hpp  Defines the functions that an executor must have. An executor owns the arrays of a specimen and
+/// steps it.
+///
+/// There are three: ExecCpu (threads and SIMD registers), ExecCuda (two kernels per step, any law and contact form),
+/// and ExecCudaTiles (blocks of steps over tiles). An executor is made once for a network and a layout, and can be
+/// restarted many times. For each start, StepperImpl calls, in this order:
+///   begin(start)             sets all bodies to rest; applies the options
+///   wall_table(values)       allocates the walls' table and returns its address
+///   set_bodies(…)            sets masses and body forces
+///   set_group(…)             called once per group (contacts of one pair type). On the first start it sets the group's
+///                            arrays, on later starts only the states; it always sets the functor that steps the group
+///   prepare(motion)          ends the set-up
+/// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). All other
+/// functions read, or set states of a checkpoint. Optional functions for samples are described in exec_cuda_tiles.hpp.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/step/particle_motion.hpp"
+#include "kernels/step/state_list.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam::kernels {
+
+/// Arguments of a start.
+struct ExecStart {
+  const StepperOptions& options;
+  const FactsTable& laws;
+  Vec3d size;               ///< edges of the specimen [m]
+  bool first;               ///< first start: set_group() sets all arrays; at later starts only states
+  std::size_t group_bytes;  ///< size of the arrays of all groups, if `first`
+};
+
+template <class E>
+concept Executor = requires(E exec, const E& read, const ExecStart& start, const ContactNetwork& network,
+                            std::vector<typename E::Policy::Particle> words, std::vector<double> doubles,
+                            ParticleMotion<typename E::Policy> motion) {
+  typename E::AnyLaw;  // std::variant<…> of the laws that it can step
+  { E::lanes + 0 } -> std::convertible_to<int>;
+  { E::tile_size(network, start.options) } -> std::same_as<TileSize>;
+  { read.suits(start) } -> std::same_as<bool>;  // whether a start with these options can use the groups set before
+  exec.begin(start);
+  { exec.wall_table(std::size_t{}) } -> std::same_as<const typename E::Policy::Particle*>;
+  exec.set_bodies(words, words);
+  exec.prepare(motion);
+  exec.set_wall_rows(words);
+  // Arguments: first step, number of steps. The first row of the walls' table belongs to the first step
+  exec.run(std::int64_t{}, std::int64_t{});
+  exec.wait();
+  read.gather();     // with ranks, completes on every device the arrays that steps change
+  exec.end_steps();  // waits for queued work after an error, so that other devices and runs are not blocked
+  { read.forces(std::int32_t{}, std::size_t{}) } -> std::same_as<std::vector<Twist<typename E::Policy::Particle>>>;
+  { read.forces_with_weight() } -> std::same_as<bool>;  // whether forces() includes the body forces
+  { read.velocities() } -> std::same_as<std::vector<typename E::Policy::Particle>>;
+  { read.displacements() } -> std::same_as<std::vector<double>>;
+  { read.wall_displacements() } -> std::same_as<std::vector<double>>;
+  { read.wall_velocities() } -> std::same_as<std::vector<typename E::Policy::Particle>>;
+  exec.set_velocities(words);
+  exec.set_displacements(doubles);
+  // Arguments: radii in specimen order [m], time step [s]
+  { read.first_divergent(doubles, double{}) } -> std::same_as<std::int64_t>;
+  // Arguments: number of the group, size of its array of chains, size of its array of frames
+  {read.group_state(std::size_t{}, std::size_t{}, std::size_t{})};
+  { read.device_motion() } -> std::same_as<DeviceMotion>;
+  { read.states() } -> std::same_as<const StateList&>;
+  { read.description() } -> std::same_as<std::string>;
+  { read.kernels() } -> std::same_as<std::vector<KernelUse>>;
+  { read.bytes() } -> std::same_as<std::int64_t>;
+  { read.traffic() } -> std::same_as<std::int64_t>;
+  { read.traffic_by_place() } -> std::same_as<Traffic>;
+  exec.start_clock();  // from now on, measures the time of each part of a step
+  { exec.stop_clock() } -> std::same_as<std::vector<PartTime>>;
+  read.use_device();  // makes the device current for the calling thread, which may serve several steppers
+};
+
+}  // namespace macadam::kernels
