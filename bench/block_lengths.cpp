@@ -7,7 +7,7 @@
 // blocks of one step at the same time step and masses. It takes some minutes.
 #include <fmt/format.h>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "kernels/contact/contact_kinematics.hpp"
 #include "kernels/layout/layout.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -12,7 +12,7 @@
 
 #include <string>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "kernels/step/block_length.hpp"
 #include "macadam/laws/facts.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -9,5 +9,5 @@ foreach(file ${files})
   file(READ ${file} text)
   string(APPEND texts "    {\"${stem}\", R\"off(${text})off\"},\n")
 endforeach()
-file(WRITE ${OUT} "#include \"host/shapes/shipped_shapes.hpp\"\n
+file(WRITE ${OUT} "#include \"host/shapes/files/shipped_shapes.hpp\"\n
 namespace macadam {\nconst std::vector<ShippedShape>& shipped_shapes() {\n  static const std::vector<ShippedShape> texts{\n${texts}  };\n  return texts;\n}\n}  // namespace macadam\n")

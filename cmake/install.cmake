@@ -13,7 +13,7 @@ if(MACADAM_HAS_RANKS)
 endif()
 install(PROGRAMS scripts/draw-fit scripts/draw-calibration scripts/draw-relaxation DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/examples)
-# Reports and studies, which are plain Python; host/cli/python_commands.cpp starts them
+# Reports and studies, which are plain Python; host/cli/tool_commands/python_commands.cpp starts them
 install(DIRECTORY python/macadam DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/python
         FILES_MATCHING PATTERN "*.py" PATTERN "*.css" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # Manual page and completions of shells

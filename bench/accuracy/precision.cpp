@@ -8,7 +8,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::accuracy {

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "host/cli/help.hpp"
+#include "host/cli/terminal/help.hpp"
 #include "host/cli/shell_command.hpp"
 
 namespace macadam {

@@ -7,8 +7,8 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/library_environment.hpp"
 #include "host/cli/memory_reserve.hpp"
-#include "host/cli/streams.hpp"
-#include "host/nearest.hpp"
+#include "host/cli/terminal/streams.hpp"
+#include "host/base/nearest.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

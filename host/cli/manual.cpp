@@ -2,7 +2,7 @@
 // manual.cpp  Makes a manual page from the command line, in the macros of man(7).
 #include <fmt/format.h>
 
-#include "host/cli/help.hpp"
+#include "host/cli/terminal/help.hpp"
 #include "host/cli/shell_command.hpp"
 #include "macadam/version.hpp"
 

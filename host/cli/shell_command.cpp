@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "host/cli/help.hpp"
-#include "host/cli/options.hpp"
-#include "host/cli/streams.hpp"
+#include "host/cli/terminal/help.hpp"
+#include "host/cli/terminal/options.hpp"
+#include "host/cli/terminal/streams.hpp"
 
 namespace macadam {
 namespace {

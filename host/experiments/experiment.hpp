@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "host/results/checkpoint.hpp"
+#include "host/files/checkpoint_file.hpp"
 #include "host/scene/table.hpp"
-#include "host/simulation/solution.hpp"
+#include "host/run/planned_experiment.hpp"
 
 namespace macadam {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "host/experiments/material_solution.hpp"
-#include "host/results/files.hpp"
+#include "host/files/result_files.hpp"
 
 namespace macadam {
 namespace {

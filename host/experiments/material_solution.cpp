@@ -11,9 +11,9 @@
 
 #include "host/experiments/material_files.hpp"
 #include "host/harmonic/law_stiffness.hpp"
-#include "host/seconds_of.hpp"
-#include "host/simulation/harmonic_options.hpp"
-#include "host/simulation/phases.hpp"
+#include "host/base/seconds_of.hpp"
+#include "host/run/harmonic_options.hpp"
+#include "host/run/phases.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/scene/table.hpp"
-#include "host/simulation/solution.hpp"
+#include "host/run/planned_experiment.hpp"
 #include "macadam/experiments/material.hpp"
 
 namespace macadam {

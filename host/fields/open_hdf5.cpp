@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/quiet_hdf5.hpp"
+#include "host/files/quiet_hdf5.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "host/fields/open_hdf5.hpp"
-#include "host/hdf5_type.hpp"
+#include "host/files/hdf5_type.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "host/results/files.hpp"
+#include "host/files/result_files.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

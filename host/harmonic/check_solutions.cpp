@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/harmonic/contact_group.hpp"
+#include "host/harmonic/particle_contacts.hpp"
 #include "kernels/harmonic/particle_block.hpp"
 
 namespace macadam::harmonic {

@@ -13,7 +13,7 @@
 
 #include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
-#include "host/stepping/processor_code.hpp"
+#include "host/backends/processor_code.hpp"
 #include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 

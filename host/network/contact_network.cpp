@@ -10,7 +10,7 @@
 #include <numeric>
 #include <string>
 
-#include "host/counted.hpp"
+#include "host/base/counted.hpp"
 #include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "host/recipe/check_design.hpp"
-#include "host/results/files.hpp"
+#include "host/files/result_files.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

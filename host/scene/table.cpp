@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "host/in_quotes.hpp"
-#include "host/nearest.hpp"
+#include "host/base/in_quotes.hpp"
+#include "host/base/nearest.hpp"
 #include "host/scene/known_keys.hpp"
 #include "macadam/error.hpp"
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "host/scene/toml.hpp"
-#include "host/scene/units.hpp"
+#include "host/base/units.hpp"
 
 namespace macadam::scene {
 

@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "host/experiments/cyclic/step_rules.hpp"
-#include "host/experiments/stepped/settings.hpp"
-#include "host/simulation/combination.hpp"
-#include "host/simulation/costs.hpp"
+#include "host/run/step_settings.hpp"
+#include "host/simulation/refused_combinations.hpp"
+#include "host/simulation/measured_costs.hpp"
 #include "host/simulation/forecast_parts.hpp"
-#include "host/thread_limit.hpp"
+#include "host/base/thread_limit.hpp"
 #include "macadam/harmonic.hpp"
 
 namespace macadam {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/experiments/experiment.hpp"
-#include "host/experiments/loaded/load_test.hpp"
+#include "host/experiments/transient/transient_experiment.hpp"
 #include "host/simulation/forecast_parts.hpp"
 
 namespace macadam {

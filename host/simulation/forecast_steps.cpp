@@ -8,11 +8,11 @@
 #include <complex>
 #include <numbers>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "host/experiments/cyclic/step_rules.hpp"
-#include "host/experiments/loaded/load_rules.hpp"
+#include "host/experiments/transient/load_rules.hpp"
 #include "host/harmonic/law_stiffness.hpp"
-#include "host/simulation/harmonic_options.hpp"
+#include "host/run/harmonic_options.hpp"
 #include "macadam/harmonic.hpp"
 
 namespace macadam {

@@ -14,10 +14,10 @@
 #include <thread>
 #include <utility>
 
-#include "host/simulation/checkpoints.hpp"
+#include "host/run/checkpoints.hpp"
 #include "host/simulation/device_shares.hpp"
 #include "host/simulation/run_scene.hpp"
-#include "host/stepping/cuda_code.hpp"
+#include "host/backends/cuda_code.hpp"
 #include "macadam/error.hpp"
 #include "macadam/ranks.hpp"
 

@@ -13,8 +13,8 @@
 #include <system_error>
 
 #include "host/experiments/experiment.hpp"
-#include "host/simulation/checkpoints.hpp"
-#include "host/stepping/rank_device.hpp"
+#include "host/run/checkpoints.hpp"
+#include "host/backends/rank_device.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "host/experiments/experiment.hpp"
-#include "host/results/files.hpp"
-#include "host/simulation/checkpoints.hpp"
+#include "host/files/result_files.hpp"
+#include "host/run/checkpoints.hpp"
 #include "host/simulation/recipe_summary.hpp"
 #include "macadam/error.hpp"
 #include "macadam/version.hpp"

@@ -5,7 +5,7 @@
 
 #include <iterator>
 
-#include "host/results/files.hpp"
+#include "host/files/result_files.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {

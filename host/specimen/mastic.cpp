@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "host/seconds_of.hpp"
+#include "host/base/seconds_of.hpp"
 #include "host/spheres/relaxation.hpp"
 #include "macadam/error.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "host/specimen/composition.hpp"
-#include "host/specimen/shape_placement.hpp"
+#include "host/specimen/packing/shape_placement.hpp"
 #include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 

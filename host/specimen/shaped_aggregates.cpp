@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "kernels/base/parallel.hpp"
-#include "host/shapes/fill.hpp"
+#include "host/shapes/fill/fill.hpp"
 #include "host/specimen/composition.hpp"
-#include "host/specimen/shape_placement.hpp"
+#include "host/specimen/packing/shape_placement.hpp"
 #include "host/spheres/sphere_grid.hpp"
 #include "macadam/error.hpp"
 

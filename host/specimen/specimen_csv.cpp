@@ -16,8 +16,8 @@
 #include <system_error>
 #include <unordered_map>
 
-#include "host/in_quotes.hpp"
-#include "host/results/files.hpp"
+#include "host/base/in_quotes.hpp"
+#include "host/files/result_files.hpp"
 #include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/fit/non_negative.hpp"
+#include "host/base/non_negative_least_squares.hpp"
 #include "macadam/spectrum.hpp"
 
 namespace macadam {

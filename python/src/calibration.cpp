@@ -9,8 +9,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/calibration/calibration_files.hpp"
-#include "host/results/result_folder.hpp"
+#include "host/tools/calibration/calibration_files.hpp"
+#include "host/files/result_folder.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"

@@ -13,11 +13,11 @@
 #include "python/src/choices.hpp"
 #ifdef MACADAM_CT
 
-#include "host/ct/gradation.hpp"
-#include "host/ct/segment_files.hpp"
-#include "host/ct/segment_texts.hpp"
-#include "host/scene/lengths.hpp"
-#include "host/thread_limit.hpp"
+#include "host/tools/ct/grains/gradation.hpp"
+#include "host/tools/ct/segment/segment_files.hpp"
+#include "host/tools/ct/segment/segment_texts.hpp"
+#include "host/base/lengths.hpp"
+#include "host/base/thread_limit.hpp"
 #include "macadam/phantom.hpp"
 #include "macadam/twin.hpp"
 #endif

@@ -9,7 +9,7 @@
 
 #include <mutex>
 
-#include "host/results/files.hpp"
+#include "host/files/result_files.hpp"
 #include "python/src/given_arrays.hpp"
 
 namespace macadam::python {

@@ -9,8 +9,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/fit/fit_files.hpp"
-#include "host/results/result_folder.hpp"
+#include "host/tools/fit/fit_files.hpp"
+#include "host/files/result_folder.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/choices.hpp"

@@ -3,7 +3,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
-#include "host/stepping/processor_code.hpp"
+#include "host/backends/processor_code.hpp"
 #include "macadam/macadam.hpp"
 #include "python/src/bindings.hpp"
 

@@ -6,11 +6,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/results/files.hpp"
-#include "host/results/result_folder.hpp"
-#include "host/results/shape_files.hpp"
-#include "host/shapes/statistics.hpp"
-#include "host/shapes/surface_files.hpp"
+#include "host/files/result_files.hpp"
+#include "host/files/result_folder.hpp"
+#include "host/shapes/files/shape_files.hpp"
+#include "host/shapes/library/statistics.hpp"
+#include "host/shapes/files/surface_files.hpp"
 #include "macadam/shape.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"

@@ -12,7 +12,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "host/thread_limit.hpp"
+#include "host/base/thread_limit.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"

@@ -6,7 +6,7 @@
 #include <cuda_runtime_api.h>
 #endif
 
-#include "host/stepping/choose_devices.hpp"
+#include "host/backends/choose_devices.hpp"
 #include "kernels/cuda/device/compiled_for.hpp"
 #include "kernels/make_stepper.hpp"
 #include "tests/support/test_files.hpp"

@@ -15,7 +15,7 @@
 #include <random>
 #include <thread>
 
-#include "host/results/checkpoint.hpp"
+#include "host/files/checkpoint_file.hpp"
 #include "tests/support/test_folder.hpp"
 #include "tests/support/test_scenes.hpp"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/results/checkpoint.hpp"
+#include "host/files/checkpoint_file.hpp"
 #include "tests/support/stepper_cases.hpp"
 #include "tests/support/test_folder.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "host/experiments/cyclic/plan.hpp"
-#include "host/experiments/loaded/load_plan.hpp"
+#include "host/experiments/transient/load_plan.hpp"
 #include "host/simulation/forecast.hpp"
 #include "tests/support/test_folder.hpp"
 #include "tests/support/test_scenes.hpp"

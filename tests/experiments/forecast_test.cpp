@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "host/simulation/costs.hpp"
+#include "host/simulation/measured_costs.hpp"
 #include "macadam/macadam.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/test_scenes.hpp"

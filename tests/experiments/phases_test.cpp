@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // phases_test.cpp  The wall time of a run is divided into phases: every moment counts in one phase only, and nearly all
 // time is in some phase.
-#include "host/simulation/phases.hpp"
+#include "host/run/phases.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sparing_save_test.cpp  With thousands of frequencies, the growing summary is not written after each of them.
-#include "host/simulation/sparing_save.hpp"
+#include "host/run/sparing_save.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/results/checkpoint.hpp"
+#include "host/files/checkpoint_file.hpp"
 #include "tests/support/long_tests.hpp"
 #include "tests/support/stepper_cases.hpp"
 #include "tests/support/test_folder.hpp"

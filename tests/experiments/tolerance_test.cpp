@@ -9,7 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "tests/support/cluster_specimens.hpp"
 
 namespace macadam::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoint.cpp  Fuzz target: a checkpoint as raw bytes, or a valid checksum around an HDF5 file that is made from a
+// checkpoint_file.cpp  Fuzz target: a checkpoint as raw bytes, or a valid checksum around an HDF5 file that is made from a
 // recipe.
-#include "host/results/checkpoint.hpp"
+#include "host/files/checkpoint_file.hpp"
 
 #include <H5Cpp.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // image.cpp  Fuzz target: an image of a scan, in the format of the program's name. Reads the header and the voxels.
-#include "host/ct/image_slices.hpp"
+#include "host/tools/ct/images/image_slices.hpp"
 #include "tests/fuzz/forged_hdf5.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/fuzz/target.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // surface.cpp  Fuzz target: a surface, in the format of the program's name.
-#include "host/shapes/surface_files.hpp"
+#include "host/shapes/files/surface_files.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/fuzz/target.hpp"
 

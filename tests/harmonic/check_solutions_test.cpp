@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "host/harmonic/check_solutions.hpp"
-#include "host/stepping/processor_code.hpp"
+#include "host/backends/processor_code.hpp"
 #include "tests/support/stepper_cases.hpp"
 #include "tests/support/test_networks.hpp"
 

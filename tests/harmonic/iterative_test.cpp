@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "host/bench/cases.hpp"
+#include "host/tools/bench/cases.hpp"
 #include "bench/stability/hostile_scenes.hpp"
 #include "tests/support/cluster_specimens.hpp"
 #include "host/harmonic/iterative/apply_row.hpp"

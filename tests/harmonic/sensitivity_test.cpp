@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/cluster_specimens.hpp"
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "host/experiments/cyclic/scaling.hpp"
 #include "macadam/harmonic.hpp"
 #include "tests/support/program.hpp"

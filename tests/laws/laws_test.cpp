@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "host/reference/reference_law.hpp"
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "macadam/error.hpp"
 #include "macadam/laws/all.hpp"
 #include "tests/support/test_networks.hpp"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/help.hpp"
+#include "host/cli/terminal/help.hpp"
 
 namespace macadam::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // result_folder_test.cpp  The files in a results folder stay until an accepted command replaces them, and only one
 // command at a time writes there.
-#include "host/results/result_folder.hpp"
+#include "host/files/result_folder.hpp"
 
 #include <signal.h>
 

@@ -5,7 +5,7 @@
 #include <signal.h>
 #include <sys/syscall.h>
 
-#include "host/cli/stop_signals.hpp"
+#include "host/cli/terminal/stop_signals.hpp"
 #include "tests/support/program.hpp"
 
 namespace macadam::test {

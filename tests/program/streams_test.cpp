@@ -4,7 +4,7 @@
 #include <pty.h>
 #include <signal.h>
 
-#include "host/cli/progress_line.hpp"
+#include "host/cli/terminal/progress_line.hpp"
 #include "tests/support/program.hpp"
 
 namespace macadam::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // nearest_test.cpp  An error message suggests a known word only if one is similar to the given word.
-#include "host/nearest.hpp"
+#include "host/base/nearest.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // thread_limit_test.cpp  Every part of a job uses the given number of threads, and waiting threads do not spin.
-#include "host/thread_limit.hpp"
+#include "host/base/thread_limit.hpp"
 
 #include <dlfcn.h>
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "host/shapes/fill.hpp"
+#include "host/shapes/fill/fill.hpp"
 #include "macadam/error.hpp"
 #include "tests/support/test_surfaces.hpp"
 

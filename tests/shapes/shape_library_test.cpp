@@ -15,8 +15,8 @@
 #include <numbers>
 #include <string>
 
-#include "host/shapes/library_targets.hpp"
-#include "host/shapes/statistics.hpp"
+#include "host/shapes/library/library_targets.hpp"
+#include "host/shapes/library/statistics.hpp"
 #include "tests/support/long_tests.hpp"
 #include "macadam/error.hpp"
 #include "macadam/shape.hpp"

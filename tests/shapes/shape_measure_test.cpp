@@ -10,9 +10,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "host/results/shape_files.hpp"
-#include "host/shapes/stabbing.hpp"
-#include "host/shapes/statistics.hpp"
+#include "host/shapes/files/shape_files.hpp"
+#include "host/shapes/surface/interval_search.hpp"
+#include "host/shapes/library/statistics.hpp"
 #include "tests/support/long_tests.hpp"
 #include "macadam/error.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file surface_distance_test.cpp  Depth of points below a surface, against closed forms.
-#include "host/shapes/surface_distance.hpp"
+#include "host/shapes/surface/surface_distance.hpp"
 
 #include <gtest/gtest.h>
 

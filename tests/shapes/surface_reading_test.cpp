@@ -13,7 +13,7 @@
 #include <numbers>
 #include <utility>
 
-#include "host/shapes/cut_polygon.hpp"
+#include "host/shapes/files/cut_polygon.hpp"
 #include "macadam/error.hpp"
 #include "tests/support/test_files.hpp"
 #include "tests/support/test_surfaces.hpp"

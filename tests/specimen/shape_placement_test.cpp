@@ -6,8 +6,8 @@
 
 #include <cstdio>
 
-#include "host/specimen/shape_body.hpp"
-#include "host/specimen/shape_packing.hpp"
+#include "host/specimen/packing/shape_body.hpp"
+#include "host/specimen/packing/shape_packing.hpp"
 #include "tests/support/long_tests.hpp"
 #include "macadam/error.hpp"
 #include "tests/support/shape_tests.hpp"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-#include "host/shapes/convex_hull.hpp"
+#include "host/shapes/surface/convex_hull.hpp"
 #include "tests/support/test_files.hpp"
 
 namespace macadam::test {

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "host/experiments/cyclic/plan.hpp"
 #include "tests/support/test_scenes.hpp"
 

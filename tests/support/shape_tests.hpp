@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "host/specimen/shape_placement.hpp"
+#include "host/specimen/packing/shape_placement.hpp"
 #include "tests/support/test_surfaces.hpp"
 
 namespace macadam::test {

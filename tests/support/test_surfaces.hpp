@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "host/spheres/random_stream.hpp"
-#include "host/shapes/icosahedron.hpp"
-#include "host/specimen/rotation.hpp"
+#include "host/shapes/library/icosahedron.hpp"
+#include "host/specimen/packing/rotation.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam::test {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "host/counted.hpp"
+#include "host/base/counted.hpp"
 #include "macadam/error.hpp"
 #include "tests/support/test_spheres.hpp"
 

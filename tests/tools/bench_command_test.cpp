@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "host/bench/json.hpp"
+#include "host/tools/bench/json.hpp"
 #include "tests/support/program.hpp"
 
 namespace macadam::test {

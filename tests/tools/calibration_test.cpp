@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "tests/support/aggregate_cube.hpp"
-#include "host/calibration/misfit.hpp"
-#include "host/calibration/statistics.hpp"
+#include "host/tools/calibration/misfit.hpp"
+#include "host/tools/calibration/statistics.hpp"
 #include "tests/support/test_files.hpp"
 
 namespace macadam::test {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "host/fit/criterion.hpp"
-#include "host/fit/least_squares.hpp"
+#include "host/tools/fit/criterion.hpp"
+#include "host/tools/fit/least_squares.hpp"
 #include "tests/support/test_files.hpp"
 #include "tests/support/test_networks.hpp"
 

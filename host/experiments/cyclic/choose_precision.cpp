@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 
 namespace macadam {
 namespace {

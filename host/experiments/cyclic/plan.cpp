@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "host/experiments/cyclic/choose_precision.hpp"
-#include "host/experiments/cyclic/error_model.hpp"
-#include "host/experiments/stepped/settings.hpp"
+#include "host/run/error_model.hpp"
+#include "host/run/step_settings.hpp"
 #include "host/harmonic/law_stiffness.hpp"
-#include "host/simulation/harmonic_options.hpp"
-#include "host/simulation/phases.hpp"
+#include "host/run/harmonic_options.hpp"
+#include "host/run/phases.hpp"
 #include "host/experiments/cyclic/scaling.hpp"
 #include "host/experiments/cyclic/step_rules.hpp"
 #include "host/experiments/cyclic/methods.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/experiments/cyclic/plan.hpp"
-#include "host/simulation/checkpoints.hpp"
+#include "host/run/checkpoints.hpp"
 
 namespace macadam {
 

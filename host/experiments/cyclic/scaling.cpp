@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 
 namespace macadam {
 

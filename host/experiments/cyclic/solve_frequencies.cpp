@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "host/experiments/cyclic/judgement.hpp"
-#include "host/simulation/harmonic_options.hpp"
+#include "host/run/harmonic_options.hpp"
 #include "host/fields/field_output.hpp"
-#include "host/simulation/phases.hpp"
+#include "host/run/phases.hpp"
 #include "host/experiments/cyclic/plan.hpp"
 #include "host/experiments/cyclic/methods.hpp"
 #include "macadam/error.hpp"

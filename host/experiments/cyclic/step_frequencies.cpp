@@ -11,16 +11,16 @@
 #include <system_error>
 #include <utility>
 
-#include "host/experiments/stepped/course.hpp"
-#include "host/experiments/stepped/cracks.hpp"
-#include "host/experiments/stepped/settings.hpp"
-#include "host/experiments/stepped/skips.hpp"
+#include "host/run/sampled_run.hpp"
+#include "host/run/cracks.hpp"
+#include "host/run/step_settings.hpp"
+#include "host/run/skips.hpp"
 #include "host/harmonic/law_stiffness.hpp"
-#include "host/results/files.hpp"
+#include "host/files/result_files.hpp"
 #include "host/experiments/cyclic/run_state.hpp"
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
-#include "host/simulation/phases.hpp"
+#include "host/run/phases.hpp"
 #include "host/experiments/cyclic/plan.hpp"
 #include "host/experiments/cyclic/methods.hpp"
 #include "kernels/step/block_length.hpp"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/experiments/cyclic/error_model.hpp"
+#include "host/run/error_model.hpp"
 #include "host/harmonic/law_stiffness.hpp"
-#include "host/simulation/harmonic_options.hpp"
+#include "host/run/harmonic_options.hpp"
 
 namespace macadam {
 

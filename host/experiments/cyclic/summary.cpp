@@ -5,7 +5,7 @@
 
 #include "host/experiments/cyclic/frequency_summary.hpp"
 #include "host/experiments/experiment.hpp"
-#include "host/experiments/stepped/settings.hpp"
+#include "host/run/step_settings.hpp"
 
 namespace macadam {
 

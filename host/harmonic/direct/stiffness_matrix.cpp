@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "host/counted.hpp"
+#include "host/base/counted.hpp"
 #include "host/network/contact_stiffness.hpp"
 
 namespace macadam::harmonic {

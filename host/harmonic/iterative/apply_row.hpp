@@ -2,7 +2,7 @@
 /// \file apply_row.hpp  Multiplies by K*(s) without a stored matrix: every particle sums the loads of its own contacts.
 #pragma once
 
-#include "host/harmonic/iterative/lanes.hpp"
+#include "host/harmonic/complex_lanes.hpp"
 #include "kernels/harmonic/linear_system.hpp"
 
 namespace macadam::harmonic {

@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "host/harmonic/iterative/make_system.hpp"
-#include "host/stepping/cuda_code.hpp"
-#include "host/stepping/processor_code.hpp"
+#include "host/backends/cuda_code.hpp"
+#include "host/backends/processor_code.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {

@@ -45,7 +45,7 @@
 ///     (references); it updates all of them;
 ///   - `static Break break_of(const double* state)` — for laws whose contact points can break: returns whether and how
 ///     a point is broken, from its numbers state(0, 0), state(0, 1), …, state(1, 0), … one after another. Such a law is
-///     coupled. Stepped tests then count broken points (host/experiments/stepped/cracks.hpp);
+///     coupled. Stepped tests then count broken points (host/run/cracks.hpp);
 ///   - `struct Block` — M steps taken as one block in which f changes little (without it, a device takes two kernels
 ///     per step), made by
 ///     `Block block(double dt, int M) const` (all double). It has members `rate`, `relax`, `follow`, `static constexpr

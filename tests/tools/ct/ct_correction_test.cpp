@@ -2,8 +2,8 @@
 // Corrections of a scan: each removes the artefact for which it is made, and leaves differences of composition alone.
 #include <gtest/gtest.h>
 
-#include "host/ct/correction.hpp"
-#include "host/ct/smoothing.hpp"
+#include "host/tools/ct/voxels/correction.hpp"
+#include "host/tools/ct/voxels/smoothing.hpp"
 #include "tests/tools/ct/ct_scans.hpp"
 
 namespace macadam {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "host/ct/fragments.hpp"
-#include "host/ct/grains.hpp"
-#include "host/ct/segment_files.hpp"
+#include "host/tools/ct/grains/fragments.hpp"
+#include "host/tools/ct/grains/grains.hpp"
+#include "host/tools/ct/segment/segment_files.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

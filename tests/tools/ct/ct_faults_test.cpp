@@ -7,9 +7,9 @@
 #include <functional>
 #include <random>
 
-#include "host/ct/gradation.hpp"
-#include "host/ct/grains.hpp"
-#include "host/ct/scan_checks.hpp"
+#include "host/tools/ct/grains/gradation.hpp"
+#include "host/tools/ct/grains/grains.hpp"
+#include "host/tools/ct/voxels/scan_checks.hpp"
 #include "macadam/error.hpp"
 #include "tests/tools/ct/ct_scans.hpp"
 

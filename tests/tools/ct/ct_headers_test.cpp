@@ -11,7 +11,7 @@
 #include <map>
 #include <optional>
 
-#include "host/ct/image_slices.hpp"
+#include "host/tools/ct/images/image_slices.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
 #include "tests/tools/ct/ct_folder.hpp"

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "host/ct/correction.hpp"
-#include "host/ct/grain_surfaces.hpp"
-#include "host/ct/refine.hpp"
+#include "host/tools/ct/voxels/correction.hpp"
+#include "host/tools/ct/grains/grain_surfaces.hpp"
+#include "host/tools/ct/segment/refine.hpp"
 #include "macadam/error.hpp"
 #include "tests/tools/ct/ct_folder.hpp"
 #include "tests/tools/ct/ct_scans.hpp"

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "tests/tools/ct/ct_scenes.hpp"
-#include "host/ct/voxelise.hpp"
+#include "host/tools/ct/synthetic/voxelise.hpp"
 
 namespace macadam::test {
 namespace {

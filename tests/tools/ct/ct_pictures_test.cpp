@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/ct/overlay.hpp"
+#include "host/tools/ct/segment/overlay.hpp"
 #include "tests/tools/ct/ct_scans.hpp"
 #include "tests/support/png_picture.hpp"
 #include "tests/support/test_surfaces.hpp"

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/ct/fragments.hpp"
-#include "host/ct/grains.hpp"
-#include "host/ct/labels.hpp"
-#include "host/ct/paper_recipe.hpp"
-#include "host/ct/region.hpp"
-#include "host/ct/segment_files.hpp"
+#include "host/tools/ct/grains/fragments.hpp"
+#include "host/tools/ct/grains/grains.hpp"
+#include "host/tools/ct/grains/labels.hpp"
+#include "host/tools/ct/grains/paper_recipe.hpp"
+#include "host/tools/ct/voxels/region.hpp"
+#include "host/tools/ct/segment/segment_files.hpp"
 #include "macadam/error.hpp"
 #include "tests/tools/ct/ct_scans.hpp"
 

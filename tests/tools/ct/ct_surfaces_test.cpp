@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/ct/grain_surfaces.hpp"
-#include "host/ct/isosurface.hpp"
+#include "host/tools/ct/grains/grain_surfaces.hpp"
+#include "host/tools/ct/grains/isosurface.hpp"
 #include "tests/tools/ct/ct_scans.hpp"
 #include "tests/support/shape_tests.hpp"
 

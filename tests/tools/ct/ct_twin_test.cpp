@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "tests/tools/ct/ct_scenes.hpp"
-#include "host/ct/void_spheres.hpp"
+#include "host/tools/ct/synthetic/void_spheres.hpp"
 #include "host/network/clusters.hpp"
 #include "macadam/phantom.hpp"
 

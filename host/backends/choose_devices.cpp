@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// choose_devices.cpp  Takes further devices without being asked, if they make steps faster and no other process uses
+// them.
+#include "host/backends/choose_devices.hpp"
+
+#include <fmt/format.h>
+
+#include "host/backends/cuda_code.hpp"
+
+namespace macadam {
+namespace {
+
+/// Number of contacts from which several devices are worthwhile. Two H100 step 221,000 contacts at 1.2 times the speed
+/// of one. They step 441,000 contacts, which do not fit in the registers and shared memory of one, at 4 times its speed
+/// (bench/results/team-*.csv).
+constexpr std::size_t contacts_of_a_team = 300'000;
+// Smallest number of contacts per device when there are several.
+constexpr std::size_t contacts_of_a_device = 150'000;
+
+}  // namespace
+
+DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& devices, const IdleBeside& idle_beside,
+                          std::string& decision) {
+  if (devices.empty()) return {};
+  const int first = devices.front().number;
+  DeviceList out{first};
+  const std::size_t most = contacts < contacts_of_a_team ? 1 : contacts / contacts_of_a_device;
+  for (std::size_t k = 1; k < devices.size() && out.size() < most; ++k) {
+    if (idle_beside(devices[k].number, first)) out.push_back(devices[k].number);
+  }
+  if (out.size() > 1) {
+    decision = fmt::format(
+        "devices {}: several step {} contacts faster, and no process used the others; --devices {} takes one",
+        to_string(out), contacts, first);
+  }
+  return out;
+}
+
+DeviceList choose_devices(std::size_t contacts, std::string& decision) {
+  const kernels::CudaCode* code = cuda_code();
+  if (!code) return {};
+  const auto idle_beside = [&](int device, int first) {
+    return code->idle_beside(device, first) && code->refusal(device).empty();
+  };
+  return choose_devices(contacts, report_backends().devices, idle_beside, decision);
+}
+
+}  // namespace macadam

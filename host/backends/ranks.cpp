@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ranks.cpp  Joins the processes that mpirun started together with this one. The code that uses MPI and NCCL is a
+// separate library, libmacadam_ranks.so, so that only multi-process runs need them.
+#include "macadam/ranks.hpp"
+
+#include <cstdlib>
+
+#include "host/backends/cuda_code.hpp"
+#include "host/backends/plugin_file.hpp"
+#include "host/backends/rank_device.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+Ranks* joined = nullptr;
+
+/// Returns the table of the plugin, or nullptr if there is none; `why` then gets the reason.
+const RanksPlugin* find(std::string& why) {
+  const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
+  return static_cast<const RanksPlugin*>(find_plugin(asked, why));
+}
+
+/// Returns how many processes the command has, from the environment variables of Open MPI, MPICH and Slurm.
+int processes_begun() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
+    if (const char* value = std::getenv(name)) return std::atoi(value);
+  }
+  return 1;
+}
+
+}  // namespace
+
+void Ranks::require_same(const std::string& what, std::int64_t value) {
+  const auto least_of = [this](std::int64_t n) { return static_cast<std::int64_t>(least(static_cast<double>(n))); };
+  const std::int64_t low = least_of(value), high = -least_of(-value);
+  if (low == high) return;
+  throw RunError("ranks: " + what + ": found " + std::to_string(low) + " and " + std::to_string(high) +
+                 ", expected the same of all: they no longer run the same scene");
+}
+
+DeviceList device_of(const Ranks& team, const DeviceList& asked) {
+  if (report_backends().devices.empty()) return asked;
+  DeviceList devices = device_numbers(asked.empty() ? DeviceList{every_device} : asked);
+  const auto own = static_cast<std::size_t>(team.number_on_host());
+  // each process may see another device as its only one; if processes share one, NCCL reports the error
+  if (devices.size() == 1) return devices;
+  if (own >= devices.size()) {
+    throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " on this host beside " +
+                     std::to_string(devices.size()) + " devices, expected one for each device");
+  }
+  return {devices[own]};
+}
+
+std::string why_no_ranks() {
+  std::string why;
+  find(why);
+  return why;
+}
+
+Ranks* join_ranks() {
+  if (joined) return joined;
+  std::string why;
+  const RanksPlugin* const plugin = find(why);
+  if (!plugin) throw RunError("ranks: this process cannot join others: " + why);
+  Ranks* const found = plugin->join();
+  if (found->count() == 1 && processes_begun() > 1) {
+    throw RunError("ranks: found this process alone, expected " + std::to_string(processes_begun()) +
+                   ": they were begun by another MPI than that of libmacadam_ranks.so");
+  }
+  if (found->count() > 1) return joined = found;
+  found->leave();
+  return nullptr;
+}
+
+Ranks* ranks() { return joined; }
+
+}  // namespace macadam

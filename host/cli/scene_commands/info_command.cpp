@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// info_command.cpp  macadam info: version, backends, devices.
+#include "host/cli/scene_commands/info_command.hpp"
+
+#include <memory>
+
+#include "host/cli/terminal/help.hpp"
+#include "host/cli/terminal/options.hpp"
+#include "host/cli/terminal/streams.hpp"
+#include "host/scene/keys_page.hpp"
+#include "host/backends/processor_code.hpp"
+#include "host/backends/rank_device.hpp"
+#include "macadam/macadam.hpp"
+
+namespace macadam {
+namespace {
+
+enum class Keys : std::uint8_t { markdown, json };
+
+void info_command() {
+  const BackendReport report = report_backends();
+  say("macadam {}\n", version());
+  say("cpu        yes, {} threads, compiled for {}\n", report.threads, processor_code().name);
+  say("reference  yes, for checking: per point, double, one thread\n");
+  say("cuda       {}: {}\n", report.devices.empty() ? "no" : "yes", report.cuda_status);
+  const auto list = [](const std::vector<DeviceInfo>& devices, const char* remark) {
+    for (const DeviceInfo& d : devices) {
+      say("           device {}: {}, compute capability {}.{}, {} multiprocessors, {:.1f} GiB{}\n", d.number, d.name,
+          d.compute_capability / 10, d.compute_capability % 10, d.multiprocessors,
+          static_cast<double>(d.memory_bytes) / (1 << 30), remark);
+    }
+  };
+  list(report.devices, "");
+  list(report.devices_without_code, "; this build has no code for it");
+  const std::string alone = why_no_ranks();
+  say("ranks      {}\n",
+      alone.empty() ? "yes: mpirun may begin a process for each device, with run --ranks" : "no: " + alone);
+  std::string reason;
+  const Backend chosen = select_backend(Backend::automatic, &reason);
+  say("auto       {} ({})\n", to_string(chosen), reason);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("info", "version, backends and devices, or every key of a scene");
+  const auto keys = std::make_shared<std::optional<Keys>>();
+  add_choice(command, "--keys", *keys, "every key that a scene may have, in place of all else",
+             {{"markdown", Keys::markdown}, {"json", Keys::json}});
+  add_examples(command, {"macadam info", "macadam info --keys markdown"});
+  command.callback([keys] {
+    if (!*keys)
+      info_command();
+    else
+      say_text(**keys == Keys::json ? scene::keys_json() : scene::keys_page());
+  });
+}
+
+}  // namespace macadam

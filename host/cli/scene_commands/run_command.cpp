@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// run_command.cpp  macadam run SCENE… --out DIR
+#include "host/cli/scene_commands/run_command.hpp"
+
+#include <memory>
+
+#include "host/cli/terminal/as_rank.hpp"
+#include "host/cli/terminal/help.hpp"
+#include "host/cli/terminal/job.hpp"
+#include "host/cli/terminal/options.hpp"
+#include "host/cli/scene_commands/run_scenes.hpp"
+#include "host/cli/terminal/stop_signals.hpp"
+#include "host/scene/overrides.hpp"
+#include "macadam/macadam.hpp"
+
+namespace macadam {
+namespace {
+
+struct RunArguments {
+  Job job;
+  std::vector<std::string> scenes;
+  Overrides instead;
+  bool resume = false, ranks = false;
+  int at_once = 0;
+};
+
+/// `stepping`: set to true when planning is done and the steps begin.
+void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
+  Scene scene = scene_of(arguments.job);
+  apply(arguments.instead, scene);
+  ProgressLine line;
+  Watcher watcher;
+  bool started = false;
+  const bool speaks = is_first_rank();
+  watcher.progress = [&](const std::string& stage, double share) {
+    if (started || !speaks) {  // of several processes, only the first looks for signals until all of them step
+      line.show(stage, share);
+    } else {
+      show_or_stop(line, stage, share);
+    }
+  };
+  watcher.prepared = [&](const Preparation& prepared) {
+    line.clear();
+    say_recipe(scene, prepared);
+    say_preparation(prepared);
+    flush_output();
+  };
+  watcher.planned = [&](const RunResult& planned) {
+    line.clear();
+    for (const std::string& decision : planned.decisions) say("{}\n", decision);
+    for (const Skip& skip : planned.skips) say("skips {}: {}\n", skip.what, skip.why);
+    flush_output();
+    started = true;
+    if (stepping) *stepping = true;
+  };
+  watcher.warn = [&](const std::string& warning) {
+    line.clear();
+    if (speaks) say_error("macadam: warning: {}\n", warning);
+  };
+  watcher.stop = stop_asked;
+  listen_to_stop_signals();
+  const RunResult result = run(scene, arguments.job.out, watcher, arguments.resume);
+  line.clear();
+  say("{}", results_table(result));
+  for (const std::string& warning : result.warnings) say("warning: {}\n", warning);
+  std::string files = "summary.json specimen.csv";
+  const auto add = [&](const std::string& name) {
+    if (std::filesystem::exists(std::filesystem::path(arguments.job.out) / name)) files += " " + name;
+  };
+  if (!scene.specimen.file) add("aggregates.csv");
+  if (scene.recipe) add("gradation.csv");
+  for (const std::string& name : files_of(scene.experiment)) add(name);
+  add("cracks.csv");
+  if (scene.output.contacts) files += " contacts.csv";
+  if (scene.output.fields.any()) files += " fields/";
+  say("\n{} | files in {}: {}\n", result.solver, arguments.job.out, files);
+}
+
+void run_command(RunArguments arguments) {
+  arguments.job.scene = arguments.scenes.front();
+  const auto run_all = [&](bool* stepping) {
+    if (arguments.scenes.size() == 1) return run_one(arguments, stepping);
+    run_scenes(arguments.scenes, arguments.job, arguments.instead, arguments.at_once, arguments.resume);
+  };
+  Ranks* const team = arguments.ranks ? join_ranks() : nullptr;
+  if (!team) return run_all(nullptr);
+  as_rank(*team, [&](bool& stepping) { run_all(&stepping); });
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("run", "run a scene, or several side by side, and write the results");
+  const auto arguments = std::make_shared<RunArguments>();
+  command.add_option("scene", arguments->scenes, "scene files (TOML); of several, each has a folder in that of --out")
+      ->required()
+      ->type_name("FILE");
+  add_out_and_seed(command, arguments->job);
+  command.add_flag("--resume", arguments->resume,
+                   "go on from the checkpoint that an interrupted run left in the folder");
+  add_ranks(command, arguments->ranks);
+  add_number(command, "--at-once", arguments->at_once,
+             "scenes at a time, of several; 0: four a CUDA device, all devices, or one a core", 0, 1024);
+  add_overrides(command, arguments->instead);
+  add_examples(command, {"macadam run examples/demo/scene.toml --out results",
+                         "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",
+                         "macadam run mixes/*.toml --out results --at-once 4",
+                         "mpirun -n 2 macadam run examples/demo/scene.toml --ranks --out results"});
+  command.callback([arguments] { run_command(*arguments); });
+}
+
+}  // namespace macadam

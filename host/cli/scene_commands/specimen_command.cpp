@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// specimen_command.cpp  macadam specimen SCENE --out DIR [--section x=0.025]…
+#include "host/cli/scene_commands/specimen_command.hpp"
+
+#include <memory>
+
+#include "host/cli/terminal/help.hpp"
+#include "host/cli/terminal/job.hpp"
+#include "host/cli/terminal/stop_signals.hpp"
+#include "host/tessellation/packing_check.hpp"
+#include "macadam/macadam.hpp"
+
+namespace macadam {
+namespace {
+
+struct SpecimenArguments {
+  Job job;
+  std::vector<std::string> sections;
+};
+
+/// Prints which part of the area that a plane cuts is aggregate.
+void say_section(const Preparation& prepared, const SectionPlane& plane) {
+  const CrossSection section = cut(prepared.specimen, prepared.tessellation, plane);
+  double all = 0, aggregate = 0;
+  for (const SectionCell& cell : section.cells) {
+    all += cell.area;
+    if (prepared.specimen.phase_of(cell.particle) == Phase::aggregate) aggregate += cell.area;
+  }
+  say("section {}={} m: {} cells, {:.2f} % of the area is aggregate\n", plane.axis, plane.position,
+      section.cells.size(), 100 * aggregate / all);
+}
+
+void specimen_command(const SpecimenArguments& arguments) {
+  const Scene scene = scene_of(arguments.job);
+  std::vector<SectionPlane> planes;  // read first, so that a wrong one is refused before the work
+  for (const std::string& text : arguments.sections) planes.push_back(read_section_plane(text, scene.specimen.box));
+  ProgressLine line;
+  listen_to_stop_signals();
+  const Preparation prepared =
+      prepare_into(arguments.job.out, scene, planes,
+                   [&](const std::string& stage, double share) { show_or_stop(line, stage, share); });
+  line.clear();
+  say_recipe(scene, prepared);
+  say_preparation(prepared);
+  for (const std::string& warning : packing_warnings(prepared.specimen, prepared.tessellation))
+    say("warning: {}\n", warning);
+  const TessellationInvariants i = measure_invariants(prepared.specimen, prepared.tessellation);
+  say("tessellation errors: volume {:.1e}, closure {:.1e}, flatness {:.1e}, power {:.1e}, walls {:.1e}\n", i.volume,
+      i.closure, i.flatness, i.power, i.walls);
+  for (const SectionPlane& plane : planes) say_section(prepared, plane);
+  say("files in {}\n", arguments.job.out);
+}
+
+}  // namespace
+
+void add_specimen_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("specimen", "build the specimen and its contact network only");
+  const auto arguments = std::make_shared<SpecimenArguments>();
+  add_job_options(command, arguments->job);
+  command
+      .add_option("--section", arguments->sections,
+                  "cut the cells by a plane, as x=0.025 or \"z=40 mm\"; may be given several times")
+      ->allow_extra_args(false)  // the argument that follows is the scene
+      ->type_name("PLANE");
+  add_examples(command, {"macadam specimen examples/ac14_recipe/scene.toml --out results/specimen",
+                         "macadam specimen examples/demo/scene.toml --out results/cut --section \"z=15 mm\""});
+  command.callback([arguments] { specimen_command(*arguments); });
+}
+
+}  // namespace macadam

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// as_rank.cpp  Decides which of the processes prints, and ends all of them together.
+#include "host/cli/terminal/as_rank.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <thread>
+
+#include "host/cli/terminal/streams.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+/// Ends all processes after an error. The others wait before they report it, so that an error that all have is reported
+/// by the first alone, which writes what there is to write and ends the others.
+[[noreturn]] void end_all(Ranks& team, const char* why, int code) {
+  const bool first = team.number() == 0;
+  if (!first) std::this_thread::sleep_for(std::chrono::seconds(10));
+  say_error("macadam: {}{}\n", first ? "" : fmt::format("rank {}: ", team.number()), why);
+  flush_output();
+  team.end_all(code);
+  std::_Exit(code);
+}
+
+}  // namespace
+
+void as_rank(Ranks& team, const std::function<void(bool&)>& f) {
+  const bool first = team.number() == 0;
+  if (!first) silence_output();
+  omp_set_num_threads(std::max(1, omp_get_max_threads() / team.count_on_host()));
+  bool together = false;
+  try {
+    f(together);
+    team.leave();
+  } catch (const InterruptedError& error) {
+    if (!together) end_all(team, error.what(), 1);
+    team.leave();  // by then the first has written the checkpoint
+    if (first) throw;
+  } catch (const std::bad_alloc&) { end_all(team, "out of memory", 1); } catch (const std::exception& error) {
+    end_all(team, error.what(), dynamic_cast<const InputError*>(&error) ? 2 : 1);
+  }
+}
+
+}  // namespace macadam

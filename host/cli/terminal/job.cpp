@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// job.cpp  Handles scene, seed and folder of a command, and prints the text about a specimen.
+#include "host/cli/terminal/job.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "host/cli/terminal/options.hpp"
+#include "host/cli/terminal/stop_signals.hpp"
+#include "host/scene/overrides.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+DeviceList devices_of(const std::string& text) {
+  if (text == "all") return {every_device};
+  DeviceList out;
+  for (const char *at = text.data(), *end = at + text.size();; ++at) {
+    constexpr int most = 1023;
+    int number = -1;
+    const auto [stop, error] = std::from_chars(at, end, number);
+    const bool known = error == std::errc{} && number >= 0 && number <= most;
+    if (!known || (stop != end && *stop != ',') || std::count(out.begin(), out.end(), number) > 0)
+      options::refuse("--device", text, fmt::format("all, or different whole numbers from 0 to {} with commas", most));
+    out.push_back(number);
+    if (stop == end) return out;
+    at = stop;
+  }
+}
+
+void add_job_options(CLI::App& command, Job& job) {
+  add_text(command, "scene", job.scene, "scene file (TOML)")->required();
+  add_out_and_seed(command, job);
+}
+
+void add_out_and_seed(CLI::App& command, Job& job) {
+  add_out(command, job.out);
+  add_number(command, "--seed", job.seed, "another specimen of the same mixture, instead of the scene's", 0,
+             std::numeric_limits<std::uint64_t>::max())
+      ->group(instead_of_scene);
+}
+
+void add_overrides(CLI::App& command, Overrides& instead) {
+  add_choice(
+      command, "--backend", instead.backend, "what computes: auto is a CUDA device if there is one",
+      {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}, {"reference", Backend::reference}})
+      ->group(instead_of_scene);
+  add_choice(command, "--precision", instead.precision, "of the steps",
+             {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}})
+      ->group(instead_of_scene);
+  add_choice(command, "--method", instead.method, "stepped in time, or solved in the frequency domain",
+             {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})
+      ->group(instead_of_scene);
+  add_choice(
+      command, "--linear", instead.linear, "how harmonic solutions are found: without factors, or with them",
+      {{"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}})
+      ->group(instead_of_scene);
+  add_number(command, "--threads", instead.threads, "of the CPU; results do not depend on it", 1, 1024)
+      ->group(instead_of_scene);
+  add_devices(command, instead.devices)->group(instead_of_scene);
+}
+
+Scene scene_of(const Job& job) {
+  Scene scene = read_scene(job.scene);
+  Overrides instead;
+  instead.seed = job.seed;
+  apply(instead, scene);
+  return scene;
+}
+
+void say_recipe(const Scene& scene, const Preparation& prepared) {
+  if (!scene.recipe) return;
+  const MixDesign& design = *scene.recipe;
+  const MixVolumes v = volumes_of(design);
+  say("recipe: binder {:.2f} % of the mix, {:.2f} % of the aggregate; effective {:.2f} % of the mix\n", 100 * v.binder,
+      100 * v.binder / (1 - v.binder), 100 * v.effective_binder);
+  say("maximum density {:.1f} kg/m3, bulk density {:.1f} kg/m3, air voids {:.2f} %, VMA {:.2f} %, VFB {:.2f} %\n",
+      v.maximum_density, v.bulk_density, 100 * v.air_voids, 100 * v.vma, 100 * v.vfb);
+  const auto phase = [](const char* name, double mass, double volume, double density) {
+    say("{:<9} {:6.2f} % of the mass, {:6.2f} % of the box, {:.1f} kg/m3\n", name, 100 * mass, 100 * volume, density);
+  };
+  if (!v.classes.empty()) phase("aggregate", v.aggregate_mass, v.aggregate_volume, v.aggregate_density);
+  phase("mastic", v.mastic_mass, v.mastic_volume, v.mastic_density);
+  say("{:>9} {:>13} {:>9}\n", "sieve", "passing asked", "reached");
+  for (const GradationRow& row : gradation_of(design, prepared.composition)) {
+    say("{:>6.6g} mm {:>12.2f}% {:>8.2f}%{}\n", 1e3 * row.size, 100 * row.asked, 100 * row.reached,
+        row.size < design.cut ? " (in the mastic)" : "");
+  }
+  for (const SievePassing& s : outside_of_envelope(design))
+    say("outside of the envelope: {:.4g} % passing {:.6g} mm\n", 100 * s.passing, 1e3 * s.size);
+}
+
+void say_preparation(const Preparation& p) {
+  if (!p.composition.empty()) {
+    say("{:<14} {:>9} {:>9} {:>12} {:>12}\n", "class", "asked", "reached", "asked/box", "reached/box");
+    for (const CompositionRow& row : p.composition) {
+      say("{:<14} {:>9} {:>9} {:>11.3f}% {:>11.3f}%\n", row.name, row.count_asked, row.count, 100 * row.fraction_asked,
+          100 * row.fraction);
+    }
+  }
+  say("{} particles, ", p.specimen.size());
+  if (!p.specimen.voids.empty()) say("{} voids, ", p.specimen.voids.size());
+  say("{} contacts (", p.network.contacts.size());
+  const char* separator = "";
+  for (int pair = 0; pair < pair_types; ++pair) {
+    if (const auto n = p.network.count[static_cast<std::size_t>(pair)]; n > 0) {
+      say("{}{} {}", separator, to_string(static_cast<PairType>(pair)), n);
+      separator = ", ";
+    }
+  }
+  say("), {} contact points\n", p.network.point_area.size());
+  if (p.network.dropped_gap + p.network.dropped_area > 0) {
+    say("dropped: {} facets by gap_max, {} by area_min\n", p.network.dropped_gap, p.network.dropped_area);
+  }
+  if (p.loose_particles > 0) say("warning: {} particles are not joined to both walls\n", p.loose_particles);
+  say("specimen {:.2f} s, tessellation {:.2f} s, network {:.2f} s\n", p.seconds_specimen, p.seconds_tessellation,
+      p.seconds_network);
+}
+
+void show_or_stop(ProgressLine& line, const std::string& stage, double share) {
+  if (stop_asked()) {
+    throw InterruptedError(
+        fmt::format("interrupted at: {}; nothing was written, what the folder held is as it was", stage));
+  }
+  line.show(stage, share);
+}
+
+}  // namespace macadam

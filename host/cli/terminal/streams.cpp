@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// streams.cpp  Prints to standard output and error without crashing if a stream is closed, full, or a pipe without a
+// reader.
+#include "host/cli/terminal/streams.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+namespace macadam {
+
+void hold_standard_streams() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(number, F_GETFD) >= 0) continue;
+    // open() returns the lowest free number, which is this one. The file is opened in the wrong direction, so that
+    // writing to a closed stream remains an error.
+    if (::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) != number) break;
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void say_text(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+bool say_error_text(std::string_view text) {
+  const bool whole = std::fwrite(text.data(), 1, text.size(), stderr) == text.size();
+  return std::fflush(stderr) == 0 && whole;
+}
+
+void silence_output() {
+  if (!std::freopen("/dev/null", "w", stdout)) std::clearerr(stdout);
+}
+
+bool flush_output() {
+  std::cout.flush();  // CLI11 writes help there
+  const bool flushed = std::fflush(stdout) == 0;
+  return flushed && std::ferror(stdout) == 0 && std::cout.good();
+}
+
+}  // namespace macadam

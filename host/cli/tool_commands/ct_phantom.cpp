@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ct_phantom.cpp  macadam ct phantom SCENE --voxel "100 um" --out DIR
+#include "host/cli/tool_commands/ct_phantom.hpp"
+
+#include <limits>
+#include <memory>
+
+#include "host/cli/terminal/fractions.hpp"
+#include "host/cli/terminal/job.hpp"
+#include "host/base/lengths.hpp"
+#include "host/cli/terminal/help.hpp"
+#include "host/cli/terminal/options.hpp"
+#include "host/cli/terminal/stop_signals.hpp"
+#include "macadam/phantom.hpp"
+
+namespace macadam {
+namespace {
+
+struct CtPhantomArguments {
+  std::string scene, out, voxel, sawn = "0", air = "1 mm";
+  std::optional<std::uint64_t> specimen_seed;
+  PhantomSpec spec;
+};
+
+void phantom_command(CtPhantomArguments arguments) {
+  PhantomSpec& spec = arguments.spec;
+  spec.voxel = length_of(arguments.voxel, "--voxel");
+  spec.sawn = length_of(arguments.sawn, "--sawn");
+  spec.air = length_of(arguments.air, "--air");
+  const Scene scene = scene_of({arguments.scene, arguments.out, arguments.specimen_seed});
+  listen_to_stop_signals();
+  ProgressLine line;
+  const Phantom phantom =
+      make_phantom(scene, spec, [&](const std::string& stage, double share) { show_or_stop(line, stage, share); });
+  line.show("writing", 0);
+  write_phantom(arguments.out, phantom, scene, spec);
+  line.clear();
+  const auto& n = phantom.scan.size;
+  say("{} x {} x {} voxels of {:.4g} um: {} grains, aggregate {:.2f} %, mastic {:.2f} %, voids {:.2f} %\n", n[0], n[1],
+      n[2], 1e6 * spec.voxel, phantom.grains.size(), 100 * phantom.aggregate, 100 * phantom.mastic,
+      100 * phantom.voids);
+  say("scan.mha, phantom.json and truth in {}\n", arguments.out);
+}
+
+}  // namespace
+
+void add_ct_phantom(CLI::App& ct) {
+  const auto arguments = std::make_shared<CtPhantomArguments>();
+  PhantomSpec& spec = arguments->spec;
+  CLI::App& command = *ct.add_subcommand("phantom", "a synthetic scan of a scene's specimen, with its truth");
+  add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
+  add_text(command, "--voxel", arguments->voxel, "edge of a voxel, as \"100 um\"", "LENGTH")->required();
+  add_out(command, arguments->out);
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  add_number(command, "--specimen-seed", arguments->specimen_seed, "instead of the scene's", 0, most);
+  add_number(command, "--seed", spec.seed, "of the faults of the scan", 0, most);
+  add_choice(command, "--shape", spec.shape, "outline of what is scanned",
+             {{"prism", CoreShape::prism}, {"cylinder", CoreShape::cylinder}});
+  add_text(command, "--sawn", arguments->sawn, "taken off each side of the box before it is scanned", "LENGTH");
+  add_text(command, "--air", arguments->air, "around the specimen", "LENGTH");
+  add_number(command, "--samples", spec.samples, "columns along each edge of a voxel", 1, 16);
+  add_number(command, "--blur", spec.blur, "standard deviation in voxels", 0.0, 10.0);
+  add_fraction(command, "--noise", spec.noise, "standard deviation, fraction of aggregate - air", 0.0, 1.0);
+  add_fraction(command, "--cupping", spec.cupping, "loss of grey value on the axis, fraction", 0.0, 1.0);
+  add_fraction(command, "--rings", spec.rings, "offsets of the rings, fraction of aggregate - air", 0.0, 1.0);
+  add_fraction(command, "--drift", spec.drift, "brightness of the slices, fraction", 0.0, 1.0);
+  add_number(command, "--grey-air", spec.grey_air, "of air", 0.0, 65535.0);
+  add_number(command, "--grey-mastic", spec.grey_mastic, "of mastic", 0.0, 65535.0);
+  add_number(command, "--grey-aggregate", spec.grey_aggregate, "of aggregate", 0.0, 65535.0);
+  for (const char* name : {"--seed", "--blur", "--noise", "--cupping", "--rings", "--drift"})
+    command.get_option(name)->group("Faults of the scan");
+  for (const char* name : {"--grey-air", "--grey-mastic", "--grey-aggregate"})
+    command.get_option(name)->group("Grey levels");
+  add_examples(command, {"macadam ct phantom examples/ct/scene.toml --voxel \"200 um\" --out results/phantom"});
+  command.callback([arguments] { phantom_command(*arguments); });
+}
+
+}  // namespace macadam

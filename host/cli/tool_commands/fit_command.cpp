@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fit_command.cpp  macadam fit DATA.csv --out DIR, or --parameters MODEL.toml in place of the data.
+#include "host/cli/tool_commands/fit_command.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "host/cli/terminal/draw_results.hpp"
+#include "host/cli/terminal/help.hpp"
+#include "host/cli/terminal/options.hpp"
+#include "host/cli/terminal/streams.hpp"
+#include "host/tools/fit/fit_files.hpp"
+#include "host/files/result_folder.hpp"
+#include "macadam/error.hpp"
+#include "macadam/fit.hpp"
+
+namespace macadam {
+namespace {
+
+struct FitArguments {
+  std::string data, parameters, out;
+  std::optional<double> poisson, from, to;
+  double error = 0.01;
+  bool flow = false, no_flow = false, no_pictures = false;
+  FitOptions fit;
+};
+
+/// \throws InputError for an option that has no effect beside the other options, so that nobody believes it had one.
+void require_uses(const CLI::App& command, const FitArguments& arguments) {
+  const auto refuse = [&](const std::string& found, const char* expected, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+      if (command.count(name) > 0) throw InputError("command line", 0, name, found, expected);
+  };
+  const FitModel model = arguments.fit.model;
+  if (!arguments.parameters.empty())
+    refuse("this option beside --parameters", "it with measurements, or not at all",
+           {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson", "--shift",
+            "--reference-temperature"});
+  else if (model == FitModel::kelvin)
+    refuse("this option with model kelvin", "it with model 2s2p1d or huet-sayegh, which a chain is made of",
+           {"--from", "--to", "--error"});
+  else
+    refuse(std::string("this option with model ") + (model == FitModel::two_s2p1d ? "2s2p1d" : "huet-sayegh"),
+           "it with model kelvin, or not at all", {"--units", "--most-units", "--criterion", "--flow", "--no-flow"});
+  if (arguments.fit.units) {
+    refuse("this option beside --units", "one of the two", {"--most-units"});
+    if (arguments.flow || arguments.no_flow)
+      refuse("this option beside --units and --flow or --no-flow", "not all of them: there is nothing left to choose",
+             {"--criterion"});
+  }
+}
+
+/// Without data: converts a model that was fitted elsewhere into a Kelvin chain.
+void convert(const FitArguments& arguments) {
+  const ShiftedAnalogue analogue = read_analogue(arguments.parameters);
+  const auto range = chain_range(arguments.from, arguments.to, {});
+  const KelvinConversion conversion = to_kelvin(analogue.model, range.first, range.second, arguments.error);
+  const ResultFolder folder(arguments.out);
+  write_files(arguments.out, conversion_files(analogue, conversion, range));
+  say("{}", conversion_text(conversion, range));
+  say("files in {}: law.toml\n", arguments.out);
+}
+
+void fit_command(const CLI::App& command, FitArguments arguments) {
+  if (arguments.data.empty() == arguments.parameters.empty()) {
+    throw InputError("command line", 0, "what to fit",
+                     arguments.data.empty() ? "nothing" : "both data and --parameters",
+                     "a CSV file of measurements, or --parameters with a model's TOML file");
+  }
+  require_uses(command, arguments);
+  if (arguments.data.empty()) return convert(arguments);
+  if (arguments.flow || arguments.no_flow) arguments.fit.flow = arguments.flow;
+  const ModulusData data = read_modulus_data(arguments.data, arguments.poisson);
+  const Fit fit = fit_modulus(data, arguments.fit);
+  const FitReport report = report_of(fit, arguments.from, arguments.to, arguments.error);
+  const std::filesystem::path out = arguments.out;
+  const ResultFolder folder(out);
+  write_report(out, report);
+  say("{}{}", unused_columns_text(data), report.text);
+  for (const std::string& warning : fit.warnings) say("warning: {}\n", warning);
+  say("files in {}: {}fit.json fit.csv curve.csv\n", arguments.out, report.refusal.empty() ? "law.toml " : "");
+  if (!arguments.no_pictures) { say("{}", draw_results("draw-fit", out, "master-curve.png cole-cole.png black.png")); }
+  if (!report.refusal.empty()) throw InputError(report.refusal);
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("fit", "a contact law from measured complex moduli");
+  const auto arguments = std::make_shared<FitArguments>();
+  FitOptions& fit = arguments->fit;
+  command
+      .add_option("data", arguments->data,
+                  "table: frequency_hz, e_star_pa, e_star_mpa or g_star_pa, phase_deg, maybe temperature_c, "
+                  "e_star_std, phase_std")
+      ->type_name("FILE");
+  add_out(command, arguments->out);
+  command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
+  add_choice(command, "--model", fit.model, "what is fitted",
+             {{"kelvin", FitModel::kelvin}, {"2s2p1d", FitModel::two_s2p1d}, {"huet-sayegh", FitModel::huet_sayegh}});
+  add_number(command, "--units", fit.units, "Kelvin units; without it the criterion chooses", 0,
+             laws::GeneralisedKelvin::max_units);
+  add_number(command, "--most-units", fit.most_units, "that the criterion may choose", 0,
+             laws::GeneralisedKelvin::max_units);
+  add_choice(command, "--criterion", fit.criterion, "that weighs misfit against parameters",
+             {{"aicc", Criterion::aicc}, {"bic", Criterion::bic}});
+  auto* flow = command.add_flag("--flow", arguments->flow, "a dashpot in series, whatever the criterion says");
+  command.add_flag("--no-flow", arguments->no_flow, "no dashpot in series")->excludes(flow);
+  add_choice(command, "--shift", fit.shift, "how temperature shifts the curves",
+             {{"none", ShiftKind::none},
+              {"wlf", ShiftKind::wlf},
+              {"arrhenius", ShiftKind::arrhenius},
+              {"free", ShiftKind::free}});
+  add_number(command, "--reference-temperature", fit.reference_temperature,
+             "degrees Celsius; else the measured one in the middle", -273.0, 1000.0);
+  add_number(command, "--poisson", arguments->poisson, "ratio, for |E*| from a column g_star_pa", -0.99, 0.5);
+  add_text(command, "--parameters", arguments->parameters,
+           "in place of data: TOML file of a 2S2P1D or Huet-Sayegh model");
+  add_number(command, "--from", arguments->from, "Hz: range of the chain; else that of the data", 1e-15, 1e15);
+  add_number(command, "--to", arguments->to, "Hz: its end", 1e-15, 1e15);
+  add_number(command, "--error", arguments->error, "largest relative error of that chain", 1e-6, 0.5);
+  const std::string model = "The model", temperatures = "Temperatures", chain = "The Kelvin chain of another model";
+  for (const char* name : {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson"})
+    command.get_option(name)->group(model);
+  for (const char* name : {"--shift", "--reference-temperature"}) command.get_option(name)->group(temperatures);
+  for (const char* name : {"--parameters", "--from", "--to", "--error"}) command.get_option(name)->group(chain);
+  add_examples(command, {"macadam fit examples/laws/mastic.csv --out results/law",
+                         "macadam fit examples/laws/mastic.csv --out results/law --model 2s2p1d --shift wlf"});
+  command.callback([arguments, &command] { fit_command(command, *arguments); });
+}
+
+}  // namespace macadam

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file load_error.hpp  Computes the error of a stepped test of a load. It is measured against the answer without
+/// steps if there is one, otherwise estimated.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/experiments/transient/load_plan.hpp"
+
+namespace macadam {
+
+/// The relaxation of the specimen, from which the answer to any load follows without steps.
+struct UnsteppedAnswer {
+  PronySeries relaxation;  ///< of the whole specimen
+  double error = 0;        ///< of E(t) and J(t), relative
+};
+
+/// Solves the relaxation for the times of the rows. Returns nothing if that fails, and appends the reason to the
+/// decisions of the plan. \throws InterruptedError
+std::optional<UnsteppedAnswer> solve_unstepped(const LoadTest& test, const Scene& scene, const Preparation& prepared,
+                                               const Watcher& watcher, Backend backend, LoadPlan& plan);
+
+/// Errors of the rows of one stepped test, relative: of the stress, or, if the load is a stress, of the strain.
+class LoadErrors {
+ public:
+  /// `heavy_density`: mean density, including the density scaling [kg/m³]. The plan must outlive this object.
+  LoadErrors(const LoadTest& test, const Scene& scene, const Preparation& prepared, double heavy_density,
+             const LoadPlan& plan, const std::optional<UnsteppedAnswer>& unstepped);
+
+  /// Returns the error of a row. `before`: the earlier rows.
+  double of(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
+
+  /// Describes how much the ramp of the run changes E(t) or J(t) from those after a step of the load; empty if that is
+  /// not known or zero.
+  std::string ramp_words() const;
+
+  /// Describes what `error` of a table is.
+  std::string meaning() const;
+
+  /// Returns a warning that names the row with the largest error, its cause and what reduces it; empty if no error is
+  /// above 1 %.
+  std::string warning(const std::vector<experiments::SteppedPoint>& rows) const;
+
+ private:
+  /// The error from the ramp of the run, if the scene asks for an instantaneous load, and the remaining error.
+  struct Parts {
+    double ramp = 0, remainder = 0;
+  };
+  bool is_known(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
+  Parts measured(const experiments::SteppedPoint& row) const;
+  Parts estimated(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
+  double walls(const experiments::SteppedPoint& row) const;
+  double modulus(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
+  double rate(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before,
+              double modulus, double window) const;
+  double value(const experiments::ResponsePoint& p) const { return test_.by_stress ? p.strain : p.stress_pa; }
+  double asked_ramp() const { return test_.when.ramp; }
+  bool is_released(double time) const { return asked_.release && time > *asked_.release; }
+  std::string advice(const Parts& parts) const;
+
+  const LoadTest test_;
+  const LoadPlan& plan_;
+  std::optional<Spectrum> spectrum_;
+  LoadTimes asked_, run_;  ///< times in the scene, and times in the run, where the release is rounded to a whole step
+  bool updated_ = true, damping_given_ = false;
+  bool remembers_ = false;     ///< whether a law relaxes; if none does, only the present load has an effect
+  double affine_modulus_ = 0;  ///< upper bound of the instantaneous modulus [Pa]
+  double wave_ = 0;  ///< ω² of the slowest wave over the modulus: π²/(ρ·H²), with a platen a quarter of it
+};
+
+}  // namespace macadam

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file load_plan.hpp  Chooses the settings that a scene leaves open for a stepped test of a load. They are chosen
+/// once, before the first step.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/experiments/transient/transient_experiment.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+/// How a test is stepped.
+struct LoadPlan {
+  ContactForm form = ContactForm::condensed;
+  Geometry geometry = Geometry::updated;
+  Precision precision = Precision::double_;
+  CriticalStep critical;  ///< at true mass, with the platen
+  double density_scaling = 1;
+  Damping damping_kind = Damping::none;
+  double damping = 0;
+  double ramp = 0;         ///< time in which the load grows [s]
+  double platen_mass = 0;  ///< [kg]; 0: the wall is displaced, not loaded
+  double dt = 0;           ///< [s]
+  std::vector<std::string> decisions;
+
+  std::int64_t step_at(double time) const;  ///< the nearest step, at least 1
+};
+
+/// Keeps what the scene gives and chooses the rest; docs/relaxation.md explains how. \throws InputError for settings
+/// that do not apply to stepped tests of a load; RunError if the step is hopelessly small, or if the top wall touches
+/// nothing.
+LoadPlan make_load_plan(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Inertia& inertia);
+
+/// Returns the instantaneous modulus that the network would have if all its parts had the same strain [Pa]. The true
+/// modulus is at most this one. `volume`: volume of the box [m³].
+double affine_modulus(const ContactNetwork& network, const FactsTable& laws, double volume);
+
+/// Returns the load on the top wall as a boundary condition.
+Boundary boundary_of(const LoadTest& test, const LoadPlan& plan, const Box& box);
+
+}  // namespace macadam

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// load_rules.cpp  Computes ramp, damping and time step from the slowest wave of the specimen and the times of the
+// result's points.
+#include "host/experiments/transient/load_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "host/run/step_settings.hpp"
+
+namespace macadam {
+namespace {
+
+/// Largest wave, relative to the stress, that may be left at the time of a point.
+constexpr double largest_wave = 2e-5;
+
+/// Returns the shortest time from a change of the load's rate to a point [s].
+double shortest_pause(const LoadTest& test, double ramp) {
+  std::vector<double> changes{0};
+  if (!test.grows) changes.push_back(ramp);
+  if (test.when.release) changes.insert(changes.end(), {*test.when.release, *test.when.release + ramp});
+  double out = std::numeric_limits<double>::infinity();
+  for (const double t : test.history.times) {
+    double pause = t;
+    for (const double change : changes) {
+      if (t > change * (1 + 1e-9)) pause = std::min(pause, t - change);
+    }
+    out = std::min(out, pause);
+  }
+  return out;
+}
+
+}  // namespace
+
+double slowest_period(const LoadTest& test, double height, double modulus, double density) {
+  return (test.by_stress ? 4 : 2) * height / std::sqrt(modulus / density);
+}
+
+double ramp_of(const LoadTest& test, double slowest) {
+  const double given = test.grows ? test.history.times.back() : test.when.ramp;
+  return given > 0 ? given : slowest;
+}
+
+// Weak damping leaves waves, and strong damping delays the slow motion: β is the least that the points need. A ramp
+// causes waves; their part of the stress is the time that a wave takes through the specimen over the duration of the
+// ramp. After a time t, viscous damping leaves e^(−β·t/2) of them.
+LoadDamping damping_of(const LoadTest& test, const SolverSpec& solver, double ramp, double slowest) {
+  LoadDamping out{solver.damping_kind, solver.damping};
+  if (solver.damping_given) return out;
+  out.pause = shortest_pause(test, ramp);
+  const double grown = std::min(ramp, test.history.times.front()), waves = std::min(1.0, 0.5 * slowest / grown);
+  const double critical = 4 * std::numbers::pi / slowest;
+  const double enough = 2 * std::max(1.0, std::log(waves / largest_wave)) / out.pause;
+  out.kind = Damping::viscous;
+  out.value = std::min(critical, enough);
+  out.chosen = true, out.critical = enough >= critical;
+  return out;
+}
+
+double load_step(const LoadTest& test, const SolverSpec& solver, double critical, double density_scaling, double ramp,
+                 const LoadDamping& damping) {
+  constexpr double usual_safety = 0.8;
+  const double safe = solver.safety.value_or(usual_safety) * critical * std::sqrt(density_scaling);
+  double step = solver.time_step.value_or(safe);
+  // so that steps resolve the decay
+  if (damping.kind == Damping::viscous && !solver.time_step) step = std::min(step, 1 / damping.value);
+  const double end = test.history.times.back();
+  require_possible(end / step, step, fmt::format("until {:g} s", end));
+  require_possible(ramp / step, step, fmt::format("in the ramp of {:g} s", ramp));
+  return ramp / std::ceil(ramp / step);
+}
+
+}  // namespace macadam

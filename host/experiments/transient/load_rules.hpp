@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file load_rules.hpp  Computes ramp, damping and time step of a stepped relaxation, creep or constant-rate test. The
+/// plan and the forecast both use these rules.
+#pragma once
+
+#include "host/experiments/transient/transient_experiment.hpp"
+
+namespace macadam {
+
+/// Returns the period of the slowest wave [s] of a specimen that is held at both ends, or loaded by a stress at one
+/// end. `modulus`: instantaneous modulus [Pa]; `density`: scaled density [kg/m³].
+double slowest_period(const LoadTest& test, double height, double modulus, double density);
+
+/// Returns the time in which the load grows [s]: the duration of the test for a constant rate, otherwise the ramp of
+/// the scene. If that ramp is 0 (instantaneous load), returns `slowest`, the period of the slowest wave.
+double ramp_of(const LoadTest& test, double slowest);
+
+/// Damping of a stepped test.
+struct LoadDamping {
+  Damping kind = Damping::none;
+  double value = 0;       ///< χ, or β [1/s]
+  bool chosen = false;    ///< chosen by these rules, not by the scene; then it is viscous
+  bool critical = false;  ///< critical for the slowest wave: less would leave waves at the first points
+  double pause = 0;       ///< shortest time from a change of the load's rate to the next point of the result [s]
+};
+
+/// Returns the damping of the scene. If it gives none, returns the weakest viscous damping with which waves have died
+/// out at the points of the result.
+LoadDamping damping_of(const LoadTest& test, const SolverSpec& solver, double ramp, double slowest);
+
+/// Returns the longest time step that the rules allow [s]; a ramp has a whole number of steps. `critical`: critical
+/// time step without density scaling [s]. \throws RunError for too many steps, as require_possible() does.
+double load_step(const LoadTest& test, const SolverSpec& solver, double critical, double density_scaling, double ramp,
+                 const LoadDamping& damping);
+
+}  // namespace macadam

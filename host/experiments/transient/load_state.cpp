@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// load_state.cpp  Stores plan and times as text, and points, cracks and the answer without steps as arrays.
+#include "host/experiments/transient/load_state.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "host/run/checkpoints.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+using experiments::SteppedPoint;
+
+// JSON numbers have the fewest digits that give the same double again. All of these numbers are finite.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadPlan, form, geometry, precision, critical, density_scaling, damping_kind,
+                                   damping, ramp, platen_mass, dt, decisions)
+namespace experiments {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Peak, time_s, strain, stress_pa)
+}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, peak, seconds_planning, seconds, warnings)
+
+namespace {
+
+constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks",
+                     *unstepped_array = "unstepped";
+constexpr std::size_t point_words = 9, crack_words = 4;
+
+/// Returns the error and the long-term modulus, then modulus and time of each unit.
+std::vector<double> to_numbers(const UnsteppedAnswer& answer) {
+  std::vector<double> out{answer.error, answer.relaxation.long_term};
+  for (const auto& u : answer.relaxation.units) out.insert(out.end(), {u.modulus, u.time});
+  return out;
+}
+
+UnsteppedAnswer from_numbers(const std::vector<double>& numbers) {
+  UnsteppedAnswer out{{numbers[1], {}}, numbers[0]};
+  for (std::size_t i = 2; i + 1 < numbers.size(); i += 2) out.relaxation.units.push_back({numbers[i], numbers[i + 1]});
+  return out;
+}
+
+}  // namespace
+
+LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file) {
+  const auto damaged = [&](const std::string& what) {
+    throw InputError(file.string(), 0, "checkpoint", what, "what this version writes");
+  };
+  LoadState out;
+  try {
+    out = nlohmann::json::parse(checkpoint.texts[plan_text]).get<LoadState>();
+  } catch (const nlohmann::json::exception& error) { damaged(error.what()); }
+  out.state = take_state(checkpoint);
+  for (const StateArray& array : checkpoint.arrays) {
+    const auto* values = std::get_if<std::vector<double>>(&array.values);
+    if (array.name == unstepped_array) {
+      if (!values || values->size() < 2 || values->size() % 2 != 0) damaged("array " + array.name + " of another kind");
+      out.unstepped = from_numbers(*values);
+    }
+    if (array.name != points_array && array.name != cracks_array) continue;
+    const bool points = array.name == points_array;
+    const std::size_t words = points ? point_words : crack_words;
+    if (!values || values->size() % words != 0) damaged("array " + array.name + " of another kind");
+    for (std::size_t i = 0; i < values->size(); i += words) {
+      const double* w = &(*values)[i];
+      const auto number = [&](std::size_t k) {
+        if (!(w[k] >= 0 && w[k] <= std::numeric_limits<std::uint32_t>::max()))
+          damaged(fmt::format("{} in array {}", w[k], array.name));
+        return static_cast<std::uint32_t>(w[k]);
+      };
+      if (points) {
+        out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7], number(8)});
+      } else {
+        out.cracks.push_back({number(0), number(1), static_cast<Break>(number(2)), w[3]});
+      }
+    }
+  }
+  if (out.state.empty()) damaged("no state");
+  return out;
+}
+
+void add_to(Checkpoint& out, const LoadState& at) {
+  out.texts[plan_text] = nlohmann::json(at).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::vector<double> points;
+  for (const SteppedPoint& p : at.points) {
+    points.insert(points.end(), {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error,
+                                 static_cast<double>(p.broken_points)});
+  }
+  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1", std::move(points)});
+  std::vector<double> cracks;
+  for (const experiments::CrackEvent& c : at.cracks) {
+    cracks.insert(cracks.end(),
+                  {static_cast<double>(c.contact), static_cast<double>(c.point), static_cast<double>(c.how), c.time_s});
+  }
+  out.arrays.push_back({cracks_array, "1, 1, 1, s", std::move(cracks)});
+  if (at.unstepped) out.arrays.push_back({unstepped_array, "1, Pa, then Pa, s", to_numbers(*at.unstepped)});
+}
+
+}  // namespace macadam

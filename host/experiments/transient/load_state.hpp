@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file load_state.hpp  Stores the state of a stepped test of a load in a checkpoint, and reads it back.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/experiments/transient/load_error.hpp"
+
+namespace macadam {
+
+/// Everything that a run needs to continue with the same bits.
+struct LoadState {
+  LoadPlan plan;
+  experiments::Peak peak;                         ///< largest stress until now
+  std::optional<UnsteppedAnswer> unstepped;       ///< errors are measured against it; nothing: they are estimates
+  double seconds_planning = 0, seconds = 0;       ///< wall time [s]; `seconds`: of the stepping until now
+  std::vector<std::string> warnings;              ///< about checkpoints that could not be written
+  std::vector<experiments::SteppedPoint> points;  ///< until now
+  std::vector<experiments::CrackEvent> cracks;    ///< until the last of the points
+  std::vector<StateArray> state;                  ///< Stepper::state(); set only when it is read from a checkpoint
+};
+
+/// Returns the state in a checkpoint. \throws InputError, naming `file`, if it is damaged.
+LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file);
+
+/// Adds everything except the stepper's state to a checkpoint.
+void add_to(Checkpoint& checkpoint, const LoadState& at);
+
+}  // namespace macadam

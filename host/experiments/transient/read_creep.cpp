@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// read.cpp  Reads `[loading]` of kind "creep".
+#include <fmt/format.h>
+
+#include "host/experiments/transient/transient_experiment.hpp"
+#include "host/experiments/read_points.hpp"
+
+namespace macadam {
+
+using experiments::Creep;
+
+template <>
+Creep ExperimentOf<Creep>::read(const scene::Section& section) {
+  using namespace scene;
+  constexpr Rule any{[](double v) { return v != 0; }, "a stress that is not 0"};
+  Creep out;
+  Points times;
+  std::vector<Key> keys = times.keys("times", duration);
+  keys.insert(keys.end(), {kind_key(),
+                           poisson_key(out.poisson_ratio),
+                           {"stress", Need::required, into(out.stress, modulus, any), "that is held; tension positive"},
+                           {"ramp", Need::optional, into(out.ramp, duration, non_negative),
+                            "over which the load grows evenly; 0: at once"},
+                           {"release", Need::optional, into(out.release, duration, positive),
+                            "from then on the stress goes as it came", "never"},
+                           {"platen_mass", Need::optional, into(out.platen_mass, mass, positive),
+                            "of the loaded top wall; stepped only", "the least that does not shorten the step"}});
+  section.read(keys);
+  out.times = times.all(section, "times", "s", "time");
+  if (out.release && *out.release < out.ramp) {
+    section.refuse("release", fmt::format("{} s", *out.release),
+                   fmt::format("the end of the ramp, {} s, or later", out.ramp));
+  }
+  if (out.release && *out.release >= out.times.back()) {
+    section.refuse("release", fmt::format("{} s", *out.release),
+                   fmt::format("less than the last of the times, {} s", out.times.back()));
+  }
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// step_load.cpp  Steps a load on the top wall from point to point.
+#include "host/experiments/transient/step_load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "host/experiments/transient/load_state.hpp"
+#include "host/run/sampled_run.hpp"
+#include "host/run/cracks.hpp"
+#include "host/run/step_settings.hpp"
+#include "host/run/skips.hpp"
+#include "host/files/result_files.hpp"
+#include "host/run/phases.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+using experiments::SteppedPoint;
+using experiments::SteppedResponse;
+
+namespace {
+
+/// The user is warned of more steps or more seconds than these.
+constexpr std::int64_t many_steps = 100'000'000;
+constexpr double many_seconds = 3600;
+/// Number of times at which a strength test reads the stress, evenly spaced over its steps.
+constexpr std::int64_t peak_samples = 10'000;
+
+/// Returns the mean density of the specimen's box, including the density scaling [kg/m³].
+double heavy_density(const LoadPlan& plan, const Inertia& inertia, const Box& box) {
+  double mass = 0;
+  for (const double m : inertia.mass) mass += m;
+  return plan.density_scaling * mass / box.volume();
+}
+
+double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
+  double out = 0;
+  for (std::size_t i = 0; i < p.velocity.size(); ++i) {
+    out += 0.5 * (inertia.mass[i] * dot(p.velocity[i], p.velocity[i]) + inertia.inertia[i] * dot(p.spin[i], p.spin[i]));
+  }
+  return out;
+}
+
+/// A stepped test of a load, from its planning to its results.
+class SteppedLoad : public Solution {
+ public:
+  SteppedLoad(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+              Inertia inertia, LoadState at, bool resumed)
+      : test_(test),
+        scene_(scene),
+        prepared_(prepared),
+        watcher_(watcher),
+        inertia_(std::move(inertia)),
+        at_(std::move(at)),
+        errors_(test_, scene, prepared, heavy_density(at_.plan, inertia_, prepared.specimen.box), at_.plan,
+                at_.unstepped),
+        cracks_(scene, prepared, at_.cracks),
+        owns_checkpoint_(resumed) {}
+
+  /// Makes the stepper before any file is changed, so that a scene that it refuses leaves all files as they were.
+  void make(RunResult& result, const std::filesystem::path& checkpoint) {
+    const InPhase in(result.phases, &PhaseSeconds::stepper);
+    const LoadPlan& p = at_.plan;
+    StepperOptions options = stepper_options(scene_.solver, p.form, p.geometry, p.precision);
+    options.damping_kind = p.damping_kind;
+    options.damping = p.damping;
+    options.density_scaling = p.density_scaling;
+    options.dt = p.dt;
+    options.boundary = boundary_of(test_, p, prepared_.specimen.box);
+    drive_ = options.boundary.wall[wall_index(wall_z_hi)].axis[2].drive;
+    const std::vector<StateArray> state = std::exchange(at_.state, {});
+    try {
+      stepper_ = stepper_from(state, result.backend, scene_, prepared_, inertia_, options);
+    } catch (const Error& error) {
+      if (!state.empty()) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
+      throw;
+    }
+  }
+
+  /// Fills in the results that are known before the first step.
+  void begin(RunResult& result) {
+    const LoadPlan& p = at_.plan;
+    result.decisions = p.decisions;
+    if (const std::string ramp = errors_.ramp_words(); !ramp.empty()) result.decisions.push_back(ramp);
+    result.skips = find_skips(scene_, prepared_, p.form, p.geometry, test_.strain);
+    result.warnings = at_.warnings;
+    result.solver = stepper_->description();
+    SteppedResponse& found = result.found.emplace<SteppedResponse>();
+    found.form = p.form;
+    found.geometry = p.geometry;
+    found.precision = p.precision;
+    found.bytes = stepper_->bytes();
+    found.critical_particle = p.critical.particle;
+    found.critical_dt_s = p.critical.dt;
+    found.seconds_planning = at_.seconds_planning;
+    found.kind = test_.kind;
+    found.confined = scene_.network.lateral_walls;
+    found.ramp_s = p.ramp;
+    found.platen_mass_kg = p.platen_mass;
+    found.density_scaling = p.density_scaling;
+    found.damping_kind = p.damping_kind;
+    found.damping = p.damping;
+    found.dt_s = p.dt;
+    found.steps = p.step_at(test_.history.times.back());
+    if (cracks_.active()) found.cracks = cracks_.found();
+  }
+
+  /// Warns of a run with very many steps.
+  void foretell() const {
+    const std::int64_t steps = at_.plan.step_at(test_.history.times.back());
+    if (steps > many_steps && watcher_.warn) {
+      watcher_.warn(fmt::format("{} steps of {:.3g} s until {:g} s: {}", steps, at_.plan.dt, test_.history.times.back(),
+                                fewer_steps()));
+    }
+  }
+
+  void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
+    auto& found = std::get<SteppedResponse>(result.found);
+    Courses courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_, [&](const std::string& warning) {
+      at_.warnings.push_back(warning);
+      result.warnings.push_back(warning);
+      if (watcher_.warn) watcher_.warn(warning);
+    });
+    const LoadWords& words = words_of(test_.kind);
+    LineWriter writer(out / words.file, head(words));
+    for (const SteppedPoint& p : at_.points) writer.add(line(words, p));
+    std::optional<LineWriter> cracks_writer;
+    if (cracks_.active()) cracks_writer.emplace(out / cracks_file, crack_head());
+    const auto write_cracks = [&](const std::vector<experiments::CrackEvent>& events) {
+      for (const experiments::CrackEvent& event : events) cracks_writer->add(crack_line(prepared_, event));
+    };
+    write_cracks(at_.cracks);
+    save("running");
+    const auto start = Clock::now();
+    const double before = at_.seconds;
+    const Course course = course_of(
+        [&](SteppedPoint point) {
+          const auto events = look_for_cracks(point);
+          write_cracks(events);
+          at_.points.push_back(point);
+          writer.add(line(words, point));
+        },
+        [&](Checkpoint& to) {
+          at_.seconds = before + seconds_since(start);
+          add_to(to, at_);
+        });
+    courses.begin_fields(test_.kind, static_cast<int>(test_.history.times.size()), stepper_->observe().time);
+    const auto finish = [&] {
+      found.points = at_.points;
+      if (cracks_.active()) found.cracks = cracks_.found();
+      found.rupture = rupture_;
+      if (measures_peak()) found.peak = at_.peak;
+      if (rupture_) found.steps = stepper_->observe().step;
+      found.seconds = before + seconds_since(start);
+      found.kinetic_share = kinetic_share(found);
+      owns_checkpoint_ = courses.own_checkpoint();
+    };
+    try {
+      courses.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+    } catch (...) {
+      finish();
+      throw;
+    }
+    finish();
+    writer.close();
+    if (cracks_writer) cracks_writer->close();
+    judge(found, result.warnings);
+  }
+
+  bool owns_checkpoint() const override { return owns_checkpoint_; }
+
+ private:
+  std::string head(const LoadWords& words) const {
+    return fmt::format("# {}, stepped in time; {}: of this strain and stress; {}\n{},error,{}bottom_pa,kinetic_j{}",
+                       modulus_words(scene_.network.lateral_walls), words.ratio, errors_.meaning(), csv_head(words),
+                       test_.by_stress ? "top_pa," : "", cracks_.active() ? ",broken_points" : "");
+  }
+  std::string line(const LoadWords& words, const SteppedPoint& p) const {
+    return fmt::format("{},{:.2e},{}{},{}{}", csv_line(words, p), p.error,
+                       test_.by_stress ? fmt::format("{},", p.top_pa) : "", p.bottom_pa, p.kinetic_j,
+                       cracks_.active() ? fmt::format(",{}", p.broken_points) : "");
+  }
+
+  /// Whether the largest stress is recorded: in a strength test, not under a held load.
+  bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
+  /// Keeps the largest stress so far, with its time and strain.
+  void follow_peak(const Observation& now) {
+    const Vec3d& box = prepared_.specimen.box.size;
+    const double strain = now.top_displacement() / box.z, stress = -now.top_force() / (box.x * box.y);
+    const double sign = std::copysign(1.0, strain);
+    if (sign * stress > sign * at_.peak.stress_pa) at_.peak = {now.time, strain, stress};
+  }
+
+  /// Counts the points that are broken at a sample and returns the new events. Under tension the test ends when no
+  /// intact path joins the walls; in compression broken points still bear load.
+  std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
+    auto events = cracks_.look(*stepper_, point.time_s);
+    at_.cracks = cracks_.found().events;
+    point.broken_points = cracks_.found().points();
+    const bool pulled = drive_->value(stepper_->observe().step) > 0;
+    if (cracks_.active() && pulled && !cracks_.joins_walls()) {
+      const SteppedPoint before = at_.points.empty() ? SteppedPoint{} : at_.points.back();
+      rupture_ = {point.time_s, point.strain, before.time_s, before.strain};
+    }
+    return events;
+  }
+
+  /// Sample 0 is the initial state, which the fields show; the other samples are the points.
+  Course course_of(const std::function<void(SteppedPoint)>& add, Content content) {
+    const std::vector<double>& times = test_.history.times;
+    Course course;
+    course.name = test_.kind;
+    course.dt = at_.plan.dt;
+    course.first = stepper_->observe().step == 0 ? 0 : static_cast<std::int64_t>(at_.points.size()) + 1;
+    course.last = static_cast<std::int64_t>(times.size());
+    course.step_of = [this, &times](std::int64_t k) {
+      return k == 0 ? 0 : at_.plan.step_at(times[static_cast<std::size_t>(k - 1)]);
+    };
+    course.taken = [](std::int64_t k) { return k > 0; };
+    course.take = [this, add](std::int64_t k, const Observation& now) {
+      if (k > 0) add(point(now));
+    };
+    course.looks_at_stepper = true;  // point() computes the kinetic energy from it
+    if (measures_peak()) {
+      course.between = [this](const Observation& now) { follow_peak(now); };
+      course.between_every = std::max<std::int64_t>(1, at_.plan.step_at(times.back()) / peak_samples);
+    }
+    course.ended = [this] { return rupture_.has_value(); };
+    course.shown = [this](std::int64_t step, double steps_a_second) {
+      return fmt::format("{}, t = {:.4g} s of {:g}, {:.0f} steps/s", test_.kind,
+                         static_cast<double>(step) * at_.plan.dt, test_.history.times.back(), steps_a_second);
+    };
+    course.content = std::move(content);
+    course.foretold = [this](double seconds) {
+      if (seconds > many_seconds && watcher_.warn) {
+        watcher_.warn(fmt::format("the steps take about {:.1f} h more; {}", seconds / 3600, fewer_steps()));
+      }
+    };
+    return course;
+  }
+
+  /// Returns the point at the stepper's present step.
+  SteppedPoint point(const Observation& now) const {
+    const Vec3d& box = prepared_.specimen.box.size;
+    const double area = box.x * box.y, load = drive_->value(now.step) / area + 0.0;  // + 0.0 turns −0 into 0
+    SteppedPoint out{};
+    out.time_s = now.time;
+    out.strain = now.top_displacement() / box.z;
+    out.top_pa = -now.top_force() / area;  // particles pull a wall that moves away from them
+    out.bottom_pa = now.wall_force[wall_index(wall_z_lo)].z / area;
+    out.kinetic_j = at_.plan.density_scaling * kinetic_energy(stepper_->particles(), inertia_);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    if (test_.by_stress) {
+      out.stress_pa = load;
+      out.ratio = test_.when.release && now.time > *test_.when.release + 0.5 * at_.plan.dt ? none : out.strain / load;
+    } else {
+      out.stress_pa = out.top_pa;
+      out.ratio = out.stress_pa / out.strain;
+    }
+    out.error = errors_.of(out, at_.points);
+    return out;
+  }
+
+  /// Returns the largest kinetic energy over the work of the load; 0 without work.
+  double kinetic_share(const SteppedResponse& found) const {
+    double kinetic = 0, strain = 0, stress = 0;
+    for (const SteppedPoint& p : found.points) {
+      kinetic = std::max(kinetic, p.kinetic_j);
+      strain = std::max(strain, std::abs(p.strain));
+      stress = std::max(stress, std::abs(p.stress_pa));
+    }
+    const double work = 0.5 * strain * stress * prepared_.specimen.box.volume();
+    return work > 0 ? kinetic / work : 0;
+  }
+
+  /// Returns advice for a run with too many steps.
+  static std::string fewer_steps() {
+    return "density_scaling takes fewer, method = \"harmonic\" none at all where all laws are linear";
+  }
+
+  /// Adds a warning if the error of a row is large. A specimen in two pieces has no equilibrium: its rupture is
+  /// reported instead. In a strength test the rupture is a result and not a warning.
+  void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
+    if (found.rupture && !test_.grows) return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
+    std::vector<SteppedPoint> whole = found.points;
+    if (found.rupture && !whole.empty()) whole.pop_back();  // the last point found the specimen in two pieces
+    if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
+  }
+
+  const LoadTest test_;
+  const Scene& scene_;
+  const Preparation& prepared_;
+  const Watcher& watcher_;
+  Inertia inertia_;
+  LoadState at_;
+  LoadErrors errors_;
+  std::shared_ptr<const Drive> drive_;
+  std::unique_ptr<Stepper> stepper_;
+  CrackWatch cracks_;
+  std::optional<experiments::Rupture> rupture_ = {};
+  bool owns_checkpoint_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solution> plan_load_steps(const LoadTest& test, const Scene& scene, const Preparation& prepared,
+                                          const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result) {
+  const InPhase planning(result.phases, &PhaseSeconds::planning);
+  const auto start = Clock::now();
+  Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
+  LoadState at;
+  if (resumed) {
+    at = to_load_state(std::move(resumed->checkpoint), resumed->file);
+  } else {
+    at.plan = make_load_plan(test, scene, prepared, inertia);
+    const InPhase harmonic(result.phases, &PhaseSeconds::harmonic);
+    at.unstepped = solve_unstepped(test, scene, prepared, watcher, result.backend, at.plan);
+    at.seconds_planning = seconds_since(start);
+  }
+  auto steps = std::make_unique<SteppedLoad>(test, scene, prepared, watcher, std::move(inertia), std::move(at),
+                                             resumed.has_value());
+  steps->foretell();
+  steps->make(result, resumed ? resumed->file : std::filesystem::path());
+  steps->begin(result);
+  return steps;
+}
+
+}  // namespace macadam

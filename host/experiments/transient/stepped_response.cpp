@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// stepped_response.cpp  Reports a stepped test of a load in summary.json and in the text that the command prints.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/experiments/transient/transient_experiment.hpp"
+#include "host/run/cracks.hpp"
+#include "host/run/step_settings.hpp"
+
+namespace macadam {
+
+using experiments::SteppedPoint;
+using experiments::SteppedResponse;
+
+double experiments::SteppedResponse::error() const {
+  double out = 0;
+  const auto count = static_cast<std::ptrdiff_t>(points.size()) - (rupture ? 1 : 0);
+  for (std::ptrdiff_t i = 0; i < count; ++i) out = std::max(out, points[static_cast<std::size_t>(i)].error);
+  return out;
+}
+
+namespace {
+
+/// Whether the peak is the strength: the specimen broke, or points broke and the stress has fallen by more than 1 %
+/// from it.
+bool passed_peak(const SteppedResponse& found) {
+  if (found.rupture) return true;
+  constexpr double fallen = 0.99;
+  return found.cracks->points() > 0 &&
+         std::abs(found.points.back().stress_pa) < fallen * std::abs(found.peak->stress_pa);
+}
+
+bool measures_strength(const SteppedResponse& found) { return found.peak && !found.points.empty(); }
+
+/// Returns the line about the strength. It comes first, because readers of such a test look for it.
+std::string strength_words(const SteppedResponse& found) {
+  return fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
+                     passed_peak(found) ? "strength" : "largest stress", found.peak->stress_pa / 1e6,
+                     found.peak->strain, found.peak->time_s,
+                     passed_peak(found) ? "" : "; the strength was not reached");
+}
+
+void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
+  const bool passed = passed_peak(found);
+  out["strength_pa"] = passed ? nlohmann::ordered_json(found.peak->stress_pa) : nlohmann::ordered_json();
+  out["strain_at_peak"] = passed ? nlohmann::ordered_json(found.peak->strain) : nlohmann::ordered_json();
+}
+
+void add_rupture(const SteppedResponse& found, nlohmann::ordered_json& out) {
+  if (!found.rupture) return;
+  const experiments::Rupture& r = *found.rupture;
+  out["rupture"] = {{"time_s", r.time_s},
+                    {"strain", r.strain},
+                    {"time_before_s", r.time_before_s},
+                    {"strain_before", r.strain_before},
+                    {"words", rupture_words(r, *found.cracks)}};
+}
+
+}  // namespace
+
+template <>
+void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Scene& scene, const RunResult& run,
+                                          nlohmann::ordered_json& summary) {
+  using Json = nlohmann::ordered_json;
+  if (!found.kind.empty()) {
+    const LoadWords& words = words_of(found.kind);
+    Json out = {{"kind", found.kind},
+                {"sides", found.confined ? "held" : "free"},
+                {"modulus", found.confined ? "confined" : "uniaxial"},
+                {"method", "explicit"},
+                {"density_scaling", found.density_scaling},
+                {"dt_s", found.dt_s},
+                {"steps", found.steps},
+                {"error", found.error()},
+                {"kinetic_share", found.kinetic_share},
+                {"solve_s", found.seconds}};
+    add_load(load_test_of(scene), out);
+    out["ramp_s"] = found.ramp_s;
+    if (measures_strength(found)) add_strength(found, out);
+    add_rupture(found, out);
+    if (found.platen_mass_kg > 0) out["platen_mass_kg"] = found.platen_mass_kg;
+    for (const SteppedPoint& p : found.points) {
+      Json point = point_json(words, p);
+      point["error"] = p.error;
+      point["top_pa"] = p.top_pa;
+      point["bottom_pa"] = p.bottom_pa;
+      point["kinetic_j"] = p.kinetic_j;
+      if (found.cracks) point["broken_points"] = p.broken_points;
+      out["points"].push_back(std::move(point));
+    }
+    summary["results"].push_back(std::move(out));
+  }
+  if (found.cracks) summary["cracks"] = cracks_json(*found.cracks);
+  Json& solver = summary["solver"];
+  add_settings(found, scene, run, found.steps, found.dt_s > 0 ? std::optional(found.dt_s) : std::nullopt, solver);
+  solver["damping"] = {{"kind", to_string(found.damping_kind)}, {"value", found.damping}};
+}
+
+template <>
+double ResultOf<SteppedResponse>::seconds(const SteppedResponse& found) {
+  return found.seconds_planning + found.seconds;
+}
+
+template <>
+std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
+  const LoadWords& words = words_of(found.kind);
+  std::string out = measures_strength(found) ? strength_words(found) : "";
+  if (found.rupture && measures_strength(found)) out += rupture_words(*found.rupture, *found.cracks) + "\n";
+  if (found.cracks) out += cracks_words(*found.cracks) + "\n";
+  const char* ratio = words.shown_stepped;
+  out += shown_head(ratio) + fmt::format(" {:>9}", "error") + (found.cracks ? fmt::format(" {:>9}", "broken") : "");
+  for (const SteppedPoint& p : found.points) {
+    out += shown_line(words, ratio, p) + fmt::format(" {:>9.1e}", p.error) +
+           (found.cracks ? fmt::format(" {:>9}", p.broken_points) : "");
+  }
+  return out +
+         fmt::format(
+             "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
+             "error: from the answer without steps, or an estimate where there is none; kinetic energy: {:.1e} of the "
+             "work\n",
+             modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
+             found.kinetic_share);
+}
+
+}  // namespace macadam

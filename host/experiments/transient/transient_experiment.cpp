@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// transient_experiment.cpp  Defines names and files of the tests of a load, and computes their response from the specimen's
+// spectrum.
+#include "host/experiments/transient/transient_experiment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host/experiments/transient/step_load.hpp"
+#include "host/experiments/material_files.hpp"
+#include "host/run/cracks.hpp"
+#include "host/files/result_files.hpp"
+
+namespace macadam {
+
+using experiments::Material;
+using experiments::ResponsePoint;
+using experiments::SpectrumResponse;
+
+namespace {
+
+constexpr std::array<LoadWords, 3> all_words{{
+    {"relaxation", "relaxation.csv", "modulus_pa", "modulus_pa: after a step; error: of stress and modulus, relative",
+     false, "E(t) (MPa)", "stress/strain (MPa)", 1e6},
+    {"creep", "creep.csv", "compliance_1_pa", "compliance_1_pa: after a step; error: of it, relative", true,
+     "J(t) (1/GPa)", "strain/stress (1/GPa)", 1e-9},
+    {"monotonic", "monotonic.csv", "secant_pa", "error: of stress and modulus, relative", false, "secant (MPa)",
+     "secant (MPa)", 1e6},
+}};
+
+/// Returns a number as text. NaN, which stands for a ratio without meaning, becomes an empty text.
+std::string number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+}  // namespace
+
+const LoadWords& words_of(const std::string& kind) {
+  for (const LoadWords& words : all_words) {
+    if (words.kind == kind) return words;
+  }
+  return all_words[0];
+}
+
+LoadTest load_test_of(const Scene& scene) {
+  return std::visit(
+      []<class Spec>(const Spec& spec) -> LoadTest {
+        if constexpr (requires { load_test(spec); })
+          return load_test(spec);
+        else
+          return {};
+      },
+      scene.experiment);
+}
+
+std::string csv_head(const LoadWords& words) {
+  return fmt::format("time_s,{},{}", words.stress_first ? "stress_pa,strain" : "strain,stress_pa", words.ratio);
+}
+
+std::string csv_line(const LoadWords& words, const ResponsePoint& p) {
+  return fmt::format("{},{},{},{}", p.time_s, words.stress_first ? p.stress_pa : p.strain,
+                     words.stress_first ? p.strain : p.stress_pa, number(p.ratio));
+}
+
+nlohmann::ordered_json point_json(const LoadWords& words, const ResponsePoint& p) {
+  return {{"time_s", p.time_s}, {"strain", p.strain}, {"stress_pa", p.stress_pa}, {words.ratio, p.ratio}};
+}
+
+namespace {
+
+std::size_t width_of(const char* title) { return std::max<std::size_t>(14, std::string(title).size()); }
+
+}  // namespace
+
+std::string shown_head(const char* ratio) {
+  return fmt::format("\n{:>12} {:>12} {:>14} {:>{}}", "t (s)", "strain", "stress (MPa)", ratio, width_of(ratio));
+}
+
+std::string shown_line(const LoadWords& words, const char* ratio, const ResponsePoint& p) {
+  return fmt::format("\n{:>12.5g} {:>12.5g} {:>14.6g} {:>{}}", p.time_s, p.strain, p.stress_pa / 1e6,
+                     std::isnan(p.ratio) ? "-" : fmt::format("{:.6g}", p.ratio / words.unit), width_of(ratio));
+}
+
+void add_load(const LoadTest& test, nlohmann::ordered_json& out) {
+  for (const auto& [name, value] : test.load) {
+    out[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  }
+}
+
+std::vector<std::string> load_files(const std::string& kind, const Scene& scene) {
+  std::vector<std::string> out{words_of(kind).file};
+  if (counts_cracks(scene)) out.push_back(cracks_file);
+  if (scene.solver.method == SolverMethod::explicit_) return out;
+  for (const std::string& file : material_files(scene.network.lateral_walls)) out.push_back(file);
+  return out;
+}
+
+std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scene, const Preparation& prepared,
+                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result) {
+  if (scene.solver.method == SolverMethod::explicit_) {
+    return plan_load_steps(test, scene, prepared, watcher, std::move(resumed), result);
+  }
+  const auto responds = [test](const std::filesystem::path& out, Material material, RunResult& found) {
+    const LoadWords& words = words_of(test.kind);
+    SpectrumResponse r{test.kind, std::move(material), {}};
+    std::string text =
+        fmt::format("# {}; {}\n{},error\n", modulus_words(r.material.confined), words.comment, csv_head(words));
+    for (const double t : test.history.times) {
+      const ResponsePoint& p = r.points.emplace_back(test.unstepped(r.material.spectrum, t, test.when));
+      text += fmt::format("{},{:.2e}\n", csv_line(words, p), r.material.error());
+    }
+    write_whole(out / words.file, text);
+    found.found = std::move(r);
+  };
+  return plan_material(scene, prepared, watcher, result, test.history, test.poisson_ratio, responds);
+}
+
+template <>
+void ResultOf<SpectrumResponse>::summarise(const SpectrumResponse& found, const Scene& scene, const RunResult&,
+                                           nlohmann::ordered_json& summary) {
+  nlohmann::ordered_json out = material_json(found.kind.c_str(), found.material);
+  add_load(load_test_of(scene), out);
+  for (const ResponsePoint& p : found.points) out["points"].push_back(point_json(words_of(found.kind), p));
+  summary["results"].push_back(std::move(out));
+}
+
+template <>
+double ResultOf<SpectrumResponse>::seconds(const SpectrumResponse& found) {
+  return found.material.seconds;
+}
+
+template <>
+std::string ResultOf<SpectrumResponse>::table(const SpectrumResponse& found) {
+  const LoadWords& words = words_of(found.kind);
+  std::string out = shown_head(words.shown);
+  for (const ResponsePoint& p : found.points) out += shown_line(words, words.shown, p);
+  return out + "\n" + material_lines(found.material);
+}
+
+}  // namespace macadam

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file transient_experiment.hpp  Defines the common part of relaxation, creep and constant-rate tests: a load on the top wall
+/// that varies in time, and the response at some times.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/experiments/experiment.hpp"
+#include "host/experiments/material_solution.hpp"
+#include "macadam/drives/drive.hpp"
+
+namespace macadam {
+
+/// Times at which a load grows and is removed.
+struct LoadTimes {
+  double ramp = 0;                ///< time in which the load grows, and in which it is removed [s]; 0: at once
+  std::optional<double> release;  ///< when the removal begins [s]; nothing: never
+};
+
+/// Describes one of these tests. Both methods, stepped and without steps, use it.
+struct LoadTest {
+  std::string kind;
+  History history;
+  double poisson_ratio = 0;
+  /// values that the scene requests, each with its name in summary.json
+  std::vector<std::pair<const char*, std::optional<double>>> load;
+  /// Returns the response at a time to this load, applied at the times `when`, from the specimen's spectrum.
+  std::function<experiments::ResponsePoint(const Spectrum&, double time, const LoadTimes& when)> unstepped;
+
+  bool by_stress = false;             ///< the load is a stress; else a strain
+  LoadTimes when;                     ///< as the scene gives them
+  bool grows = false;                 ///< whether the load grows during the whole test; the ramp is then the whole test
+  std::optional<double> platen_mass;  ///< of a wall under a stress [kg]
+  std::optional<double> strain;       ///< the largest strain, if it is known beforehand
+  double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
+  /// Returns the load in steps, [m] or [N]. `unit`: the load at a strain or a stress of 1. `dt` and `ramp` are the
+  /// run's.
+  std::function<std::shared_ptr<const Drive>(double unit, double dt, double ramp)> drive;
+};
+
+/// Return the description of a test; each is defined in its own folder.
+/// @{
+LoadTest load_test(const experiments::Relaxation& spec);
+LoadTest load_test(const experiments::Creep& spec);
+LoadTest load_test(const experiments::Monotonic& spec);
+/// @}
+/// Returns the description of the scene's test; an empty one for other experiments.
+LoadTest load_test_of(const Scene& scene);
+
+/// Names and units of a kind's numbers.
+struct LoadWords {
+  const char *kind, *file, *ratio;  ///< ratio: the name of ResponsePoint::ratio in files
+  const char* comment;              ///< in the file of a run without steps
+  bool stress_first;                ///< whether the load's column comes before the response's
+  const char* shown;                ///< the ratio's name for people, with its unit
+  const char* shown_stepped;        ///< the same in a stepped run, for the ratio of strain and stress of a row
+  double unit;                      ///< unit in which people see the ratio
+};
+/// Returns the names of a kind's numbers; those of "relaxation" for an unknown kind.
+const LoadWords& words_of(const std::string& kind);
+
+/// Return a point for the kind's file, for summary.json and for people, and the lines that stand above points.
+/// @{
+std::string csv_head(const LoadWords& words);
+std::string csv_line(const LoadWords& words, const experiments::ResponsePoint& point);
+nlohmann::ordered_json point_json(const LoadWords& words, const experiments::ResponsePoint& point);
+std::string shown_head(const char* ratio);
+std::string shown_line(const LoadWords& words, const char* ratio, const experiments::ResponsePoint& point);
+/// @}
+
+/// Adds the load that the scene requests to an entry of `results`.
+void add_load(const LoadTest& test, nlohmann::ordered_json& out);
+
+/// Returns the names of a kind's result files: its table, the table of cracks if points can break, and without steps
+/// the tables of the material.
+std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
+
+/// Plans a test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
+std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scene, const Preparation& prepared,
+                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
+
+}  // namespace macadam

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file complex_lanes.hpp  Stores one complex number for each of F solutions in a SIMD register: first the real parts, then
+/// the imaginary parts.
+///
+/// Real factors (frames, lever arms, moments, the preconditioner) then multiply 2F plain numbers, and the data of a
+/// contact are read once for all solutions.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <utility>
+
+#include "kernels/base/aligned.hpp"
+
+namespace macadam::harmonic {
+
+/// The SIMD type of F complex numbers. Each size is written out, because gcc accepts only a literal as the size of a
+/// vector.
+template <int F>
+struct Registers;
+template <>
+struct Registers<1> {
+  typedef double Number __attribute__((vector_size(16)));
+};
+template <>
+struct Registers<4> {
+  typedef double Number __attribute__((vector_size(64)));
+};
+
+/// F complex numbers. Products are lane by lane: one factor must be real, with the same number in both lanes.
+template <int F>
+struct Lanes {
+  static constexpr int width = 2 * F;
+  using Register = typename Registers<F>::Number;
+  Register v{};
+
+  Lanes() = default;
+  Lanes(Register r) : v(r) {}
+  explicit Lanes(double x) : v(Register{} + x) {}
+
+  /// Returns the complex number f.
+  std::complex<double> at(int f) const { return {v[f], v[F + f]}; }
+  void set(int f, std::complex<double> z) { v[f] = z.real(), v[F + f] = z.imag(); }
+
+  Lanes& operator+=(Lanes o) {
+    v += o.v;
+    return *this;
+  }
+  Lanes& operator-=(Lanes o) {
+    v -= o.v;
+    return *this;
+  }
+  friend Lanes operator+(Lanes a, Lanes b) { return a.v + b.v; }
+  friend Lanes operator-(Lanes a, Lanes b) { return a.v - b.v; }
+  friend Lanes operator-(Lanes a) { return -a.v; }
+  friend Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
+  friend Lanes operator*(double a, Lanes b) { return a * b.v; }
+
+  /// Returns the numbers with real and imaginary parts exchanged.
+  Lanes swapped() const { return in_order(std::make_integer_sequence<int, width>()); }
+
+ private:
+  template <int... i>
+  Register in_order(std::integer_sequence<int, i...>) const {
+    return __builtin_shufflevector(v, v, ((i + F) % width)...);
+  }
+};
+
+/// A complex factor for each solution, prepared for multiplication.
+template <int F>
+struct Factor {
+  Lanes<F> real,
+      imaginary;  ///< each in both lanes of a number; the imaginary part is negated in the real lanes (i·i = −1)
+
+  void set(int f, std::complex<double> z) {
+    real.v[f] = real.v[F + f] = z.real();
+    imaginary.v[f] = -z.imag(), imaginary.v[F + f] = z.imag();
+  }
+  Lanes<F> operator()(Lanes<F> x) const { return real * x + imaginary * x.swapped(); }
+};
+
+/// The sums Σ x·y without conjugates and Re Σ conj(x)·y, for each solution.
+template <int F>
+struct Products {
+  Lanes<F> straight, crossed;
+
+  void add(Lanes<F> x, Lanes<F> y) {
+    straight += x * y;
+    crossed += x * y.swapped();
+  }
+  void add(const Products& o) { straight += o.straight, crossed += o.crossed; }
+  /// Returns Σ x·y of number f, without conjugates.
+  std::complex<double> plain(int f) const {
+    return {straight.v[f] - straight.v[F + f], crossed.v[f] + crossed.v[F + f]};
+  }
+  /// Returns Re Σ conj(x)·y of number f.
+  double conjugated(int f) const { return straight.v[f] + straight.v[F + f]; }
+};
+
+/// [particle][6]: ux uy uz θx θy θz of all solutions.
+template <int F>
+using LaneVector = kernels::AlignedVector<Lanes<F>>;
+
+}  // namespace macadam::harmonic

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// cracks.cpp  Records and counts broken contact points, and determines whether intact contacts still join the walls.
+#include "host/run/cracks.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "macadam/error.hpp"
+#include "macadam/ranks.hpp"
+
+namespace macadam {
+
+using experiments::CrackEvent;
+using experiments::Cracks;
+using experiments::PairCracks;
+
+namespace {
+
+/// Sets of joined nodes (union-find).
+class Clusters {
+ public:
+  explicit Clusters(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  void join(std::size_t i, std::size_t j) { parent_[root(i)] = root(j); }
+  bool joined(std::size_t i, std::size_t j) { return root(i) == root(j); }
+
+ private:
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  std::vector<std::size_t> parent_;
+};
+
+/// Returns a whole number with thousands separators: 12,345.
+std::string grouped(std::int64_t number) {
+  std::string out = fmt::format("{}", number);
+  for (std::ptrdiff_t at = std::ssize(out) - 3; at > 0; at -= 3) out.insert(static_cast<std::size_t>(at), ",");
+  return out;
+}
+
+std::string of_breakable(const Cracks& cracks) {
+  return fmt::format("{} of {} contact points that can break are broken", grouped(cracks.points()),
+                     grouped(cracks.breakable()));
+}
+
+}  // namespace
+
+bool counts_cracks(const Scene& scene) {
+  return scene.solver.method == SolverMethod::explicit_ && can_break(facts_of(scene.laws));
+}
+
+CrackWatch::CrackWatch(const Scene& scene, const Preparation& prepared, const std::vector<CrackEvent>& before)
+    : network_(prepared.network),
+      laws_(facts_of(scene.laws)),
+      active_(can_break(laws_)),
+      joined_at_start_(prepared.spanning_clusters > 0) {
+  if (!active_) return;
+  broken_.resize(network_.point_area.size(), false);
+  for (const Contact& c : network_.contacts) {
+    const auto pair = static_cast<std::size_t>(c.pair);
+    if (laws_[pair] && laws_[pair]->breaks) found_.by_pair[pair].breakable += c.point_end - c.point_begin;
+  }
+  for (const CrackEvent& event : before) {
+    const bool known =
+        event.contact < network_.contacts.size() && event.point < broken_.size() && !broken_[event.point];
+    if (!known || (event.how != Break::tension && event.how != Break::shear)) {
+      throw InputError(
+          fmt::format("checkpoint: found a break of point {} of contact {}, expected one of the specimen's",
+                      event.point, event.contact));
+    }
+    add(event);
+  }
+}
+
+void CrackWatch::add(const CrackEvent& event) {
+  PairCracks& pair = found_.by_pair[static_cast<std::size_t>(network_.contacts[event.contact].pair)];
+  ++pair.points;
+  ++(event.how == Break::tension ? pair.tension : pair.shear);
+  pair.area_m2 += network_.point_area[event.point];
+  if (!pair.first_s) pair.first_s = event.time_s;
+  broken_[event.point] = true;
+  found_.events.push_back(event);
+}
+
+std::vector<CrackEvent> CrackWatch::look(const Stepper& stepper, double time) {
+  std::vector<CrackEvent> out;
+  if (!active_) return out;
+  const std::vector<Break> breaks = stepper.point_breaks(network_);
+  for (std::uint32_t c = 0; c < network_.contacts.size(); ++c) {
+    const Contact& contact = network_.contacts[c];
+    for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
+      if (breaks[point] != Break::none && !broken_[point]) out.push_back({c, point, breaks[point], time});
+    }
+  }
+  for (const CrackEvent& event : out) add(event);
+  return out;
+}
+
+bool CrackWatch::joins_walls() const {
+  if (of_first_rank(static_cast<double>(found_.points())) == 0 || !joined_at_start_) return true;
+  const std::size_t particles = network_.row_begin.size() - 1, top = particles, held = particles + 1;
+  Clusters clusters(particles + 2);
+  for (const Contact& c : network_.contacts) {
+    bool intact = false;
+    for (std::uint32_t point = c.point_begin; point < c.point_end && !intact; ++point)
+      intact = !(active_ && broken_[point]);
+    if (!intact) continue;
+    const std::size_t other = c.b >= 0 ? static_cast<std::size_t>(c.b) : c.b == wall_z_hi ? top : held;
+    clusters.join(static_cast<std::size_t>(c.a), other);
+  }
+  return of_first_rank(clusters.joined(top, held)) != 0;
+}
+
+std::string crack_head() { return "contact,a,b,pair,x,y,z,nx,ny,nz,area_m2,mode,time_s"; }
+
+std::string crack_line(const Preparation& prepared, const CrackEvent& event) {
+  const ContactNetwork& network = prepared.network;
+  const Contact& c = network.contacts[event.contact];
+  const Vec3d x = prepared.specimen.centre[static_cast<std::size_t>(c.a)] + c.arm_a * c.n +
+                  network.point_s[event.point] * c.s + network.point_t[event.point] * c.t;
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", event.contact, c.a, c.b, to_string(c.pair), x.x, x.y,
+                     x.z, c.n.x, c.n.y, c.n.z, network.point_area[event.point], to_string(event.how), event.time_s);
+}
+
+nlohmann::ordered_json cracks_json(const Cracks& cracks) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < pair_types; ++i) {
+    const PairCracks& pair = cracks.by_pair[i];
+    if (pair.breakable == 0) continue;
+    out[to_string(static_cast<PairType>(i))] = {
+        {"points", pair.points},
+        {"area_m2", pair.area_m2},
+        {"tension", pair.tension},
+        {"shear", pair.shear},
+        {"breakable_points", pair.breakable},
+        {"first_s", pair.first_s ? nlohmann::ordered_json(*pair.first_s) : nlohmann::ordered_json()}};
+  }
+  return out;
+}
+
+std::string rupture_words(const experiments::Rupture& r, const Cracks& cracks) {
+  return fmt::format(
+      "The specimen broke between t = {:.4g} s and {:.4g} s (strain {:.4g} to {:.4g}): no intact contact path joins "
+      "bottom and top wall any more, and the test ends there. {}.",
+      r.time_before_s, r.time_s, r.strain_before, r.strain, of_breakable(cracks));
+}
+
+std::string cracks_words(const Cracks& cracks) {
+  std::string out = of_breakable(cracks);
+  std::vector<std::string> pairs;
+  for (std::size_t i = 0; i < pair_types; ++i) {
+    const PairCracks& pair = cracks.by_pair[i];
+    if (pair.points == 0) continue;
+    pairs.push_back(fmt::format("{} {} ({} in tension, {} in shear)", to_string(static_cast<PairType>(i)),
+                                grouped(pair.points), grouped(pair.tension), grouped(pair.shear)));
+  }
+  return pairs.empty() ? out : fmt::format("{}: {}", out, fmt::join(pairs, ", "));
+}
+
+}  // namespace macadam

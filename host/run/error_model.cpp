@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// error_model.cpp  Estimates errors from measurements on specimens of asphalt (docs/accuracy.md), with a factor of
+// safety.
+#include "host/run/error_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace macadam {
+
+ErrorEstimate difference(const Stiffness& found, const Stiffness& expected) {
+  return {found.e_star_pa / expected.e_star_pa - 1, (found.phase_deg - expected.phase_deg) * std::numbers::pi / 180};
+}
+
+double largest(const ErrorEstimate& error) { return std::max(std::abs(error.e_star), std::abs(error.phase_rad)); }
+
+double stiffness_at(const Law& any, double omega) {
+  return std::visit(
+      [&]<class L>(const L& law) {
+        if constexpr (has_stiffness<L>)
+          return std::abs(law.stiffness(std::complex<double>(0, omega)));
+        else
+          return law.instantaneous();
+      },
+      any);
+}
+
+namespace {
+
+/// Returns the smallest and the largest |k*(ω)| of the pair types that occur.
+std::pair<double, double> stiffness_range(const Scene& scene, const Preparation& prepared, double omega) {
+  double least = std::numeric_limits<double>::infinity(), largest = 0;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (prepared.network.count[pair] == 0) continue;
+    const double k = stiffness_at(*scene.laws[pair], omega);
+    least = std::min(least, k);
+    largest = std::max(largest, k);
+  }
+  return {least, largest};
+}
+
+/// Largest relative rounding error of a float.
+constexpr double roundoff = 0x1p-24;
+
+/// Returns θ = u·N/2π. A number that oscillates with N steps per period changes by less than half of its last bit per
+/// step within the angle θ on either side of its peaks.
+double angle_lost(const RoundingScale& s) { return roundoff * static_cast<double>(s.steps) / (2 * std::numbers::pi); }
+
+}  // namespace
+
+double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency) {
+  const double omega = 2 * std::numbers::pi * frequency;
+  const double height = prepared.specimen.box.size.z;
+  const double density = std::max(scene.materials.aggregate, scene.materials.mastic);
+  // E is a third of the softest stiffness, so 3·E in the denominator is the softest stiffness
+  return omega * omega * height * height * density / stiffness_range(scene, prepared, omega).first;
+}
+
+RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,
+                             double density_scaling) {
+  double distances = 0;
+  for (const Contact& c : prepared.network.contacts) distances += c.distance;
+  const auto [softest, stiffest] = stiffness_range(scene, prepared, 2 * std::numbers::pi * frequency);
+  return {steps, prepared.specimen.box.size.z * static_cast<double>(prepared.network.contacts.size()) / distances,
+          stiffest / softest, density_scaling * inertia_estimate(scene, prepared, frequency)};
+}
+
+// A block takes 1/N of the shortest characteristic time. The error of a contact within a block is a saw-tooth of height
+// (2π/N)²/8 that returns to zero at the end of the block; a part of it remains at the frequency of the load. Measured:
+// at most (2π/N)²/38, for N = 30 to 4,000, both binders, 2 to 20 Hz, one to three cycles (bench/block_lengths.cpp,
+// bench/results/block-lengths.csv).
+double block_error(double blocks) {
+  const double turn = 2 * std::numbers::pi / blocks;
+  return turn * turn / 20;
+}
+double blocks_within(double error) { return std::min(4000.0, 2 * std::numbers::pi / std::sqrt(20 * error)); }
+
+// The velocities that contacts read have a relative error of u = 2⁻²⁴. They are larger than the relative velocities of
+// two layers by the number of layers, and so is the relative error of the latter. Normals, arms and moments have a
+// relative error of u. In `mixed`, states, master velocities and sums are double. But a device that steps in blocks
+// stores the change of a force within a block in single precision: where stiff walls carry inertia, a part of it is
+// lost, as a part of a velocity is in `single`. θ = u·N/2π.
+double mixed_precision_error(const RoundingScale& s) {
+  return roundoff * (10 + s.layers) + 2 * angle_lost(s) * s.inertia;
+}
+
+// `single` has further errors. A chain's f and x_l change in one step by 2π/N of their amplitude, times the cosine of
+// the phase. Near their peaks this change is less than half of the last bit and is lost. This happens within the angle
+// θ = u·N/2π on either side of a peak, over which they should have changed by θ²/2. In long runs other rounding errors,
+// which act as noise, remove most of this error but not all of it; hence 4·θ². A run of many cycles loses less than one
+// cycle with the same number of steps. Likewise, a velocity changes only if the force moves it by half of its last bit
+// in a step: up to θ/2 of the inertia is lost.
+double single_precision_error(const RoundingScale& s) {
+  const double theta = angle_lost(s);
+  return mixed_precision_error(s) + 4 * theta * theta;
+}
+
+std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured) {
+  const RoundingScale& up_to = measured.up_to;  // written so that a NaN counts as beyond
+  if (!(scale.steps <= up_to.steps)) return fmt::format("{} steps, measured up to {}", scale.steps, up_to.steps);
+  if (!(scale.layers <= up_to.layers)) {
+    return fmt::format("{:.0f} layers of particles, measured up to {:.0f}", scale.layers, up_to.layers);
+  }
+  if (!(scale.contrast <= up_to.contrast)) {
+    return fmt::format("stiffnesses {:.0e} apart, measured up to {:.0e}", scale.contrast, up_to.contrast);
+  }
+  if (!(scale.inertia <= up_to.inertia)) {
+    return fmt::format("inertia of about {:.2g} of |E*|, measured up to {:.2g}", scale.inertia, up_to.inertia);
+  }
+  return {};
+}
+
+// The next two functions are based on bench/results/accuracy.csv (relative error of |E*|, error of φ in radians), with
+// a margin: a factor of 2.5 for the fixed geometry and of 40 in the tolerance for the cycles.
+
+// Measured for t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
+double fixed_geometry_error(double strain) { return 3 * strain * strain; }
+
+// With a ramp of one cycle, the 4th cycle differs from the steady state by at most 4e-5, the 6th by 1.3e-5 and the 12th
+// by 2.3e-6 (t8 and demo, 2 and 20 Hz): the difference falls as n^−2.6. It may be a fortieth of the tolerance. Without
+// a ramp, nothing damps the waves that the start causes; they leave a random difference of 1e-5 to 1e-3, however many
+// cycles there are.
+int cycles_from_rest(double tolerance) {
+  return std::max(4, static_cast<int>(std::ceil(4 * std::pow(4e-5 / (tolerance / 40), 1 / 2.6))));
+}
+
+}  // namespace macadam

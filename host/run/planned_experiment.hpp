@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file planned_experiment.hpp  Defines a planned experiment. When it exists, every check that can refuse the scene has passed,
+/// and no file of the folder has been changed yet.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "macadam/simulation.hpp"
+
+namespace macadam {
+
+/// Writes summary.json with this status.
+using Saving = std::function<void(const std::string& status)>;
+
+/// A planned experiment. Scene, preparation and watcher must outlive it.
+class Solution {
+ public:
+  virtual ~Solution() = default;
+
+  /// Runs the experiment. Results are stored in `result` and saved as soon as they are known. \throws DivergenceError
+  /// naming the particle that first left the plausible range; InterruptedError; RunError as Harmonic does.
+  virtual void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) = 0;
+
+  /// Whether a checkpoint in the folder belongs to this run.
+  virtual bool owns_checkpoint() const { return false; }
+};
+
+}  // namespace macadam

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sampled_run.cpp  Runs the loop over samples for every experiment that is stepped in time. Steps are taken in pieces; after
+// each piece the run looks whether it must stop or write a checkpoint. Samples that need no more than an observation
+// are taken several at a time by one call of the stepper.
+#include "host/run/sampled_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/run/phases.hpp"
+#include "host/stepping/divergence.hpp"
+#include "macadam/ranks.hpp"
+
+namespace macadam {
+namespace {
+
+/// Advances in pieces of some tenths of a second, so that a signal is answered soon however long a step takes.
+class Pieces {
+ public:
+  explicit Pieces(Stepper& stepper) : stepper_(stepper) {}
+
+  /// Takes the steps up to step `to` and calls look() with the number of the step after each piece.
+  void advance(std::int64_t from, std::int64_t to, const std::function<void(std::int64_t)>& look) {
+    while (from < to) {
+      const std::int64_t steps = std::min(piece_, to - from);
+      timed([&] {
+        stepper_.advance(steps);
+        return steps;
+      });
+      look(from += steps);
+    }
+  }
+  /// Takes the steps to the next sample and, as far as a piece allows, on to some of up to `times` samples that follow
+  /// at the same distance. Returns these samples, at least one. look() is not called after the last steps.
+  std::vector<Sample> sample(std::int64_t from, std::int64_t to, std::int64_t times,
+                             const std::function<void(std::int64_t)>& look) {
+    const std::int64_t before = std::max(from, to - piece_);
+    advance(from, before, look);
+    const std::int64_t steps = to - before;
+    if (steps == 0) return {{stepper_.observe(), stepper_.first_divergent()}};
+    const std::int64_t at_once = before == from ? std::min(1 + times, piece_ / steps) : 1;
+    std::vector<Sample> out;
+    timed([&] {
+      out = stepper_.advance_sampled(steps, at_once);
+      return steps * std::ssize(out);
+    });
+    return out;
+  }
+
+ private:
+  /// Calls f(), which takes steps and returns their number, and adapts the size of a piece to the time that it took.
+  template <class F>
+  void timed(F&& f) {
+    const auto start = Clock::now();
+    const std::int64_t steps = f();
+    // the first rank's time, so that all ranks take the same pieces
+    const double seconds = of_first_rank(seconds_since(start));
+    if (2 * steps > piece_ && seconds < 0.1) piece_ *= 2;
+    if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
+  }
+
+  Stepper& stepper_;
+  std::int64_t piece_ = 16;
+};
+
+/// The remaining time of a run is predicted after this many seconds.
+constexpr double first_seconds = 3;
+
+}  // namespace
+
+Courses::Courses(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+                 const std::filesystem::path& out, bool resumed, std::function<void(const std::string&)> warn)
+    : watcher_(watcher),
+      result_(result),
+      warn_(std::move(warn)),
+      checkpoints_(out / checkpoint_name, scene, prepared, result.backend, watcher.stop, warn_, resumed),
+      fields_(scene, prepared, out) {}
+
+void Courses::begin_fields(const std::string& name, int samples, double time) {
+  const InPhase writing(result_.phases, &PhaseSeconds::writing);
+  for (const std::string& gap : fields_.begin(name, samples, time)) warn_(gap);
+}
+
+void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry) {
+  const InPhase stepping(result_.phases, &PhaseSeconds::stepping);
+  const auto start = Clock::now();
+  std::int64_t step = stepper.observe().step;
+  const std::int64_t begun = step, end = course.step_of(course.last);
+  const std::int64_t every = watcher_.stepped ? watcher_.every : 0, between = course.between_every;
+  bool told = !course.foretold;
+  const auto speed = [&](std::int64_t now) { return static_cast<double>(now - begun) / seconds_since(start); };
+  const auto look = [&](std::int64_t now) {
+    if (!told && seconds_since(start) > first_seconds) {
+      told = true;
+      course.foretold(static_cast<double>(end - now) / speed(now));
+    }
+    const InPhase writing(result_.phases, &PhaseSeconds::writing);  // takes time only if a checkpoint is due
+    checkpoints_.look(course.content, stepper, course.name);
+  };
+  bool ended = false;
+  const auto take = [&](std::int64_t k, const Sample& sample) {
+    require_convergence(sample, course.name + ", dt = " + fmt::format("{:.6g} s", course.dt));
+    course.take(k, sample.now);
+    ended = course.ended && course.ended();
+    if (fields_.wants(k) || (ended && fields_.begun())) {
+      const InPhase writing(result_.phases, &PhaseSeconds::writing);
+      fields_.add(stepper, form, geometry, sample.now.time);
+    }
+    if (watcher_.progress && step > 0) {
+      watcher_.progress(course.shown(step, speed(step)), static_cast<double>(step) / static_cast<double>(end));
+    }
+  };
+  // Returns how many of the samples after sample k need no more than an observation and have the same distance as k.
+  const auto alike = [&](std::int64_t k) {
+    // no stepper takes more than 64 samples in one call
+    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;
+    const std::int64_t distance = course.step_of(k) - step;
+    std::int64_t n = 0;
+    while (n < most && k + n < course.last && !fields_.wants(k + n) && course.taken(k + n + 1) &&
+           course.step_of(k + n + 1) - course.step_of(k + n) == distance)
+      ++n;
+    return n;
+  };
+  if (between > 0 && step % between == 0) course.between(stepper.observe());
+  Pieces pieces(stepper);
+  for (std::int64_t k = course.first; k <= course.last && !ended;) {
+    const std::int64_t to = course.step_of(k);
+    while ((every > 0 || between > 0) && step < to) {  // stops before the sample, for the watcher and for the course
+      std::int64_t next = to;
+      for (const std::int64_t n : {every, between}) next = n > 0 ? std::min(next, (step / n + 1) * n) : next;
+      pieces.advance(step, next, look);
+      if (every > 0 && next % every == 0) watcher_.stepped(stepper, course.frequency);
+      if (between > 0 && next % between == 0) course.between(stepper.observe());
+      step = next;
+    }
+    if (!fields_.wants(k) && !course.taken(k)) {
+      pieces.advance(step, to, look);
+      step = to, ++k;
+      continue;
+    }
+    const std::vector<Sample> samples = pieces.sample(step, to, alike(k), look);
+    for (const Sample& sample : samples) {
+      step = sample.now.step;
+      if (&sample == &samples.back()) look(step);
+      take(k++, sample);
+    }
+  }
+  const InPhase writing(result_.phases, &PhaseSeconds::writing);
+  fields_.end();
+}
+
+}  // namespace macadam

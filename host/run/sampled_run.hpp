@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file sampled_run.hpp  Takes a stepper from sample to sample. All experiments that are stepped in time use it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "host/fields/field_output.hpp"
+#include "host/run/checkpoints.hpp"
+#include "macadam/simulation.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+using Clock = std::chrono::steady_clock;
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Describes one run in time: at which steps it is sampled, and the functions that are called there.
+struct Course {
+  std::string name;                                   ///< name in messages: "20 Hz", "creep"
+  double dt = 0;                                      ///< [s]
+  double frequency = 0;                               ///< [Hz], of a cyclic test
+  std::int64_t first = 0, last = 0;                   ///< numbers of the first and last sample; sample 0 is at step 0
+  std::function<std::int64_t(std::int64_t)> step_of;  ///< the step of a sample; never falls
+  std::function<bool(std::int64_t)> taken;            ///< whether this sample is used at all
+  /// Receives a sample. The stepper may already have gone beyond it.
+  std::function<void(std::int64_t sample, const Observation& now)> take;
+  bool looks_at_stepper = false;     ///< `take` uses the stepper, which is then still at the sample
+  std::function<bool()> ended = {};  ///< asked after `take`: whether this sample is the last; may be empty
+  /// Called after every `between_every` steps, if that is not 0, also between samples. A resumed run may call it a
+  /// second time for the step from which it continues.
+  std::function<void(const Observation& now)> between = {};
+  std::int64_t between_every = 0;
+  std::function<std::string(std::int64_t step, double steps_a_second)>
+      shown;        ///< returns a text about the progress, to be printed
+  Content content;  ///< of a checkpoint, without the stepper's state
+  /// Called after the first seconds with the predicted remaining time [s]. May be empty.
+  std::function<void(double seconds)> foretold = {};
+};
+
+/// Runs the courses of an experiment, which share a checkpoint and the field output.
+class Courses {
+ public:
+  /// `resumed`: the checkpoint in the folder belongs to this run. All arguments except the path must outlive this
+  /// object. \throws RunError
+  Courses(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+          const std::filesystem::path& out, bool resumed, std::function<void(const std::string&)> warn);
+
+  /// Begins or continues the series of fields of a course. `samples`: samples per period, or of the whole test.
+  void begin_fields(const std::string& name, int samples, double time);
+
+  /// Steps from where the stepper is to the last sample. If the course ends early, a frame of its last sample is
+  /// written. Between steps it checks whether a checkpoint is due or the run must stop, before it takes the sample of
+  /// the step that was reached. The point at which a run is interrupted does not change a bit of the result. \throws
+  /// DivergenceError naming the particle that first left the plausible range; InterruptedError; RunError.
+  void run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry);
+
+  /// Whether the checkpoint in the folder, if there is one, belongs to this run.
+  bool own_checkpoint() const { return checkpoints_.own(); }
+
+ private:
+  const Watcher& watcher_;
+  RunResult& result_;
+  std::function<void(const std::string&)> warn_;
+  Checkpoints checkpoints_;
+  FieldOutput fields_;
+};
+
+}  // namespace macadam

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made (kernels/contact/contact_data.hpp).
+#include "host/run/skips.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/run/error_model.hpp"
+
+namespace macadam {
+namespace {
+
+/// Returns the names of the pair types whose law fulfils a condition, and the number of their contacts.
+template <class Condition>
+std::pair<std::string, std::int64_t> pairs_that(const Scene& scene, const Preparation& prepared, Condition&& fulfils) {
+  std::string names;
+  std::int64_t contacts = 0;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (prepared.network.count[pair] == 0 || !std::visit(fulfils, *scene.laws[pair])) continue;
+    names += (names.empty() ? "" : ", ") + std::string(to_string(static_cast<PairType>(pair)));
+    contacts += prepared.network.count[pair];
+  }
+  return {names, contacts};
+}
+
+}  // namespace
+
+std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, ContactForm form, Geometry geometry,
+                             std::optional<double> strain) {
+  constexpr const char* none = "none: same bits";
+  const bool reference = scene.solver.backend == Backend::reference;
+  const bool fixed = geometry == Geometry::fixed;
+  std::vector<Skip> out;
+  const auto [unitless, unitless_count] = pairs_that(scene, prepared, [](const auto& law) { return law.units() == 0; });
+  if (unitless_count > 0) {
+    out.push_back({"Kelvin units", fmt::format("{} contacts ({}) have none", unitless_count, unitless), "rounding"});
+  }
+  const auto [elastic, elastic_count] =
+      pairs_that(scene, prepared, [](const auto& law) { return decltype(law.template step<double>(1.0))::memoryless; });
+  if (elastic_count > 0 && fixed && !reference) {
+    out.push_back({"contact states",
+                   fmt::format("{} elastic contacts ({}) of fixed geometry follow from the displacements",
+                               elastic_count, elastic),
+                   "rounding: not summed over the steps"});
+  }
+  const auto [smooth, smooth_count] =
+      pairs_that(scene, prepared, []<class L>(const L& law) { return law.alpha == 0 && !coupled_law<L>; });
+  if (smooth_count > 0 && !reference) {
+    out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), none});
+  }
+  if (!reference && nothing_turns(prepared.network, scene.laws)) {
+    out.push_back({"rotations", "no shear, and every facet is centred: nothing turns a particle",
+                   "first moments below 1e-12 are taken as 0"});
+  }
+  if (fixed) {
+    out.push_back({"geometry update", "normals and lever arms are those of the start",
+                   strain ? fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
+                                        fixed_geometry_error(std::abs(*strain)), *strain)
+                          : "grows as the square of the strain: see docs/accuracy.md"});
+  }
+  if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
+    out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});
+  }
+  if (const auto n = prepared.network.dropped_area; n > 0) {
+    out.push_back({"tiny facets", fmt::format("{} below area_min", n),
+                   fmt::format("of the order of {:.0e} of |E*|: their share of the facets' area",
+                               prepared.network.dropped_share)});
+  }
+  if (const auto n = prepared.network.dropped_gap; n > 0) {
+    out.push_back({"open facets", fmt::format("{} wider than gap_max", n), "another model: compare without gap_max"});
+  }
+  if (!scene.network.lateral_walls)
+    out.push_back({"lateral walls", "the sides are free", "free sides, as the scene has them"});
+  if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", none});
+  return out;
+}
+
+}  // namespace macadam

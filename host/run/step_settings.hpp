@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file step_settings.hpp  Makes the stepper options that all stepped tests have in common, and writes the settings used to
+/// summary.json.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "macadam/simulation.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+/// Returns the form that the scene asks for. Otherwise returns points if a law is not linear or if every facet has one
+/// point (three chains per facet then instead of six), else condensed.
+ContactForm form_of(const Scene& scene);
+
+/// Returns the options that all steppers of a run have in common, from `[solver]` and the choices made for the run.
+StepperOptions stepper_options(const SolverSpec& solver, ContactForm form, Geometry geometry, Precision precision);
+
+/// Returns a stepper that continues from a checkpoint's state, unless that is empty. `used`: as for make_stepper().
+/// \throws as make_stepper() and Stepper::set_state() do.
+std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Backend backend, const Scene& scene,
+                                      const Preparation& prepared, const Inertia& inertia,
+                                      const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);
+
+/// Checks the number of steps. `what` names the part of the run that takes them. \throws RunError for 1e12 steps or
+/// more.
+void require_possible(double steps, double dt, const std::string& what);
+
+/// Adds the settings with which a test was stepped to `solver` of summary.json.
+void add_settings(const experiments::Stepped& found, const Scene& scene, const RunResult& run, std::int64_t steps,
+                  std::optional<double> dt_s, nlohmann::ordered_json& solver);
+
+}  // namespace macadam

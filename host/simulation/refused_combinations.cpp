@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// refused_combinations.cpp  Refuses settings of a scene and of the command line that do not go together.
+#include "host/simulation/refused_combinations.hpp"
+
+#include <fmt/format.h>
+
+#include "host/experiments/experiment.hpp"
+#include "host/harmonic/law_stiffness.hpp"
+#include "host/run/checkpoints.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+void require_combination(const Scene& scene) {
+  if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
+    throw InputError(scene.file.string(), 0, "method",
+                     std::string("\"explicit\" beside kind \"") + kind_of(scene.experiment) + "\"",
+                     "\"harmonic\": it is not stepped in time");
+  }
+  if (scene.solver.method == SolverMethod::explicit_ && scene.solver.inertia) {
+    throw InputError(scene.file.string(), 0, "inertia", "true beside method \"explicit\", which always has inertia",
+                     "false, or method \"harmonic\"");
+  }
+  if (scene.solver.method == SolverMethod::explicit_ && scene.output.sensitivities) {
+    throw InputError(scene.file.string(), 0, "sensitivities in [output]", "true beside method \"explicit\"",
+                     "false, or method \"harmonic\"");
+  }
+  if (scene.solver.method == SolverMethod::explicit_ && !temperatures_of(scene.experiment).empty()) {
+    throw InputError(scene.file.string(), 0, "temperatures in [loading]",
+                     fmt::format("{} of them beside method \"explicit\"", temperatures_of(scene.experiment).size()),
+                     "method \"harmonic\", or one as temperature in [materials]");
+  }
+  if (scene.output.fields.any() && !has_fields(scene)) {
+    throw InputError(scene.file.string(), 0, "fields in [output]",
+                     std::string("some beside method \"harmonic\" of kind \"") + kind_of(scene.experiment) + "\"",
+                     "none, or method \"explicit\"");
+  }
+  if (scene.solver.method == SolverMethod::harmonic) {
+    if (const auto without = first_without_stiffness(scene.laws)) {
+      const bool linear = facts_of(scene.laws)[static_cast<std::size_t>(without->pair)]->linear;
+      throw InputError(
+          scene.file.string(), 0, std::string("law of ") + to_string(without->pair) + " beside method \"harmonic\"",
+          std::string(without->law) + ", which has no complex stiffness" + (linear ? "" : ": it is not linear"),
+          "a law that has one, or method = \"explicit\", where the test can be stepped");
+    }
+    return;
+  }
+  std::string why_not;
+  if (scene.output.checkpoint.value_or(0) > 0 && !keeps_checkpoints(scene, scene.solver.backend, &why_not)) {
+    throw InputError(scene.file.string(), 0, "checkpoint in [output]", fmt::format("{} s", *scene.output.checkpoint),
+                     "0: " + why_not);
+  }
+  if (scene.solver.backend != Backend::reference) return;
+  const auto refuse = [&](const char* what, const char* found, const char* expected) {
+    throw InputError(scene.file.string(), 0, std::string(what) + " with backend reference", found, expected);
+  };
+  if (scene.solver.precision.value_or(Precision::double_) != Precision::double_) {
+    refuse("precision", to_string(*scene.solver.precision), "double");
+  }
+  if (scene.network.quadrature == Quadrature::exact) refuse("quadrature", "exact", "lumped: it works per point");
+}
+
+}  // namespace macadam

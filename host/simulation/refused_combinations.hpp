@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file refused_combinations.hpp  Checks whether method, backend, experiment and output of a scene go together.
+#pragma once
+
+#include "macadam/scene.hpp"
+
+namespace macadam {
+
+/// Checks a scene whose keys are each valid; the command line may have changed some since it was read.
+/// \throws InputError naming the scene, the settings that exclude each other, and settings that are possible.
+void require_combination(const Scene& scene);
+
+}  // namespace macadam

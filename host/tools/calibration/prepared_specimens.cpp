@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// prepared_specimens.cpp  Solves the specimens for given laws, each solution starting from its estimate, and computes these
+// estimates.
+#include "host/tools/calibration/prepared_specimens.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kernels/base/parallel.hpp"
+#include "host/scene/shift_keys.hpp"
+#include "host/run/harmonic_options.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam::calibration {
+namespace {
+
+using Complex = std::complex<double>;
+
+bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
+
+/// Returns the standard deviation of a sample; 0 for a single value.
+double scatter(const std::vector<double>& values) {
+  double mean = 0, sum = 0;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
+  for (const double v : values) sum += (v - mean) * (v - mean);
+  return values.size() > 1 ? std::sqrt(sum / static_cast<double>(values.size() - 1)) : 0;
+}
+
+/// Residual tolerance of the solutions. It gives E* nine digits (harmonic.cpp). The derivatives of E* get only seven,
+/// because their error is of first order in the error of the motion.
+constexpr double residual = 1e-8;
+
+double degrees(Complex modulus) { return std::arg(modulus) * 180 / std::numbers::pi; }
+
+/// Frequencies [Hz] and temperatures [°C] of the scene's experiment; empty for experiments in time.
+struct Loading {
+  std::vector<double> frequencies, temperatures;
+};
+
+Loading loading_of(const Scene& scene) {
+  if (const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment))
+    return {cyclic->frequencies, cyclic->temperatures};
+  if (const auto* sweep = std::get_if<experiments::Sweep>(&scene.experiment))
+    return {sweep->frequencies, sweep->temperatures};
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data) {
+  const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
+    throw InputError(data.source, 0, what, found, expected);
+  };
+  std::vector<std::optional<double>> out;
+  const std::vector<double> several = loading_of(scene).temperatures;
+  if (!data.temperatures && several.size() > 1) {
+    refuse("column temperature_c", fmt::format("none beside the {} temperatures of the scene", several.size()),
+           "it, or one temperature in the scene");
+  }
+  for (const ModulusPoint& p : data.points) {
+    if (data.temperatures) {
+      out.emplace_back(p.temperature_c);
+    } else if (!several.empty()) {
+      out.emplace_back(several.front());
+    } else {
+      out.push_back(scene.materials.temperature);
+    }
+  }
+  const bool shifted = std::any_of(scene.shifts.begin(), scene.shifts.end(), shifts);
+  for (const std::optional<double>& t : out) {
+    if (!t) continue;
+    if (!shifted && *t != *out.front()) {
+      refuse("column temperature_c",
+             fmt::format("{} and {} degrees C, between which no law of the scene changes", *out.front(), *t),
+             "one temperature, or a scene with shift = \"wlf\", \"arrhenius\" or \"table\" in a [[contacts]]");
+    }
+    const LawTable laws = laws_at(scene, *t);
+    for (std::size_t pair = 0; pair < pair_types; ++pair) {
+      if (laws[pair] && !laws::usable(*laws[pair])) {
+        refuse(
+            "column temperature_c",
+            fmt::format("{} degrees C, where the shift of {} has no value", *t, to_string(static_cast<PairType>(pair))),
+            scene::range_of(scene.shifts[pair]));
+      }
+    }
+  }
+  return out;
+}
+
+double Specimens::density_scaling_at(double frequency) const {
+  const auto& scaling = scene_.solver.density_scaling;
+  if (!inertia_) return 0;
+  if (!scaling || scaling->size() == 1) return density_scaling_of(scene_.solver, 0);
+  const std::vector<double> known = loading_of(scene_).frequencies;
+  const auto at = std::find(known.begin(), known.end(), frequency);
+  if (at == known.end()) {
+    throw InputError(data_.source, 0, "column frequency_hz",
+                     fmt::format("{}, for which density_scaling of the scene has no entry", frequency),
+                     fmt::format("frequencies of the scene ({}), one density_scaling for all, or method = \"harmonic\" "
+                                 "without inertia",
+                                 fmt::join(known, ", ")));
+  }
+  return density_scaling_of(scene_.solver, static_cast<std::size_t>(at - known.begin()));
+}
+
+Specimens::Specimens(const Scene& scene, const ModulusData& data, int seeds, const Watcher& watcher)
+    : scene_(scene), data_(data), watcher_(watcher) {
+  const SolverSpec& solver = scene.solver;
+  inertia_ = solver.inertia || solver.method == SolverMethod::explicit_;  // a stepped run always has inertia
+  viscous_ = inertia_ && solver.damping_kind == Damping::viscous ? solver.damping : 0;
+  backend_ = select_backend(solver.backend, nullptr, solver.devices);
+  if (backend_ == Backend::reference || solver.linear == LinearMethod::direct) backend_ = Backend::cpu;
+  solver_ = fmt::format("harmonic, {} inertia{}, {}", inertia_ ? "with" : "without",
+                        viscous_ > 0 ? " and viscous damping" : "", to_string(backend_));
+  const std::vector<std::optional<double>> temperatures = temperatures_of(scene, data);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Place place{data.points[i].frequency_hz, density_scaling_at(data.points[i].frequency_hz), temperatures[i]};
+    const auto same = std::find_if(places_.begin(), places_.end(), [&](const Place& p) {
+      return p.frequency == place.frequency && p.temperature == place.temperature;
+    });
+    place_of_.push_back(static_cast<std::size_t>(same - places_.begin()));
+    if (same != places_.end()) continue;
+    const auto isotherm = std::find_if(isotherms_.begin(), isotherms_.end(), [&](const auto& of) {
+      return places_[of.front()].temperature == place.temperature;
+    });
+    if (isotherm == isotherms_.end()) {
+      isotherms_.push_back({places_.size()});
+    } else {
+      isotherm->push_back(places_.size());
+    }
+    places_.push_back(place);
+  }
+  for (int k = 0; k < seeds; ++k) {
+    if (!scene.specimen.file) {
+      scene_.specimen.seed = scene.specimen.seed + static_cast<std::uint64_t>(k);
+      seeds_.push_back(scene_.specimen.seed);
+    }
+    Preparation prepared = prepare(scene_, watcher.progress);
+    Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
+    bodies_.push_back(std::make_unique<Body>(
+        Body{std::move(prepared.specimen), std::move(prepared.network), std::move(inertia), nullptr}));
+    Body& body = *bodies_.back();
+    body.seen =
+        std::make_unique<harmonic::ReducedModel>(body.specimen, body.network, inertia_ ? body.inertia : Inertia{});
+  }
+}
+
+Specimens::Answer Specimens::answer_of(const ModulusParts& parts, const LawTable& laws, const HarmonicLoad& load,
+                                       const std::vector<Parameter>& free) const {
+  Answer out{parts.modulus(), {}};
+  const auto all = sensitivities(parts, laws, load.s());
+  for (const Parameter& parameter : free) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.parameter == parameter.name; });
+    if (found == all.end()) {
+      throw InputError("free parameters", 0, parameter.name,
+                       fmt::format("a specimen without {} contacts", to_string(parameter.pair)),
+                       "parameters that change something in it");
+    }
+    out.by.push_back(out.modulus *
+                     Complex(found->d_e_star_pa / std::abs(out.modulus), found->d_phase_deg * std::numbers::pi / 180));
+  }
+  return out;
+}
+
+Specimens::Answers Specimens::solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) const {
+  Answers out(places_.size());
+  std::vector<harmonic::Vector> motions;
+  for (const auto& places : isotherms_) {
+    const LawTable at = laws_of(places_[places.front()], laws);
+    std::vector<double> frequencies;
+    for (const std::size_t p : places) frequencies.push_back(places_[p].frequency);
+    Harmonic harmonic(body.specimen, body.network, at, body.inertia,
+                      harmonic_options(scene_, backend_, watcher_.stop, residual), geometric_mean(frequencies));
+    constexpr std::size_t block = 4;  // places solved side by side
+    for (std::size_t begin = 0; begin < places.size(); begin += block) {
+      if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
+      const std::size_t count = std::min(block, places.size() - begin);
+      std::vector<harmonic::Vector> near(count);
+      std::vector<HarmonicLoad> loads;
+      for (std::size_t i = 0; i < count; ++i) {
+        loads.push_back(load_of(places_[places[begin + i]]));
+        if (body.seen->motions() == 0) continue;
+        near[i] = body.seen->motion(body.seen->solve(at, loads[i]));
+        loads[i].near = &near[i];
+      }
+      std::vector<HarmonicResult> solved = harmonic.solve(loads);
+      for (std::size_t i = 0; i < count; ++i) {
+        out[places[begin + i]] = answer_of(solved[i].parts, at, loads[i], free);
+        motions.push_back(std::move(solved[i].motion));
+      }
+    }
+  }
+  body.seen->add(motions);
+  return out;
+}
+
+std::vector<Predicted> Specimens::solve(const LawTable& laws, const std::vector<Parameter>& free) {
+  ++solutions_;
+  std::vector<Answers> answers;
+  for (const auto& body : bodies_) {
+    if (watcher_.progress) {
+      watcher_.progress(fmt::format("solution {}", solutions_),
+                        static_cast<double>(answers.size()) / static_cast<double>(bodies_.size()));
+    }
+    answers.push_back(solve(*body, laws, free));
+  }
+  return mean_of(answers, free.size());
+}
+
+std::vector<Predicted> Specimens::estimate(const LawTable& laws, const std::vector<Parameter>& free) const {
+  if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
+  std::vector<Answers> answers;
+  for (const auto& body : bodies_) {
+    answers.emplace_back(places_.size());
+    for_each_in_parallel(places_.size(), [&](std::size_t i) {
+      const LawTable at = laws_of(places_[i], laws);
+      const HarmonicLoad load = load_of(places_[i]);
+      answers.back()[i] = answer_of(body->seen->solve(at, load).parts, at, load, free);
+    });
+  }
+  return mean_of(answers, free.size());
+}
+
+std::vector<Predicted> Specimens::mean_of(const std::vector<Answers>& by_body, std::size_t free) const {
+  std::vector<Predicted> out(data_.points.size());
+  const double share = 1 / static_cast<double>(by_body.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].by.assign(free, 0);
+    std::vector<double> log_moduli, phases;
+    for (const Answers& of_body : by_body) {
+      const Answer& a = of_body[place_of_[i]];
+      out[i].modulus += share * a.modulus;
+      for (std::size_t k = 0; k < free; ++k) out[i].by[k] += share * a.by[k];
+      log_moduli.push_back(std::log(std::abs(a.modulus)));
+      phases.push_back(degrees(a.modulus));
+    }
+    out[i].e_star_scatter = scatter(log_moduli);
+    out[i].phase_scatter_deg = scatter(phases);
+  }
+  return out;
+}
+
+}  // namespace macadam::calibration

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file prepared_specimens.hpp  Prepares the specimens of a calibration once, and computes their moduli for any laws.
+#pragma once
+
+#include <complex>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/tools/calibration/parameters.hpp"
+#include "host/harmonic/reduced_model.hpp"
+
+namespace macadam::calibration {
+
+/// E* at the frequency and temperature of one measurement.
+struct Predicted {
+  std::complex<double> modulus;          ///< mean over the specimens [Pa]
+  std::vector<std::complex<double>> by;  ///< derivatives by the logarithms of the free parameters [Pa]
+  /// Standard deviations between specimens, of ln |E*| and of the phase.
+  double e_star_scatter = 0, phase_scatter_deg = 0;
+};
+
+/// Returns the temperature of each measurement, empty if neither scene nor data have one. \throws InputError if the
+/// scene has no valid laws at a measured temperature, or does not say which of its temperatures is meant.
+std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data);
+
+/// The specimens, one per seed. Each has a reduced model, to which every solution adds its motions.
+class Specimens {
+ public:
+  /// Prepares the specimens. Scene, data and watcher must outlive this object. \throws InputError, RunError as
+  /// prepare(), and InputError if the scene does not determine how a measurement is solved.
+  Specimens(const Scene& scene, const ModulusData& data, int seeds, const Watcher& watcher);
+
+  /// Returns E* of every measurement with the given laws, from solutions in the frequency domain. Their motions are
+  /// kept for estimate(). \throws RunError if there is no solution; InterruptedError; InputError for a parameter that
+  /// has no effect in the specimen.
+  std::vector<Predicted> solve(const LawTable& laws, const std::vector<Parameter>& free);
+
+  /// Returns estimates of the same from the motions of all solutions so far. At the laws of a solution they and their
+  /// derivatives are exact; elsewhere they are approximate. Takes milliseconds. \throws RunError, InterruptedError.
+  std::vector<Predicted> estimate(const LawTable& laws, const std::vector<Parameter>& free) const;
+
+  const std::vector<std::uint64_t>& seeds() const { return seeds_; }
+  const std::string& solver() const { return solver_; }
+
+ private:
+  /// A frequency [Hz] and temperature [°C] at which the specimens are solved.
+  struct Place {
+    double frequency, density_scaling;
+    std::optional<double> temperature;
+  };
+  /// One specimen with its network.
+  struct Body {
+    Specimen specimen;
+    ContactNetwork network;
+    Inertia inertia;
+    std::unique_ptr<harmonic::ReducedModel> seen;  ///< reduced model with the motions of all solutions
+  };
+  /// E* at one place, with its derivatives by the logarithms of the free parameters.
+  struct Answer {
+    std::complex<double> modulus;
+    std::vector<std::complex<double>> by;
+  };
+  using Answers = std::vector<Answer>;  ///< one per place
+
+  /// Returns the density scaling of a run at a frequency; 0 without inertia. \throws InputError if the scene has none
+  /// for this frequency.
+  double density_scaling_at(double frequency) const;
+  HarmonicLoad load_of(const Place& place) const { return {place.frequency, place.density_scaling, viscous_}; }
+  LawTable laws_of(const Place& place, const LawTable& laws) const {
+    return place.temperature ? laws_at(scene_, *place.temperature, laws) : laws;
+  }
+  /// Returns E* and its derivatives from the parts of E*.
+  Answer answer_of(const ModulusParts& parts, const LawTable& laws, const HarmonicLoad& load,
+                   const std::vector<Parameter>& free) const;
+  /// Solves one specimen at all places and adds the motions to its reduced model.
+  Answers solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) const;
+  /// Returns means and standard deviations over the specimens, for every measurement. `free`: number of free
+  /// parameters.
+  std::vector<Predicted> mean_of(const std::vector<Answers>& by_body, std::size_t free) const;
+
+  Scene scene_;
+  const ModulusData& data_;
+  const Watcher& watcher_;
+  Backend backend_;
+  bool inertia_;
+  double viscous_;
+  std::string solver_;
+  std::vector<Place> places_;
+  std::vector<std::size_t> place_of_;                ///< measurement → place
+  std::vector<std::vector<std::size_t>> isotherms_;  ///< the places of each temperature
+  std::vector<std::uint64_t> seeds_;
+  std::vector<std::unique_ptr<Body>> bodies_;
+  int solutions_ = 0;
+};
+
+}  // namespace macadam::calibration

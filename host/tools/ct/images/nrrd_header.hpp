@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file nrrd_header.hpp  Checks the header of an NRRD file before ITK reads it.
+#pragma once
+
+#include "host/tools/ct/images/header_lines.hpp"
+
+namespace macadam::ct {
+
+/// Checks an NRRD header and returns the file of the voxels and the unit of lengths (`space units` or `units`). The
+/// check is needed because ITK keeps only 32 bits of a size while its NRRD reader allocates memory for all of it, waits
+/// for ever for a path that is not a regular file, passes file name patterns to printf, and ignores units. \throws
+/// InputError that names the line.
+HeaderFacts check_nrrd_header(const std::filesystem::path& file);
+
+}  // namespace macadam::ct

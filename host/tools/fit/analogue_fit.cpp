@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// analogue_fit.cpp  Fits 2S2P1D and Huet–Sayegh: computes the misfit of a grid of usual values and refines the best
+// ones.
+#include "host/tools/fit/analogue_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+
+#include "macadam/error.hpp"
+
+namespace macadam::fitting {
+namespace {
+
+/// Range of the targets, as logarithms.
+struct Extent {
+  /// Softest and stiffest modulus, lowest and highest frequency.
+  double soft = std::numeric_limits<double>::infinity(), stiff = -soft, slow = soft, fast = -soft;
+};
+
+Extent extent_of(const std::vector<Target>& targets) {
+  Extent e;
+  for (const Target& t : targets) {
+    e.soft = std::min(e.soft, t.log_modulus);
+    e.stiff = std::max(e.stiff, t.log_modulus);
+    e.slow = std::min(e.slow, std::log(t.place.omega));
+    e.fast = std::max(e.fast, std::log(t.place.omega));
+  }
+  return e;
+}
+
+/// Exchanges k and h if k > h. The curve stays the same: in 1 + δ·(sτ)^(−k) + (sτ)^(−h) the two elements exchange their
+/// names.
+void order(const Unknowns& u, std::vector<double>& theta) {
+  double &k = theta[2], &h = theta[3], &log_delta = theta[4], &log_tau = theta[5];
+  if (k <= h) return;
+  const double longer = log_tau - log_delta / k;                     // δ·τ^(−k) = τ'^(−k)
+  log_delta = h * (longer - log_tau);                                // δ'·τ'^(−h) = τ^(−h)
+  if (u.model == FitModel::two_s2p1d) theta[6] += log_tau - longer;  // βτ stays
+  log_tau = longer;
+  std::swap(k, h);
+}
+
+}  // namespace
+
+std::vector<Limits> analogue_limits(const Unknowns& u, const std::vector<Target>& targets) {
+  const Extent e = extent_of(targets);
+  const double shifts = u.shift == ShiftKind::none ? 0 : 25;  // eleven decades for the effect of temperature
+  std::vector<Limits> out{{e.stiff - 0.5, e.stiff + 7},
+                          {e.soft - 14, e.soft + 0.5},
+                          {0.01, 1},
+                          {0.01, 1},
+                          {-8, 8},
+                          {-e.fast - 30 - shifts, -e.slow + 10 + shifts}};
+  if (u.model == FitModel::two_s2p1d) out.push_back({-3, 40});
+  return out;
+}
+
+namespace {
+
+constexpr std::size_t refined = 6;  ///< number of best starts that are refined
+
+/// Returns θ of usual values over a grid of τ, E_00 and δ: the few with the smallest misfit, best first.
+std::vector<std::vector<double>> usual_starts(const Unknowns& u, const std::vector<Target>& targets,
+                                              const std::vector<double>& shift) {
+  const Extent e = extent_of(targets);
+  std::vector<std::pair<double, std::vector<double>>> starts;
+  for (double log_tau = -e.fast - 15; log_tau < -e.slow + 8; log_tau += 1.5) {
+    for (const double statics : {e.soft - 0.7, e.soft - 7}) {
+      for (const double log_delta : {0.0, 1.0}) {
+        std::vector<double> theta{e.stiff + 0.7, statics, 0.2, 0.6, log_delta, log_tau};
+        if (u.model == FitModel::two_s2p1d) theta.push_back(5);
+        theta.insert(theta.end(), shift.begin(), shift.end());
+        const double misfit = misfit_at(u, targets, theta);
+        if (std::isfinite(misfit)) starts.emplace_back(misfit, std::move(theta));
+      }
+    }
+  }
+  std::sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::vector<double>> out;
+  for (std::size_t i = 0; i < std::min(starts.size(), refined); ++i) out.push_back(std::move(starts[i].second));
+  return out;
+}
+
+}  // namespace
+
+Minimum fit_analogue(const Unknowns& u, const std::vector<Target>& targets, const std::vector<Limits>& limits,
+                     const std::vector<double>& shift, const std::vector<std::vector<double>>& contained) {
+  std::vector<std::vector<double>> starts = usual_starts(u, targets, shift);
+  starts.insert(starts.end(), contained.begin(), contained.end());
+  if (u.model == FitModel::two_s2p1d) {
+    Unknowns without = u;
+    without.model = FitModel::huet_sayegh;
+    std::vector<Limits> fewer = limits;
+    const std::ptrdiff_t beta = 6;
+    fewer.erase(fewer.begin() + beta);
+    std::vector<double> theta = fit_analogue(without, targets, fewer, shift).theta;
+    theta.insert(theta.begin() + beta, 0);
+    for (const double log_beta : {5.0, 12.0, limits[beta].high}) {  // at its upper limit the dashpot has no effect
+      theta[beta] = log_beta;
+      starts.push_back(theta);
+    }
+  }
+  std::optional<Minimum> out;
+  for (std::vector<double>& start : starts) {
+    Minimum minimum = refine(u, targets, limits, std::move(start));
+    if (!out || minimum.misfit < out->misfit) out = std::move(minimum);
+  }
+  if (!out || !std::isfinite(out->misfit)) throw RunError("fit: no start of the model gives a finite misfit");
+  order(u, out->theta);
+  return *out;
+}
+
+AnalogueModel analogue_of(const Unknowns& u, const std::vector<double>& theta) {
+  AnalogueModel model;
+  model.E_0 = std::exp(theta[0]);
+  model.E_00 = std::exp(theta[1]);
+  model.k = theta[2];
+  model.h = theta[3];
+  model.delta = std::exp(theta[4]);
+  model.tau = std::exp(theta[5]);
+  if (u.model == FitModel::two_s2p1d) model.beta = std::exp(theta[6]);
+  return model;
+}
+
+}  // namespace macadam::fitting

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file problem.hpp  Checks measurements and options, and turns them into the least-squares problem.
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "host/tools/fit/least_squares.hpp"
+
+namespace macadam::fitting {
+
+/// One degree [rad].
+inline constexpr double degree = std::numbers::pi / 180;
+
+/// The measurements as the least squares need them. The unknowns refer to the middle isotherm, so that the result does
+/// not depend on the reference temperature that the user asks for.
+struct Problem {
+  std::vector<double> temperatures;  ///< temperatures of the isotherms, ascending [°C]
+  std::vector<Target> targets;
+  Unknowns unknowns;
+  double wanted_reference = 0;      ///< reference temperature that the user asks for [°C]
+  std::size_t wanted_isotherm = 0;  ///< the isotherm nearest to it
+};
+
+/// Returns the problem. \throws InputError when measurements or options are invalid or do not determine the shift.
+Problem make_problem(const ModulusData& data, const FitOptions& options);
+
+/// Returns the shift laws that are special cases of a free shift and that the temperatures determine; empty if the
+/// shift is not free.
+std::vector<ShiftKind> laws_in(const Problem& problem);
+
+}  // namespace macadam::fitting
