@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the page docs/paper-specimens.md from the files that scripts/paper writes into bench/results/."""
+"""Writes the page docs/paper-specimens.md from the files that bench/paper/paper writes into bench/results/."""
 import paper_figures
 import paper_laws
 import paper_open

@@ -109,7 +109,7 @@ def design_particles():
 
 @mark
 def paper_minutes():
-    """Returns the total time of the runs of scripts/paper-specimens."""
+    """Returns the total time of the runs of bench/paper/paper-specimens."""
     every = rows("paper-specimens.csv")
     return f"{plain(upto(sum(r['wall_s'] or 0 for r in every) / 60))} minutes"
 

@@ -94,10 +94,10 @@ def of_mix(found, mix, figure):
 def calibrated():
     out = ["## Calibrated to the single spheres (Figs. 12 and 13)", "",
            *wrapped("""δ_MA of each specimen of clusters so that its |E\\*| is that of the single spheres, by least squares
-               over the four frequencies; φ is left to come out as it does. `scripts/paper-deltas` calls `macadam
+               over the four frequencies; φ is left to come out as it does. `bench/paper/paper-deltas` calls `macadam
                calibrate` for each mixture, specimen and seed."""), "", *am2_single_spheres()]
     if not (RESULTS / "paper-deltas.csv").is_file():
-        return out + ["Figs. 12 and 13 are still to be made: `scripts/paper-deltas` writes the numbers, and",
+        return out + ["Figs. 12 and 13 are still to be made: `bench/paper/paper-deltas` writes the numbers, and",
                       "`scripts/documents` the tables that stand here then.", ""]
     found = rows("paper-deltas.csv")
     return out + of_mix(found, "AM1", 12) + of_mix(found, "AM2", 13) + why_less(found)
@@ -144,7 +144,7 @@ def stepped():
     out = ["## Stepped in time, at true mass", "",
            *wrapped(f"""A cycle of {listed([f"{hz:g}" for hz in sorted({r['frequency_hz'] for r in found})])} Hz from the steady start, mixed precision, no density scaling; the last
                columns are what is off the frequency domain without inertia, on which the rest of this page rests:
-               {off:.1e} at most. `scripts/paper-stepped` makes [the
+               {off:.1e} at most. `bench/paper/paper-stepped` makes [the
                data](../bench/results/paper-stepped.csv)."""), "",
            *table(["", "f (Hz)", "10⁶ steps", "step (ns)", "µs a step", "seconds", "\\|E*\\| (GPa)", "off (10⁻⁹)",
                    "φ (°)", "off (10⁻⁹ rad)"], lines)]

@@ -75,7 +75,7 @@ def section():
     by_choice = {choice: (merit, of) for merit, choice, of in found}
     merit, best, of = found[0]
     return ["## What the paper leaves open", "",
-            *wrapped(f"""Clusters of ours stiffen more than the paper's and have fewer A-A contacts. `bench/paper_variants`
+            *wrapped(f"""Clusters of ours stiffen more than the paper's and have fewer A-A contacts. `bench/paper/paper_variants`
                 varies what the paper does not say, one thing at a time and together, in all four specimens
                 ([paper-study.csv](../bench/results/paper-study.csv); seed 1, {SHORT[0]} and {SHORT[1]} Hz):"""), "", *choices(), "",
             *wrapped(f"""Figure of merit of a set: root mean square, over the four specimens, of six misfits from the

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The study of choices that the paper does not state about its specimens: sets of choices, their scenes, and how far
-each set is from Table 5 and Fig. 11. Used by bench/paper_variants, which runs them, and for docs/paper-specimens.md."""
+each set is from Table 5 and Fig. 11. Used by bench/paper/paper_variants, which runs them, and for docs/paper-specimens.md."""
 import math
 import re
 from collections import namedtuple

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The paper's printed numbers: Table 3 (composition), Table 5 (contacts), Fig. 11 (|E*| and phi), and values that
-follow from them alone. Used by scripts/paper-specimens and bench/paper_variants."""
+follow from them alone. Used by bench/paper/paper-specimens and bench/paper/paper_variants."""
 import math
 from dataclasses import dataclass
 

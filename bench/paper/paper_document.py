@@ -36,7 +36,7 @@ class Cells:
     # Exits with a list of the bold cells that have no reason.
     def check(self):
         if self.unexplained:
-            raise SystemExit("more than 10 % off the paper and no reason in scripts/paper_reasons.py:\n  "
+            raise SystemExit("more than 10 % off the paper and no reason in bench/paper/paper_reasons.py:\n  "
                              + "\n  ".join(self.unexplained))
 
 
@@ -190,7 +190,7 @@ def pictures():
 def head(runs):
     return ["# The paper, and ours beside it", "",
             *wrapped(f"""Every table and figure of [the paper](model.md#source) that has specimens in it. Made by
-                `scripts/documents` of what `scripts/paper` leaves in [bench/results](../bench/results); do not edit. Ours, and the paper's in
+                `scripts/documents` of what `bench/paper/paper` leaves in [bench/results](../bench/results); do not edit. Ours, and the paper's in
                 brackets; where the two differ by more than 10 % the cell is bold, and its letter stands for the reason
                 [below](#what-differs-and-why). Means of {len(runs['SS'])} seeds; ± is half the range over the seeds,
                 everywhere. Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`. Figures without numbers in the
