@@ -2,8 +2,8 @@
 // block_lengths.cpp  Measures the error of |E*| and phase from taking steps in blocks, for several block lengths.
 // Writes CSV to standard output.
 //
-// The program repeats the stepping in blocks of the GPU backend (kernels/cuda/tiles/tile_runner.hpp) in simple code and in
-// double precision, for small networks of spheres with fixed geometry, from the steady state. Each row compares with
+// The program repeats the stepping in blocks of the GPU backend (kernels/cuda/tiles/tile_runner.hpp) in simple code and
+// in double precision, for small networks of spheres with fixed geometry, from the steady state. Each row compares with
 // blocks of one step at the same time step and masses. It takes some minutes.
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ struct Case {
   int cycles, cells;
 };
 
-/// A contact stepped in blocks: the values that TileScene holds for a contact, in double precision.
+/// A contact stepped in blocks: the values that TileArrays holds for a contact, in double precision.
 struct Element {
   Placement<double> frame;
   double moments[6];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sampled_run.cpp  Runs the loop over samples for every experiment that is stepped in time. Steps are taken in pieces; after
-// each piece the run looks whether it must stop or write a checkpoint. Samples that need no more than an observation
-// are taken several at a time by one call of the stepper.
+// sampled_run.cpp  Runs the loop over samples for every experiment that is stepped in time. Steps are taken in pieces;
+// after each piece the run looks whether it must stop or write a checkpoint. Samples that need no more than an
+// observation are taken several at a time by one call of the stepper.
 #include "host/run/sampled_run.hpp"
 
 #include <fmt/format.h>
@@ -69,20 +69,20 @@ constexpr double first_seconds = 3;
 
 }  // namespace
 
-Courses::Courses(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
-                 const std::filesystem::path& out, bool resumed, std::function<void(const std::string&)> warn)
+SampledRuns::SampledRuns(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+                         const std::filesystem::path& out, bool resumed, std::function<void(const std::string&)> warn)
     : watcher_(watcher),
       result_(result),
       warn_(std::move(warn)),
       checkpoints_(out / checkpoint_name, scene, prepared, result.backend, watcher.stop, warn_, resumed),
       fields_(scene, prepared, out) {}
 
-void Courses::begin_fields(const std::string& name, int samples, double time) {
+void SampledRuns::begin_fields(const std::string& name, int samples, double time) {
   const InPhase writing(result_.phases, &PhaseSeconds::writing);
   for (const std::string& gap : fields_.begin(name, samples, time)) warn_(gap);
 }
 
-void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry) {
+void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry) {
   const InPhase stepping(result_.phases, &PhaseSeconds::stepping);
   const auto start = Clock::now();
   std::int64_t step = stepper.observe().step;

@@ -44,12 +44,12 @@ struct Course {
 };
 
 /// Runs the courses of an experiment, which share a checkpoint and the field output.
-class Courses {
+class SampledRuns {
  public:
   /// `resumed`: the checkpoint in the folder belongs to this run. All arguments except the path must outlive this
   /// object. \throws RunError
-  Courses(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
-          const std::filesystem::path& out, bool resumed, std::function<void(const std::string&)> warn);
+  SampledRuns(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+              const std::filesystem::path& out, bool resumed, std::function<void(const std::string&)> warn);
 
   /// Begins or continues the series of fields of a course. `samples`: samples per period, or of the whole test.
   void begin_fields(const std::string& name, int samples, double time);

@@ -92,7 +92,7 @@ double affine_modulus(const Scene& scene) {
 }
 
 StepForecast load_steps(const Scene& scene, double critical) {
-  const LoadTest test = load_test_of(scene);
+  const TransientExperiment test = load_test_of(scene);
   StepForecast out;
   out.density_scaling = density_scaling_of(scene.solver, 0);
   const double density = out.density_scaling * std::max(scene.materials.mastic, scene.materials.aggregate);

@@ -25,15 +25,15 @@ constexpr void require_steppable(std::type_identity<std::variant<L...>>) {
 }
 
 /// Calls f(std::integral_constant<int, Units>) with the `Units` of ContactForces that suit the law.
-template <bool room_for_five, class L, class F>
+template <bool five_units_in_registers, class L, class F>
 void dispatch_units(const L& law, F&& f) {
   if constexpr (units_of<L>() >= 0) {
     f(std::integral_constant<int, units_of<L>()>{});
   } else {
     if (law.units() == 3)
       f(std::integral_constant<int, 3>{});
-    else if (room_for_five && law.units() <= 5)
-      f(std::integral_constant < int, room_for_five ? 5 : -1 > {});
+    else if (five_units_in_registers && law.units() <= 5)
+      f(std::integral_constant < int, five_units_in_registers ? 5 : -1 > {});
     else
       f(std::integral_constant<int, -1>{});
   }

@@ -30,7 +30,7 @@ class ExecCpu {
   using R = typename P::Particle;
   using Item = PackItem<width>;
   static constexpr int lanes = static_cast<int>(Item::lanes());
-  static constexpr bool room_for_five = false;
+  static constexpr bool five_units_in_registers = false;
 
   /// Returns tiles of 1024 contacts: their states (200 kB) fit the L2 cache of a core.
   static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
@@ -44,7 +44,7 @@ class ExecCpu {
             std::min(options.threads > 0 ? options.threads : omp_get_max_threads(), static_cast<int>(layout.tiles()))),
         choice_(threads_, options.threads > 0) {}
 
-  bool suits(const ExecStart&) const { return true; }
+  bool can_restart_with(const ExecStart&) const { return true; }
 
   void begin(const ExecStart& start) {
     const std::size_t bodies = layout_.particles() + walls;

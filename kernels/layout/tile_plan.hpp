@@ -6,7 +6,7 @@
 /// of the layout) that one thread block owns. The block computes every contact that touches one of its particles. A
 /// contact between particles of two tiles is computed by both, from the same numbers in the same order of operations,
 /// so only velocities must be exchanged between tiles. TileRunner (tile_runner.hpp) calls plan_tiles() once per
-/// network, before the first step; the kernels read the plan through TileScene (tile_step.hpp).
+/// network, before the first step; the kernels read the plan through TileArrays (tile_step.hpp).
 ///
 /// Reading order of the tile path: this file; tile_step.hpp (one step of one contact, and the arrays);
 /// shared_memory_map.hpp and resident_kernel.hpp (the kernel that keeps tiles in registers and shared memory);

@@ -42,7 +42,9 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   typename E::AnyLaw;  // std::variant<…> of the laws that it can step
   { E::lanes + 0 } -> std::convertible_to<int>;
   { E::tile_size(network, start.options) } -> std::same_as<TileSize>;
-  { read.suits(start) } -> std::same_as<bool>;  // whether a start with these options can use the groups set before
+  {
+    read.can_restart_with(start)
+    } -> std::same_as<bool>;  // whether a start with these options can use the groups set before
   exec.begin(start);
   { exec.wall_table(std::size_t{}) } -> std::same_as<const typename E::Policy::Particle*>;
   exec.set_bodies(words, words);

@@ -66,7 +66,7 @@ class StepperImpl final : public Stepper {
                       o.ranks);
     };
     if (kept(next) != kept(options_) || network.contacts.size() != contacts_ || !keep_alike(facts, facts_of(laws_)) ||
-        !exec_.suits({next, facts, size_, false, 0}))
+        !exec_.can_restart_with({next, facts, size_, false, 0}))
       return false;
     options_ = next;
     begin(network, laws, inertia, false);
@@ -89,8 +89,8 @@ class StepperImpl final : public Stepper {
   std::vector<Sample> advance_sampled(std::int64_t every, std::int64_t times) override {
     exec_.use_device();
     if constexpr (takes_notes) {
-      const auto notes = static_cast<std::int64_t>(exec_.most_notes(radius_));
-      if (notes > 0) return advance_noted(every, std::clamp<std::int64_t>(times, 1, notes));
+      const auto samples = static_cast<std::int64_t>(exec_.max_samples(radius_));
+      if (samples > 0) return advance_noted(every, std::clamp<std::int64_t>(times, 1, samples));
     }
     return Stepper::advance_sampled(every, 1);
   }
@@ -372,7 +372,7 @@ class StepperImpl final : public Stepper {
     });
   }
 
-  static constexpr bool takes_notes = requires(Exec & e, const std::vector<double>& radius) { e.most_notes(radius); };
+  static constexpr bool takes_notes = requires(Exec & e, const std::vector<double>& radius) { e.max_samples(radius); };
 
   /// Steps that are enqueued in several parts, and the rows of the walls' table that are filled in for them.
   struct StepsToTake {
@@ -394,22 +394,22 @@ class StepperImpl final : public Stepper {
     }
   }
 
-  /// Does the same as advance_sampled(), for an executor that takes samples on the device (notes).
+  /// Does the same as advance_sampled(), for an executor that takes samples on the device (samples).
   std::vector<Sample> advance_noted(std::int64_t every, std::int64_t times) {
     StepsToTake all{step_, step_ + every * times};
     std::vector<Sample> out;
     try {
       for (std::int64_t k = 0; k < times; ++k) {
         queue_until(step_ + every, all);
-        exec_.note(static_cast<std::size_t>(k));
+        exec_.take_sample(static_cast<std::size_t>(k));
       }
-      const auto& notes = exec_.wait_for_notes(static_cast<std::size_t>(times));
+      const auto& samples = exec_.wait_for_samples(static_cast<std::size_t>(times));
       for (std::int64_t k = 0; k < times; ++k) {
-        const auto& note = notes[static_cast<std::size_t>(k)];
+        const auto& sample = samples[static_cast<std::size_t>(k)];
         const auto list = [](const auto& of) { return std::vector(std::begin(of), std::end(of)); };
-        out.push_back({observation(all.begin + (k + 1) * every, Exec::twists(list(note.force)), list(note.displacement),
-                                   list(note.velocity)),
-                       Exec::number_or_none(note.divergent)});
+        out.push_back({observation(all.begin + (k + 1) * every, Exec::twists(list(sample.force)),
+                                   list(sample.displacement), list(sample.velocity)),
+                       Exec::number_or_none(sample.divergent)});
       }
     } catch (...) {
       exec_.end_steps();
@@ -457,7 +457,7 @@ class StepperImpl final : public Stepper {
                          {}, step, static_cast<State>(options_.dt)});
             });
           };
-          dispatch_units<Exec::room_for_five>(law, [&](auto units) {
+          dispatch_units<Exec::five_units_in_registers>(law, [&](auto units) {
             if constexpr (linear_law<L>) {
               dispatch<ContactForm::condensed, ContactForm::points>(options_.form,
                                                                     [&](auto form) { with(units, form); });

@@ -16,8 +16,8 @@ namespace macadam::kernels {
 namespace {
 
 using namespace std::chrono_literals;
-using Share = DeviceRoom::Share;
-using Event = DeviceRoom::Event;
+using Share = MultiprocessorLease::Share;
+using Event = MultiprocessorLease::Event;
 
 /// A specimen that needs the number of multiprocessors in `share` on each device; every device has 100.
 class Specimen {
@@ -30,16 +30,16 @@ class Specimen {
       Share all;
       for (const auto& [device, number] : share_) all[device] = 100;
       Event behind = nullptr;
-      DeviceRoom::take(number_, share_, all, [&](Event end) { behind = end; });
+      MultiprocessorLease::take(number_, share_, all, [&](Event end) { behind = end; });
       return behind;
     });
   }
-  void queues_all() { DeviceRoom::is_queued(number_, end()); }
-  void gives() { DeviceRoom::give(number_); }
+  void queues_all() { MultiprocessorLease::is_queued(number_, end()); }
+  void gives() { MultiprocessorLease::give(number_); }
   Event end() { return &end_; }
 
  private:
-  std::uint64_t number_ = DeviceRoom::next_number();
+  std::uint64_t number_ = MultiprocessorLease::next_number();
   Share share_;
   char end_ = 0;
 };
@@ -49,7 +49,7 @@ bool waits(std::future<Event>& taken) { return taken.wait_for(50ms) == std::futu
 
 /// While the first specimen still queues steps the second waits. Then it is queued behind the end of the first; only
 /// one specimen may queue behind another.
-TEST(DeviceRoom, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
+TEST(MultiprocessorLease, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
   Specimen a(Share{{0, 90}}), b(Share{{0, 90}}), c(Share{{0, 90}});
   EXPECT_EQ(a.takes().get(), nullptr);
   std::future<Event> second = b.takes();
@@ -73,24 +73,24 @@ TEST(DeviceRoom, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
 
 // Specimens get their turn in the order of their numbers, which is the order of their creation, whatever their size and
 // the order of their requests.
-TEST(DeviceRoom, GivesTurnsByTheSpecimensNumbers) {
-  const DeviceRoom::Share whole{{700, 10}}, small{{700, 4}}, other{{701, 1}}, of_device{{700, 10}, {701, 10}};
+TEST(MultiprocessorLease, GivesTurnsByTheSpecimensNumbers) {
+  const MultiprocessorLease::Share whole{{700, 10}}, small{{700, 4}}, other{{701, 1}}, of_device{{700, 10}, {701, 10}};
   std::mutex mutex;
   std::vector<char> order;
-  const std::uint64_t first = DeviceRoom::next_number();
-  for (std::uint64_t k = 1; k < 5; ++k) ASSERT_EQ(DeviceRoom::next_number(), first + k);
-  const auto take = [&](std::uint64_t number, const DeviceRoom::Share& share, char name) {
-    DeviceRoom::take(first + number, share, of_device, nowhere);
+  const std::uint64_t first = MultiprocessorLease::next_number();
+  for (std::uint64_t k = 1; k < 5; ++k) ASSERT_EQ(MultiprocessorLease::next_number(), first + k);
+  const auto take = [&](std::uint64_t number, const MultiprocessorLease::Share& share, char name) {
+    MultiprocessorLease::take(first + number, share, of_device, nowhere);
     {
       const std::lock_guard lock(mutex);
       order.push_back(name);
     }
-    DeviceRoom::give(first + number);
+    MultiprocessorLease::give(first + number);
   };
   const auto until_it_waits = [&](std::uint64_t number) {
-    while (!DeviceRoom::waits(first + number)) std::this_thread::yield();
+    while (!MultiprocessorLease::waits(first + number)) std::this_thread::yield();
   };
-  DeviceRoom::take(first, small, of_device, nowhere);
+  MultiprocessorLease::take(first, small, of_device, nowhere);
   std::thread young([&] { take(4, whole, 'y'); });
   until_it_waits(4);
   std::thread large([&] { take(2, whole, 'L'); });
@@ -98,14 +98,14 @@ TEST(DeviceRoom, GivesTurnsByTheSpecimensNumbers) {
   std::thread late([&] { take(3, small, 's'); });  // it would fit beside the first, but it is not its turn
   until_it_waits(3);
   take(1, other, 'o');  // another device is free
-  DeviceRoom::give(first);
+  MultiprocessorLease::give(first);
   for (std::thread* t : {&young, &large, &late}) t->join();
   EXPECT_EQ(order, (std::vector<char>{'o', 'L', 's', 'y'}));
 }
 
 /// Specimens that fit on the device together run side by side. A third would have to wait for both, so it waits on the
 /// host.
-TEST(DeviceRoom, SmallSpecimensAreSideBySide) {
+TEST(MultiprocessorLease, SmallSpecimensAreSideBySide) {
   Specimen a(Share{{2, 40}}), b(Share{{2, 40}}), c(Share{{2, 40}});
   EXPECT_EQ(a.takes().get(), nullptr);
   EXPECT_EQ(b.takes().get(), nullptr);
@@ -120,7 +120,7 @@ TEST(DeviceRoom, SmallSpecimensAreSideBySide) {
 }
 
 /// A specimen on several devices waits until all of them are free or can be queued behind.
-TEST(DeviceRoom, SpecimensOnSeveralDevicesWaitForAllOfThem) {
+TEST(MultiprocessorLease, SpecimensOnSeveralDevicesWaitForAllOfThem) {
   Specimen a(Share{{3, 90}}), both(Share{{3, 90}, {4, 90}}), b(Share{{4, 90}});
   a.takes().get();
   a.queues_all();
@@ -143,7 +143,7 @@ class Solution {
   explicit Solution(DeviceList devices)
       : thread_([this, devices = std::move(devices)] {
           Event behind = nullptr;
-          const DeviceRoom::ForSolution room(devices, [&](Event end) { behind = end; });
+          const MultiprocessorLease::ForSolution room(devices, [&](Event end) { behind = end; });
           begun_.set_value(behind);
           end_.get_future().wait();
         }) {}
@@ -163,7 +163,7 @@ class Solution {
 };
 
 /// A solution is served before a stepper that is waiting.
-TEST(DeviceRoom, ASolutionGoesBeforeStepsThatWait) {
+TEST(MultiprocessorLease, ASolutionGoesBeforeStepsThatWait) {
   Specimen a(Share{{5, 90}}), b(Share{{5, 90}});
   a.takes().get();
   std::future<Event> second = b.takes();
@@ -179,7 +179,7 @@ TEST(DeviceRoom, ASolutionGoesBeforeStepsThatWait) {
 }
 
 /// A solution uses all multiprocessors of its devices; steppers on these devices wait.
-TEST(DeviceRoom, ASolutionHasItsDevicesToItself) {
+TEST(MultiprocessorLease, ASolutionHasItsDevicesToItself) {
   Specimen small(Share{{6, 1}}), other(Share{{7, 1}}), elsewhere(Share{{8, 1}});
   Solution both({6, 7});
   EXPECT_EQ(both.begins().get(), nullptr);
@@ -199,12 +199,12 @@ TEST(DeviceRoom, ASolutionHasItsDevicesToItself) {
 
 /// A specimen cannot release its multiprocessors while another is being queued behind its event, which might be
 /// destroyed.
-TEST(DeviceRoom, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
+TEST(MultiprocessorLease, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
   Specimen a(Share{{9, 90}});
   a.takes().get();
   a.queues_all();
   std::future<void> given;
-  const DeviceRoom::ForSolution solution({9}, [&](Event) {
+  const MultiprocessorLease::ForSolution solution({9}, [&](Event) {
     given = std::async(std::launch::async, [&] { a.gives(); });
     EXPECT_EQ(given.wait_for(50ms), std::future_status::timeout) << "its event might be gone";
   });
@@ -212,11 +212,12 @@ TEST(DeviceRoom, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
 }
 
 /// If queueing behind an event fails, the solution does not keep the device.
-TEST(DeviceRoom, WhoCannotBeQueuedHasNoRoom) {
+TEST(MultiprocessorLease, WhoCannotBeQueuedHasNoRoom) {
   Specimen a(Share{{10, 90}}), b(Share{{10, 90}});
   a.takes().get();
   a.queues_all();
-  EXPECT_THROW(DeviceRoom::ForSolution({10}, [](Event) { throw std::runtime_error("lost"); }), std::runtime_error);
+  EXPECT_THROW(MultiprocessorLease::ForSolution({10}, [](Event) { throw std::runtime_error("lost"); }),
+               std::runtime_error);
   EXPECT_EQ(b.takes().get(), a.end());
   a.gives();
   b.gives();

@@ -154,8 +154,8 @@ class Steps : public Solution {
   }
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
-    Courses courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_,
-                    [&](const std::string& warning) { warn(warning, result); });
+    SampledRuns courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_,
+                        [&](const std::string& warning) { warn(warning, result); });
     std::optional<LineWriter> writer;
     if (scene_.output.response) {
       writer.emplace(out / "response.csv", "frequency_hz,time_s,strain,stress_pa");
@@ -222,7 +222,7 @@ class Steps : public Solution {
     return steady_start(prepared_.network, scene_.laws, p.motion, p.loading);
   }
 
-  void step(std::size_t i, LineWriter* writer, Courses& courses, const Saving& save, RunResult& result) {
+  void step(std::size_t i, LineWriter* writer, SampledRuns& courses, const Saving& save, RunResult& result) {
     const auto start = Clock::now();
     const double before = std::exchange(at_.seconds_running, 0);
     const FrequencyPlan& p = at_.plan.frequencies[i];

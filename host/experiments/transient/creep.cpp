@@ -21,8 +21,8 @@ double loaded(const LoadTimes& when, double t) {
 
 }  // namespace
 
-LoadTest load_test(const Creep& spec) {
-  LoadTest out;
+TransientExperiment load_test(const Creep& spec) {
+  TransientExperiment out;
   out.kind = spec.kind;
   out.history = {spec.times, {{0, spec.ramp}}};
   if (spec.release) out.history.ramps.push_back({*spec.release, spec.ramp});

@@ -38,7 +38,7 @@ LoadTimes on_steps(const LoadTimes& asked, double ramp, double dt) {
 }
 
 /// Returns the range of times after a change of load that the rows need, for the load as asked and as in the run.
-std::pair<double, double> range_of(const LoadTest& test, const LoadPlan& plan) {
+std::pair<double, double> range_of(const TransientExperiment& test, const LoadPlan& plan) {
   std::vector<double> times;
   for (const double t : test.history.times) times.push_back(static_cast<double>(plan.step_at(t)) * plan.dt);
   std::pair<double, double> out{std::numeric_limits<double>::infinity(), 0};
@@ -54,8 +54,9 @@ std::pair<double, double> range_of(const LoadTest& test, const LoadPlan& plan) {
 
 }  // namespace
 
-std::optional<UnsteppedAnswer> solve_unstepped(const LoadTest& test, const Scene& scene, const Preparation& prepared,
-                                               const Watcher& watcher, Backend backend, LoadPlan& plan) {
+std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, const Scene& scene,
+                                               const Preparation& prepared, const Watcher& watcher, Backend backend,
+                                               LoadPlan& plan) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     const auto law = facts_of(scene.laws)[pair];
     if (!law || law->linear) continue;
@@ -89,8 +90,8 @@ std::optional<UnsteppedAnswer> solve_unstepped(const LoadTest& test, const Scene
   }
 }
 
-LoadErrors::LoadErrors(const LoadTest& test, const Scene& scene, const Preparation& prepared, double heavy_density,
-                       const LoadPlan& plan, const std::optional<UnsteppedAnswer>& unstepped)
+LoadErrors::LoadErrors(const TransientExperiment& test, const Scene& scene, const Preparation& prepared,
+                       double heavy_density, const LoadPlan& plan, const std::optional<UnsteppedAnswer>& unstepped)
     : test_(test), plan_(plan), asked_(on_steps(test.when, test.when.ramp, plan.dt)) {
   run_ = on_steps(test.when, plan.ramp, plan.dt);
   if (unstepped) {

@@ -19,14 +19,15 @@ struct UnsteppedAnswer {
 
 /// Solves the relaxation for the times of the rows. Returns nothing if that fails, and appends the reason to the
 /// decisions of the plan. \throws InterruptedError
-std::optional<UnsteppedAnswer> solve_unstepped(const LoadTest& test, const Scene& scene, const Preparation& prepared,
-                                               const Watcher& watcher, Backend backend, LoadPlan& plan);
+std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, const Scene& scene,
+                                               const Preparation& prepared, const Watcher& watcher, Backend backend,
+                                               LoadPlan& plan);
 
 /// Errors of the rows of one stepped test, relative: of the stress, or, if the load is a stress, of the strain.
 class LoadErrors {
  public:
   /// `heavy_density`: mean density, including the density scaling [kg/m³]. The plan must outlive this object.
-  LoadErrors(const LoadTest& test, const Scene& scene, const Preparation& prepared, double heavy_density,
+  LoadErrors(const TransientExperiment& test, const Scene& scene, const Preparation& prepared, double heavy_density,
              const LoadPlan& plan, const std::optional<UnsteppedAnswer>& unstepped);
 
   /// Returns the error of a row. `before`: the earlier rows.
@@ -60,7 +61,7 @@ class LoadErrors {
   bool is_released(double time) const { return asked_.release && time > *asked_.release; }
   std::string advice(const Parts& parts) const;
 
-  const LoadTest test_;
+  const TransientExperiment test_;
   const LoadPlan& plan_;
   std::optional<Spectrum> spectrum_;
   LoadTimes asked_, run_;  ///< times in the scene, and times in the run, where the release is rounded to a whole step

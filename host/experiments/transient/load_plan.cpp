@@ -18,7 +18,7 @@ namespace {
 
 class LoadPlanner {
  public:
-  LoadPlanner(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Inertia& inertia)
+  LoadPlanner(const TransientExperiment& test, const Scene& scene, const Preparation& prepared, const Inertia& inertia)
       : test_(test), scene_(scene), prepared_(prepared), inertia_(inertia) {}
 
   LoadPlan make() {
@@ -108,7 +108,7 @@ class LoadPlanner {
     if (plan_.dt > stable) decide("the given step is {:.2f} of the largest that is surely stable", plan_.dt / stable);
   }
 
-  const LoadTest& test_;
+  const TransientExperiment& test_;
   const Scene& scene_;
   const Preparation& prepared_;
   const Inertia& inertia_;
@@ -130,11 +130,12 @@ double affine_modulus(const ContactNetwork& network, const FactsTable& laws, dou
 
 std::int64_t LoadPlan::step_at(double time) const { return std::max<std::int64_t>(1, std::llround(time / dt)); }
 
-LoadPlan make_load_plan(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Inertia& inertia) {
+LoadPlan make_load_plan(const TransientExperiment& test, const Scene& scene, const Preparation& prepared,
+                        const Inertia& inertia) {
   return LoadPlanner(test, scene, prepared, inertia).make();
 }
 
-Boundary boundary_of(const LoadTest& test, const LoadPlan& plan, const Box& box) {
+Boundary boundary_of(const TransientExperiment& test, const LoadPlan& plan, const Box& box) {
   Boundary out;
   if (test.by_stress) {
     out.load(wall_z_hi, 2, test.drive(box.size.x * box.size.y, plan.dt, plan.ramp), plan.platen_mass);

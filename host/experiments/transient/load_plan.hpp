@@ -31,13 +31,14 @@ struct LoadPlan {
 /// Keeps what the scene gives and chooses the rest; docs/relaxation.md explains how. \throws InputError for settings
 /// that do not apply to stepped tests of a load; RunError if the step is hopelessly small, or if the top wall touches
 /// nothing.
-LoadPlan make_load_plan(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Inertia& inertia);
+LoadPlan make_load_plan(const TransientExperiment& test, const Scene& scene, const Preparation& prepared,
+                        const Inertia& inertia);
 
 /// Returns the instantaneous modulus that the network would have if all its parts had the same strain [Pa]. The true
 /// modulus is at most this one. `volume`: volume of the box [m³].
 double affine_modulus(const ContactNetwork& network, const FactsTable& laws, double volume);
 
 /// Returns the load on the top wall as a boundary condition.
-Boundary boundary_of(const LoadTest& test, const LoadPlan& plan, const Box& box);
+Boundary boundary_of(const TransientExperiment& test, const LoadPlan& plan, const Box& box);
 
 }  // namespace macadam

@@ -20,7 +20,7 @@ namespace {
 constexpr double largest_wave = 2e-5;
 
 /// Returns the shortest time from a change of the load's rate to a point [s].
-double shortest_pause(const LoadTest& test, double ramp) {
+double shortest_pause(const TransientExperiment& test, double ramp) {
   std::vector<double> changes{0};
   if (!test.grows) changes.push_back(ramp);
   if (test.when.release) changes.insert(changes.end(), {*test.when.release, *test.when.release + ramp});
@@ -37,11 +37,11 @@ double shortest_pause(const LoadTest& test, double ramp) {
 
 }  // namespace
 
-double slowest_period(const LoadTest& test, double height, double modulus, double density) {
+double slowest_period(const TransientExperiment& test, double height, double modulus, double density) {
   return (test.by_stress ? 4 : 2) * height / std::sqrt(modulus / density);
 }
 
-double ramp_of(const LoadTest& test, double slowest) {
+double ramp_of(const TransientExperiment& test, double slowest) {
   const double given = test.grows ? test.history.times.back() : test.when.ramp;
   return given > 0 ? given : slowest;
 }
@@ -49,7 +49,7 @@ double ramp_of(const LoadTest& test, double slowest) {
 // Weak damping leaves waves, and strong damping delays the slow motion: β is the least that the points need. A ramp
 // causes waves; their part of the stress is the time that a wave takes through the specimen over the duration of the
 // ramp. After a time t, viscous damping leaves e^(−β·t/2) of them.
-LoadDamping damping_of(const LoadTest& test, const SolverSpec& solver, double ramp, double slowest) {
+LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, double ramp, double slowest) {
   LoadDamping out{solver.damping_kind, solver.damping};
   if (solver.damping_given) return out;
   out.pause = shortest_pause(test, ramp);
@@ -62,8 +62,8 @@ LoadDamping damping_of(const LoadTest& test, const SolverSpec& solver, double ra
   return out;
 }
 
-double load_step(const LoadTest& test, const SolverSpec& solver, double critical, double density_scaling, double ramp,
-                 const LoadDamping& damping) {
+double load_step(const TransientExperiment& test, const SolverSpec& solver, double critical, double density_scaling,
+                 double ramp, const LoadDamping& damping) {
   constexpr double usual_safety = 0.8;
   const double safe = solver.safety.value_or(usual_safety) * critical * std::sqrt(density_scaling);
   double step = solver.time_step.value_or(safe);

@@ -9,11 +9,11 @@ namespace macadam {
 
 /// Returns the period of the slowest wave [s] of a specimen that is held at both ends, or loaded by a stress at one
 /// end. `modulus`: instantaneous modulus [Pa]; `density`: scaled density [kg/m³].
-double slowest_period(const LoadTest& test, double height, double modulus, double density);
+double slowest_period(const TransientExperiment& test, double height, double modulus, double density);
 
 /// Returns the time in which the load grows [s]: the duration of the test for a constant rate, otherwise the ramp of
 /// the scene. If that ramp is 0 (instantaneous load), returns `slowest`, the period of the slowest wave.
-double ramp_of(const LoadTest& test, double slowest);
+double ramp_of(const TransientExperiment& test, double slowest);
 
 /// Damping of a stepped test.
 struct LoadDamping {
@@ -26,11 +26,11 @@ struct LoadDamping {
 
 /// Returns the damping of the scene. If it gives none, returns the weakest viscous damping with which waves have died
 /// out at the points of the result.
-LoadDamping damping_of(const LoadTest& test, const SolverSpec& solver, double ramp, double slowest);
+LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, double ramp, double slowest);
 
 /// Returns the longest time step that the rules allow [s]; a ramp has a whole number of steps. `critical`: critical
 /// time step without density scaling [s]. \throws RunError for too many steps, as require_possible() does.
-double load_step(const LoadTest& test, const SolverSpec& solver, double critical, double density_scaling, double ramp,
-                 const LoadDamping& damping);
+double load_step(const TransientExperiment& test, const SolverSpec& solver, double critical, double density_scaling,
+                 double ramp, const LoadDamping& damping);
 
 }  // namespace macadam

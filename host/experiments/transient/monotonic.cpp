@@ -8,9 +8,9 @@ namespace macadam {
 using experiments::Monotonic;
 using experiments::ResponsePoint;
 
-LoadTest load_test(const Monotonic& spec) {
+TransientExperiment load_test(const Monotonic& spec) {
   const double end = spec.times.back();
-  LoadTest out;
+  TransientExperiment out;
   out.kind = spec.kind;
   out.history = {spec.times, {{0, end}}};
   out.poisson_ratio = spec.poisson_ratio;

@@ -11,8 +11,8 @@ namespace macadam {
 using experiments::Relaxation;
 using experiments::ResponsePoint;
 
-LoadTest load_test(const Relaxation& spec) {
-  LoadTest out;
+TransientExperiment load_test(const Relaxation& spec) {
+  TransientExperiment out;
   out.kind = spec.kind;
   out.history = {spec.times, {{0, spec.ramp}}};
   out.poisson_ratio = spec.poisson_ratio;

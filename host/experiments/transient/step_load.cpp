@@ -49,7 +49,7 @@ double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
 /// A stepped test of a load, from its planning to its results.
 class SteppedLoad : public Solution {
  public:
-  SteppedLoad(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+  SteppedLoad(const TransientExperiment& test, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
               Inertia inertia, LoadState at, bool resumed)
       : test_(test),
         scene_(scene),
@@ -121,7 +121,7 @@ class SteppedLoad : public Solution {
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     auto& found = std::get<SteppedResponse>(result.found);
-    Courses courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_, [&](const std::string& warning) {
+    SampledRuns courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_, [&](const std::string& warning) {
       at_.warnings.push_back(warning);
       result.warnings.push_back(warning);
       if (watcher_.warn) watcher_.warn(warning);
@@ -292,7 +292,7 @@ class SteppedLoad : public Solution {
     if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
   }
 
-  const LoadTest test_;
+  const TransientExperiment test_;
   const Scene& scene_;
   const Preparation& prepared_;
   const Watcher& watcher_;
@@ -308,8 +308,9 @@ class SteppedLoad : public Solution {
 
 }  // namespace
 
-std::unique_ptr<Solution> plan_load_steps(const LoadTest& test, const Scene& scene, const Preparation& prepared,
-                                          const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result) {
+std::unique_ptr<Solution> plan_load_steps(const TransientExperiment& test, const Scene& scene,
+                                          const Preparation& prepared, const Watcher& watcher,
+                                          std::optional<Resumed> resumed, RunResult& result) {
   const InPhase planning(result.phases, &PhaseSeconds::planning);
   const auto start = Clock::now();
   Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// transient_experiment.cpp  Defines names and files of the tests of a load, and computes their response from the specimen's
-// spectrum.
+// transient_experiment.cpp  Defines names and files of the tests of a load, and computes their response from the
+// specimen's spectrum.
 #include "host/experiments/transient/transient_experiment.hpp"
 
 #include <fmt/format.h>
@@ -43,9 +43,9 @@ const LoadWords& words_of(const std::string& kind) {
   return all_words[0];
 }
 
-LoadTest load_test_of(const Scene& scene) {
+TransientExperiment load_test_of(const Scene& scene) {
   return std::visit(
-      []<class Spec>(const Spec& spec) -> LoadTest {
+      []<class Spec>(const Spec& spec) -> TransientExperiment {
         if constexpr (requires { load_test(spec); })
           return load_test(spec);
         else
@@ -82,7 +82,7 @@ std::string shown_line(const LoadWords& words, const char* ratio, const Response
                      std::isnan(p.ratio) ? "-" : fmt::format("{:.6g}", p.ratio / words.unit), width_of(ratio));
 }
 
-void add_load(const LoadTest& test, nlohmann::ordered_json& out) {
+void add_load(const TransientExperiment& test, nlohmann::ordered_json& out) {
   for (const auto& [name, value] : test.load) {
     out[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   }
@@ -96,8 +96,9 @@ std::vector<std::string> load_files(const std::string& kind, const Scene& scene)
   return out;
 }
 
-std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scene, const Preparation& prepared,
-                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result) {
+std::unique_ptr<Solution> plan_load_test(const TransientExperiment& test, const Scene& scene,
+                                         const Preparation& prepared, const Watcher& watcher,
+                                         std::optional<Resumed> resumed, RunResult& result) {
   if (scene.solver.method == SolverMethod::explicit_) {
     return plan_load_steps(test, scene, prepared, watcher, std::move(resumed), result);
   }

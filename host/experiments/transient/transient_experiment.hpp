@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file transient_experiment.hpp  Defines the common part of relaxation, creep and constant-rate tests: a load on the top wall
-/// that varies in time, and the response at some times.
+/// \file transient_experiment.hpp  Defines the common part of relaxation, creep and constant-rate tests: a load on the
+/// top wall that varies in time, and the response at some times.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ struct LoadTimes {
 };
 
 /// Describes one of these tests. Both methods, stepped and without steps, use it.
-struct LoadTest {
+struct TransientExperiment {
   std::string kind;
   History history;
   double poisson_ratio = 0;
@@ -46,12 +46,12 @@ struct LoadTest {
 
 /// Return the description of a test; each is defined in its own folder.
 /// @{
-LoadTest load_test(const experiments::Relaxation& spec);
-LoadTest load_test(const experiments::Creep& spec);
-LoadTest load_test(const experiments::Monotonic& spec);
+TransientExperiment load_test(const experiments::Relaxation& spec);
+TransientExperiment load_test(const experiments::Creep& spec);
+TransientExperiment load_test(const experiments::Monotonic& spec);
 /// @}
 /// Returns the description of the scene's test; an empty one for other experiments.
-LoadTest load_test_of(const Scene& scene);
+TransientExperiment load_test_of(const Scene& scene);
 
 /// Names and units of a kind's numbers.
 struct LoadWords {
@@ -75,14 +75,15 @@ std::string shown_line(const LoadWords& words, const char* ratio, const experime
 /// @}
 
 /// Adds the load that the scene requests to an entry of `results`.
-void add_load(const LoadTest& test, nlohmann::ordered_json& out);
+void add_load(const TransientExperiment& test, nlohmann::ordered_json& out);
 
 /// Returns the names of a kind's result files: its table, the table of cracks if points can break, and without steps
 /// the tables of the material.
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
 /// Plans a test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
-std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scene, const Preparation& prepared,
-                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
+std::unique_ptr<Solution> plan_load_test(const TransientExperiment& test, const Scene& scene,
+                                         const Preparation& prepared, const Watcher& watcher,
+                                         std::optional<Resumed> resumed, RunResult& result);
 
 }  // namespace macadam

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sample_buffer.hpp  Takes samples of a run on the device while the run continues. A note in the identifiers is a
-/// sample.
+/// \file sample_buffer.hpp  Takes samples of a run on the device while the run continues.
 ///
 /// A sample holds the wall forces, the motion of the walls, and the first particle that has diverged. ExecCudaTiles
 /// enqueues samples between steps. The host reads several at a time: it waits once for all of them, and the device
@@ -18,7 +17,7 @@ namespace macadam::kernels {
 
 /// One sample, in the words of the kernels. R: precision of the particles.
 template <class R>
-struct Note {
+struct DeviceSample {
   R force[walls * velocity_words];                  ///< exerted by the particles [N, N·m]
   R velocity[walls * velocity_words];               ///< at the last half step [m/s, rad/s]
   double displacement[walls * displacement_words];  ///< at the whole step [m, rad]
@@ -27,49 +26,53 @@ struct Note {
 };
 
 /// Writes everything except `divergent` into a sample. One thread block. The arrays are the arrays of the walls, in the
-/// order of Note.
+/// order of DeviceSample.
 template <class R>
-__global__ void take_note(Note<R>* note, const R* force, const R* velocity, const double* displacement) {
+__global__ void take_sample(DeviceSample<R>* sample, const R* force, const R* velocity, const double* displacement) {
   for (unsigned i = threadIdx.x; i < walls * velocity_words; i += blockDim.x) {
-    note->force[i] = force[i];
-    note->velocity[i] = velocity[i];
+    sample->force[i] = force[i];
+    sample->velocity[i] = velocity[i];
   }
   for (unsigned i = threadIdx.x; i < walls * displacement_words; i += blockDim.x)
-    note->displacement[i] = displacement[i];
+    sample->displacement[i] = displacement[i];
 }
 
 /// Samples on the device, and their copies on the host.
 template <class R>
-class Notes {
+class DeviceSamples {
  public:
   static constexpr std::size_t most = 64;  ///< largest number of samples before they are read
 
-  Notes() : taken_(most) { check_cuda(cudaMallocHost(&read_, most * sizeof(Note<R>)), "pinned memory"); }
-  Notes(const Notes&) = delete;
-  ~Notes() { cudaFreeHost(read_); }
+  DeviceSamples() : taken_(most) {
+    check_cuda(cudaMallocHost(&read_, most * sizeof(DeviceSample<R>)), "pinned memory");
+  }
+  DeviceSamples(const DeviceSamples&) = delete;
+  ~DeviceSamples() { cudaFreeHost(read_); }
 
   /// Enqueues that no sample reports a diverged particle.
-  void clear(cudaStream_t stream) { check_cuda(cudaMemsetAsync(taken_.data(), 0xff, taken_.bytes(), stream), "notes"); }
+  void clear(cudaStream_t stream) {
+    check_cuda(cudaMemsetAsync(taken_.data(), 0xff, taken_.bytes(), stream), "samples");
+  }
   /// Enqueues the copy of wall forces and motion into sample `k`. The diverged particle is written separately, to
   /// divergent(k).
   void take(std::size_t k, const R* force, const R* velocity, const double* displacement, cudaStream_t stream) {
-    launch("notes", take_note<R>, 1, walls * displacement_words, 0, stream, taken_.data() + k, force, velocity,
+    launch("samples", take_sample<R>, 1, walls * displacement_words, 0, stream, taken_.data() + k, force, velocity,
            displacement);
   }
   /// Returns the device address of the diverged particle of sample `k`.
   std::uint32_t* divergent(std::size_t k) { return &(taken_.data() + k)->divergent; }
   /// Enqueues the copy of the first `number` samples to the host.
   void read(std::size_t number, cudaStream_t stream) {
-    check_cuda(cudaMemcpyAsync(read_, taken_.data(), number * sizeof(Note<R>), cudaMemcpyDeviceToHost, stream),
-               "notes");
+    check_cuda(cudaMemcpyAsync(read_, taken_.data(), number * sizeof(DeviceSample<R>), cudaMemcpyDeviceToHost, stream),
+               "samples");
   }
   /// Returns sample `k` as it was read.
-  const Note<R>& operator[](std::size_t k) const { return read_[k]; }
+  const DeviceSample<R>& operator[](std::size_t k) const { return read_[k]; }
   std::int64_t bytes() const { return static_cast<std::int64_t>(taken_.bytes()); }
 
  private:
-  DeviceArray<Note<R>> taken_;
-  Note<R>* read_ = nullptr;  // pinned host memory
+  DeviceArray<DeviceSample<R>> taken_;
+  DeviceSample<R>* read_ = nullptr;  // pinned host memory
 };
 
 }  // namespace macadam::kernels

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file multiprocessor_lease.hpp  Decides which specimen may use the multiprocessors of a device if several specimens share it.
+/// \file multiprocessor_lease.hpp  Decides which specimen may use the multiprocessors of a device if several specimens
+/// share it.
 ///
 /// The thread blocks of a launch of resident tiles wait for one another, and each occupies one multiprocessor. If two
 /// such launches each had only some of the multiprocessors that they need, neither would end. So a specimen takes as
@@ -31,7 +32,7 @@
 namespace macadam::kernels {
 
 /// The leases of all devices of this process. All functions may be called from any thread.
-class DeviceRoom {
+class MultiprocessorLease {
  public:
   /// Number of multiprocessors of each device.
   using Share = std::map<int, int>;
@@ -46,7 +47,7 @@ class DeviceRoom {
   /// kind rise. All numbers of solutions are below all numbers of specimens.
   static std::uint64_t next_number(Work work = Work::steps) {
     constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
-    DeviceRoom& room = instance();
+    MultiprocessorLease& room = instance();
     const std::lock_guard lock(room.mutex_);
     return room.next_++ + (work == Work::steps ? first_of_steps : 0);
   }
@@ -54,7 +55,7 @@ class DeviceRoom {
   /// be free at an event. In the latter case, calls `queue_behind` with that event while the lock prevents its owner
   /// from destroying it. `of_device`: number of multiprocessors that each device has.
   static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
-    DeviceRoom& room = instance();
+    MultiprocessorLease& room = instance();
     std::unique_lock lock(room.mutex_);
     room.waiting_[number] = wanted;
     Event end = nullptr;
@@ -69,7 +70,7 @@ class DeviceRoom {
   }
   /// Reports that all work of a specimen is enqueued; `end` is the event behind it.
   static void is_queued(std::uint64_t number, Event end) {
-    DeviceRoom& room = instance();
+    MultiprocessorLease& room = instance();
     {
       const std::lock_guard lock(room.mutex_);
       room.taken_.at(number).end = end;
@@ -78,13 +79,13 @@ class DeviceRoom {
   }
   /// Returns whether a specimen or solution waits for its turn.
   static bool waits(std::uint64_t number) {
-    DeviceRoom& room = instance();
+    MultiprocessorLease& room = instance();
     const std::lock_guard lock(room.mutex_);
     return room.waiting_.contains(number);
   }
   /// Gives back what `number` has taken.
   static void give(std::uint64_t number) {
-    DeviceRoom& room = instance();
+    MultiprocessorLease& room = instance();
     {
       const std::lock_guard lock(room.mutex_);
       room.taken_.erase(number);
@@ -150,8 +151,8 @@ class DeviceRoom {
     }
     return only ? only->end : nullptr;
   }
-  static DeviceRoom& instance() {
-    static DeviceRoom room;
+  static MultiprocessorLease& instance() {
+    static MultiprocessorLease room;
     return room;
   }
   std::mutex mutex_;

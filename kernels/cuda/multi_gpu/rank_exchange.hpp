@@ -80,8 +80,8 @@ class RankExchange {
   /// Builds the message buffers and uploads the indices; nothing can be added after this. \throws RunError for messages
   /// of more than 2^32 words or items.
   void make_ready(const DeviceTeam& team) {
-    make_way(team, &Part::send, sent_);
-    make_way(team, &Part::receive, received_);
+    assign_buffer_positions(team, &Part::send, sent_);
+    assign_buffer_positions(team, &Part::receive, received_);
     parts_.clear();
   }
 
@@ -113,7 +113,7 @@ class RankExchange {
   };
 
   /// Gives every item its position in the message buffer: all data of one rank are contiguous, array after array.
-  void make_way(const DeviceTeam& team, Lists Part::*lists, Way& way) {
+  void assign_buffer_positions(const DeviceTeam& team, Lists Part::*lists, Way& way) {
     std::vector<std::vector<std::uint32_t>> item(parts_.size()), place(parts_.size());
     std::size_t next = 0;
     std::vector<std::size_t> begin{0};

@@ -7,8 +7,8 @@
 /// the order that executor.hpp describes. Bodies, walls and group arrays are in the base class CudaBodyArrays; tiles,
 /// kernels and blocks of steps are in TileRunner (tile_runner.hpp).
 ///
-/// In addition to the contract in executor.hpp it takes samples on the device (most_notes(), note(), wait_for_notes();
-/// see sample_buffer.hpp). A note in the identifiers is a sample: wall forces, wall motion and divergence at one step.
+/// In addition to the contract in executor.hpp it takes samples on the device (max_samples(), take_sample(),
+/// wait_for_samples(); see sample_buffer.hpp). A sample holds wall forces, wall motion and divergence at one step.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
  public:
   using AnyLaw = Laws;
   using R = typename P::Particle;
-  static constexpr bool room_for_five = true;  ///< ContactForces has code for up to five Kelvin units in registers
+  static constexpr bool five_units_in_registers =
+      true;  ///< ContactForces has code for up to five Kelvin units in registers
 
   /// Returns one tile per multiprocessor if the specimen fits in registers and shared memory, else tiles so small that
   /// two share a multiprocessor.
@@ -70,7 +71,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   ~ExecCudaTiles() { end_steps(); }
 
-  bool suits(const ExecStart& start) const { return block_of(start.options, start.laws, start.size) > 0; }
+  bool can_restart_with(const ExecStart& start) const { return block_of(start.options, start.laws, start.size) > 0; }
 
   void begin(const ExecStart& start) {
     this->rest();
@@ -96,14 +97,14 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   }
 
   void set_wall_rows(const std::vector<R>& rows) {
-    noticed([&] { Base::set_wall_rows(rows); });
+    mark_failed_on_throw([&] { Base::set_wall_rows(rows); });
   }
   /// Enqueues steps. `row`: row of the walls' table for the first step.
   void run(std::int64_t first, std::int64_t steps, std::int64_t row = 0) {
-    noticed([&] { tiles_.run(first, steps, row); });
+    mark_failed_on_throw([&] { tiles_.run(first, steps, row); });
   }
   void wait() {
-    noticed([&] {
+    mark_failed_on_throw([&] {
       tiles_.end_of_steps();
       Base::wait();
     });
@@ -114,27 +115,28 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   /// Returns how many samples can be taken before the host reads them; 0 with several devices or ranks. `radius` in
   /// specimen order [m].
-  std::size_t most_notes(const std::vector<double>& radius) {
+  std::size_t max_samples(const std::vector<double>& radius) {
     if (this->team_.ranks() || this->team_.size() > 1) return 0;
     this->require_divergence_search(radius);
-    return Notes<R>::most;
+    return DeviceSamples<R>::most;
   }
   /// Enqueues sample number `k` behind the enqueued steps.
-  void note(std::size_t k) {
-    noticed([&] {
+  void take_sample(std::size_t k) {
+    mark_failed_on_throw([&] {
       const cudaStream_t stream = this->team_.stream();
       const std::size_t walls_from = this->layout_.particles();
-      if (k == 0) notes_.clear(stream);
-      this->divergence_->queue(this->master_.data(), dt_, 0, walls_from, notes_.divergent(k), stream);
-      notes_.take(k, tiles_.forces() + walls_from * velocity_words, this->master_.data() + walls_from * velocity_words,
-                  this->displacement_.data() + walls_from * displacement_words, stream);
+      if (k == 0) samples_.clear(stream);
+      this->divergence_->queue(this->master_.data(), dt_, 0, walls_from, samples_.divergent(k), stream);
+      samples_.take(k, tiles_.forces() + walls_from * velocity_words,
+                    this->master_.data() + walls_from * velocity_words,
+                    this->displacement_.data() + walls_from * displacement_words, stream);
     });
   }
   /// Waits for all steps and returns the first `number` samples.
-  const Notes<R>& wait_for_notes(std::size_t number) {
-    noticed([&] { notes_.read(number, this->team_.stream()); });
+  const DeviceSamples<R>& wait_for_samples(std::size_t number) {
+    mark_failed_on_throw([&] { samples_.read(number, this->team_.stream()); });
     wait();
-    return notes_;
+    return samples_;
   }
 
   /// Ends all work after an error or before destruction: releases tiles that wait for a failed device, waits for all
@@ -171,13 +173,13 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   std::vector<KernelUse> kernels() const { return tiles_.kernels(); }
   std::int64_t traffic() const { return tiles_.traffic() + this->body_traffic(); }
   Traffic traffic_by_place() const { return tiles_.traffic_by_place(traffic()); }
-  std::int64_t bytes() const { return this->held_bytes() + tiles_.bytes() + notes_.bytes(); }
+  std::int64_t bytes() const { return this->held_bytes() + tiles_.bytes() + samples_.bytes(); }
 
  private:
   /// Calls f(). If it throws, records that a device failed, so that end_steps() releases the tiles of the other
   /// devices.
   template <class F>
-  void noticed(F&& f) {
+  void mark_failed_on_throw(F&& f) {
     try {
       f();
     } catch (...) {
@@ -189,7 +191,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   double dt_ = 0;
   bool failed_ = false;
   TileRunner<P, AnyLaw> tiles_;
-  Notes<R> notes_;
+  DeviceSamples<R> samples_;
 };
 
 }  // namespace macadam::kernels

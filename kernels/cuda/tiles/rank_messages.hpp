@@ -52,7 +52,7 @@ class TileMessages {
   /// Prepares the messages. Called once; the arrays must keep their addresses. `places` must still be on the host.
   void make_ready(const DeviceTeam& team, const Layout& layout, const TeamCuts& cuts, const TilePlan& plan,
                   const TileOwners& owners, const TilePlaces& places, const Crossing& crossing,
-                  const TileScene<P>& scene, const SettledArrays<P>& settled, double* before, R* base, bool carried) {
+                  const TileArrays<P>& scene, const SettledArrays<P>& settled, double* before, R* base, bool carried) {
     RankItems halo(team), constants(team), wall_rows(team), wall_bodies(team);
     for (std::size_t m = 0; m < team.size(); ++m) {
       for (std::size_t t = cuts.tile(m); t < cuts.tile(m + 1); ++t) {

@@ -28,7 +28,7 @@ namespace macadam::kernels {
 /// written. Otherwise each read would wait for the write before it, because both might have the same address. `memory`:
 /// some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in shared
 /// memory.
-template <class P, int Threads, bool carried, bool memory, TileRest where>
+template <class P, int Threads, bool carried, bool memory, BodyStorage where>
 class ResidentTile {
  public:
   using R = typename P::Particle;
@@ -38,7 +38,7 @@ class ResidentTile {
   /// Constant words of a packet: number in memory, and number of those that a step reads and the cache holds.
   static constexpr std::uint32_t words = tile_constants(carried), kept = Constants::words;
 
-  __device__ __forceinline__ ResidentTile(const TileScene<P>& scene, const Tile& own_tile, unsigned char* shared,
+  __device__ __forceinline__ ResidentTile(const TileArrays<P>& scene, const Tile& own_tile, unsigned char* shared,
                                           const ResidentMemory<P>& m)
       : s(scene),
         tile(own_tile),
@@ -223,13 +223,13 @@ class ResidentTile {
  private:
   // decided at compile time, so that the compiler knows which data is in shared memory
   __device__ __forceinline__ unsigned char* rest(unsigned char* shared, const ResidentMemory<P>& m) const {
-    if constexpr (where == TileRest::here)
+    if constexpr (where == BodyStorage::here)
       return shared + m.rest;
     else
       return s.rest + std::size_t{blockIdx.x} * ResidentMemory<P>::rest_bytes(s.most_bodies, where);
   }
   __device__ __forceinline__ Six<R>* own_place(unsigned char* shared, const ResidentMemory<P>& m) const {
-    if constexpr (where == TileRest::all_away)
+    if constexpr (where == BodyStorage::all_away)
       return reinterpret_cast<Six<R>*>(inverse + tile.bodies);
     else
       return reinterpret_cast<Six<R>*>(shared + m.own);
@@ -246,7 +246,7 @@ class ResidentTile {
     velocity.set(r, y);
   }
 
-  const TileScene<P>& s;
+  const TileArrays<P>& s;
   const Tile tile;
   const std::int32_t* body;
   const TileVelocities velocity;
@@ -265,9 +265,9 @@ class ResidentTile {
 };
 
 /// Takes `steps` steps; the first has the tag `first_tag`. The states of a warp's first packets stay in registers.
-template <class P, int Threads, bool carried, bool memory, TileRest where>
+template <class P, int Threads, bool carried, bool memory, BodyStorage where>
 __global__ void __launch_bounds__(Threads, 1)
-    run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
+    run_resident(const __grid_constant__ TileArrays<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   extern __shared__ __align__(16) unsigned char shared[];
   const Tile own_tile = s.tile[s.own_tile()];
   using OfTile = ResidentTile<P, Threads, carried, memory, where>;

@@ -48,8 +48,8 @@ struct ResidentMemory {
 
   /// Returns the size of a tile's particle data: displacements, base loads, Δt/m and Δt/I and, with all_away, the
   /// velocities in full precision. It is in global memory if it does not fit in shared memory.
-  __host__ __device__ static constexpr std::uint32_t rest_bytes(std::uint32_t bodies, TileRest rest) {
-    const auto numbers = rest == TileRest::all_away ? 14u : 8u;
+  __host__ __device__ static constexpr std::uint32_t rest_bytes(std::uint32_t bodies, BodyStorage rest) {
+    const auto numbers = rest == BodyStorage::all_away ? 14u : 8u;
     return bodies * static_cast<std::uint32_t>(6 * sizeof(double) + numbers * sizeof(R));
   }
   __host__ __device__ static constexpr std::uint32_t packet_bytes(std::uint32_t constants) {
@@ -58,7 +58,7 @@ struct ResidentMemory {
 
   /// `constants`: constant words per packet. `room`: bytes of shared memory available; if they do not suffice for the
   /// other arrays, the cache is empty.
-  __host__ __device__ ResidentMemory(const Tile& tile, std::uint32_t constants, TileRest where, std::uint32_t room) {
+  __host__ __device__ ResidentMemory(const Tile& tile, std::uint32_t constants, BodyStorage where, std::uint32_t room) {
     std::uint32_t at = 0;
     const auto take = [&](std::uint32_t bytes) {
       const std::uint32_t here = at;
@@ -69,8 +69,8 @@ struct ResidentMemory {
     velocity = take(SixTable::bytes(locals));
     law = take(16 * pair_types);
     slots = take(SixTable::bytes(tile.slots));
-    own = take(where == TileRest::all_away ? 0 : tile.bodies * static_cast<std::uint32_t>(sizeof(Six<R>)));
-    rest = take(where == TileRest::here ? rest_bytes(tile.bodies, where) : 0);
+    own = take(where == BodyStorage::all_away ? 0 : tile.bodies * static_cast<std::uint32_t>(sizeof(Six<R>)));
+    rest = take(where == BodyStorage::here ? rest_bytes(tile.bodies, where) : 0);
     halo = take(4 * tile.halo);
     diagonal = take(4 * TilePlan::longest_short_row);
     row = take(8 * tile.bodies);
@@ -100,7 +100,7 @@ std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t t
   tile.bodies = whole(bodies);
   tile.halo = whole(halo);
   tile.slots = whole(fullest * static_cast<double>(slots) / static_cast<double>(tiles));
-  return ResidentMemory<P>(tile, tile_constants(false), TileRest::all_away, 0).total;
+  return ResidentMemory<P>(tile, tile_constants(false), BodyStorage::all_away, 0).total;
 }
 
 }  // namespace macadam::kernels

@@ -15,18 +15,18 @@ namespace macadam::kernels {
 
 /// Returns the velocities of all bodies at step k, by place; the walls follow the last place.
 template <class P>
-__device__ __forceinline__ float4* velocities_of(const TileScene<P>& s, std::uint32_t k) {
+__device__ __forceinline__ float4* velocities_of(const TileArrays<P>& s, std::uint32_t k) {
   return reinterpret_cast<float4*>(s.exchange(k));
 }
 template <class P>
-__device__ __forceinline__ float& wall_velocity_of(const TileScene<P>& s, std::uint32_t k, int axis) {
+__device__ __forceinline__ float& wall_velocity_of(const TileArrays<P>& s, std::uint32_t k, int axis) {
   return reinterpret_cast<float*>(velocities_of(s, k) + 2 * (s.places + axis / 3))[axis % 3];
 }
 
 /// Moves body `i`, at place `place`, under `force` into step k, and stores its velocity for the contacts. k counts from
 /// the beginning of the sequence.
 template <class P>
-__device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, std::size_t place,
+__device__ __forceinline__ void move_body(const TileArrays<P>& s, std::size_t i, std::size_t place,
                                           const typename P::Particle (&force)[6], std::uint32_t k) {
   using R = typename P::Particle;
   const auto at = [&](int c) { return i * velocity_words + moving_word(c); };
@@ -42,7 +42,7 @@ __device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, 
 /// Moves the particles at places first … end − 1 and the walls into step k, by the loads in memory: the beginning of a
 /// sequence of steps. Axes of walls at rest get velocity zero in both arrays.
 template <class P>
-__global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k, std::uint32_t first,
+__global__ void begin_streamed(const __grid_constant__ TileArrays<P> s, std::uint32_t k, std::uint32_t first,
                                std::uint32_t end) {
   using R = typename P::Particle;
   const std::uint32_t place = first + blockIdx.x * blockDim.x + threadIdx.x;
@@ -72,7 +72,7 @@ struct StreamedMemory {
 /// some law has a memory.
 template <class P, int Threads, int Blocks, bool carried, bool memory>
 __global__ void __launch_bounds__(Threads, Blocks)
-    run_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k, bool last) {
+    run_streamed(const __grid_constant__ TileArrays<P> s, std::uint32_t k, bool last) {
   using R = typename P::Particle;
   extern __shared__ __align__(16) unsigned char shared[];
   const StreamedMemory m(s.most_locals, s.most_slots);

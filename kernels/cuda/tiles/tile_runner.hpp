@@ -192,17 +192,17 @@ class TileRunner {
     if (end_) cudaEventDestroy(end_);
   }
 
-  /// Marks the end of the enqueued steps, so that the next specimen may enqueue its steps behind them (DeviceRoom). The
-  /// caller enqueues nothing more before leave_room().
+  /// Marks the end of the enqueued steps, so that the next specimen may enqueue its steps behind them
+  /// (MultiprocessorLease). The caller enqueues nothing more before leave_room().
   void end_of_steps() {
     if (!has_room_ || team_.size() > 1) return;
     if (!end_) check_cuda(cudaEventCreateWithFlags(&end_, cudaEventDisableTiming), "event");
     check_cuda(cudaEventRecord(end_, team_.stream()), "event");
-    DeviceRoom::is_queued(number_, end_);
+    MultiprocessorLease::is_queued(number_, end_);
   }
   /// Gives the multiprocessors back. All enqueued steps have finished.
   void leave_room() {
-    if (std::exchange(has_room_, false)) DeviceRoom::give(number_);
+    if (std::exchange(has_room_, false)) MultiprocessorLease::give(number_);
   }
 
   /// After an error of one device, ends the kernels of the other devices: their tiles would wait forever for the tiles
@@ -223,7 +223,7 @@ class TileRunner {
   void run(std::int64_t first, std::int64_t steps, std::int64_t row) {
     const Range range("time steps");
     if (resident_ && !has_room_) {
-      DeviceRoom::take(number_, room_, room_of_device_, team_.behind());
+      MultiprocessorLease::take(number_, room_, room_of_device_, team_.behind());
       has_room_ = true;
     }
     team_.meet();  // the start may have written to memory on other streams
@@ -293,27 +293,27 @@ class TileRunner {
       pick(std::false_type{});
   }
 
-  /// Sets up the resident kernel. Chooses the first of `here`, `away`, `all_away` (TileRest) whose tiles fit in shared
-  /// memory. Returns false if not all tiles can run at the same time.
+  /// Sets up the resident kernel. Chooses the first of `here`, `away`, `all_away` (BodyStorage) whose tiles fit in
+  /// shared memory. Returns false if not all tiles can run at the same time.
   template <bool carried>
   bool try_resident() {
     constexpr int Threads = resident_threads;
     const auto limit = static_cast<std::uint32_t>(limits_.shared);
-    const auto most = [&](TileRest where, std::uint32_t room) {
+    const auto most = [&](BodyStorage where, std::uint32_t room) {
       std::uint32_t bytes = 0;
       for (const Tile& tile : plan_.tile)
         bytes = std::max(bytes, ResidentMemory<P>(tile, tile_constants(carried), where, room).total);
       return bytes;
     };
-    scene_.where = TileRest::all_away;
-    for (const TileRest where : {TileRest::away, TileRest::here}) {
+    scene_.where = BodyStorage::all_away;
+    for (const BodyStorage where : {BodyStorage::away, BodyStorage::here}) {
       if (most(where, 0) <= limit) scene_.where = where;
     }
     const auto kernel_of = [&](auto memory) {
       constexpr bool has = decltype(memory)::value;
-      return scene_.where == TileRest::here   ? run_resident<P, Threads, carried, has, TileRest::here>
-             : scene_.where == TileRest::away ? run_resident<P, Threads, carried, has, TileRest::away>
-                                              : run_resident<P, Threads, carried, has, TileRest::all_away>;
+      return scene_.where == BodyStorage::here   ? run_resident<P, Threads, carried, has, BodyStorage::here>
+             : scene_.where == BodyStorage::away ? run_resident<P, Threads, carried, has, BodyStorage::away>
+                                                 : run_resident<P, Threads, carried, has, BodyStorage::all_away>;
     };
     const auto usual = kernel_of(std::true_type{}), without_memory = kernel_of(std::bool_constant<carried>{});
     const std::uint32_t shared = scene_.room = most(scene_.where, limit);
@@ -328,7 +328,7 @@ class TileRunner {
       room_[team_.device(m)] += static_cast<int>(tiles(m));
       room_of_device_[team_.device(m)] = DeviceLimits::query(0).multiprocessors;
     });
-    if (scene_.where != TileRest::here) {
+    if (scene_.where != BodyStorage::here) {
       const std::size_t bytes = ResidentMemory<P>::rest_bytes(plan_.most_bodies, scene_.where);
       team_.each([&](std::size_t m) { tables_[m].rest = store_.template zeros<unsigned char>(tiles(m) * bytes); });
     }
@@ -406,8 +406,8 @@ class TileRunner {
   std::size_t words_of_exchange() const { return 2 * (std::size_t{scene_.places} + walls); }
   std::size_t tiles(std::size_t m) const { return cuts_.tile(m + 1) - cuts_.tile(m); }
   /// Returns the arguments of the launches on member m.
-  TileScene<P> scene_of(std::size_t m) const {
-    TileScene<P> out = scene_;
+  TileArrays<P> scene_of(std::size_t m) const {
+    TileArrays<P> out = scene_;
     const Tables& own = tables_[m];
     out.tile = own.tile, out.body = own.body, out.row = own.row, out.diagonal = own.diagonal, out.halo = own.halo;
     out.rest = own.rest;
@@ -516,7 +516,7 @@ class TileRunner {
   DeviceLimits limits_;
   std::vector<float4> constants_;
   TilePlaces places_;
-  TileScene<P> scene_{};
+  TileArrays<P> scene_{};
   std::uint32_t tag_ = 1;  ///< tag of the next step
   DeviceArray<float4> constant_;
   R* base_ = nullptr;              ///< [body][8] base loads, as scene_.base
@@ -525,8 +525,9 @@ class TileRunner {
   const std::uint32_t* wall_begin_ = nullptr;
   const RecordRows* rows_ = nullptr;
   std::vector<Tables> tables_;  // [member]
-  const std::uint64_t number_ = DeviceRoom::next_number();
-  DeviceRoom::Share room_, room_of_device_;  ///< multiprocessors that the tiles occupy, and that each device has
+  const std::uint64_t number_ = MultiprocessorLease::next_number();
+  MultiprocessorLease::Share room_,
+      room_of_device_;  ///< multiprocessors that the tiles occupy, and that each device has
   bool has_room_ = false;
   cudaEvent_t end_ = nullptr;  // end of the enqueued steps
   LoadRecords<R> records_{};

@@ -11,8 +11,8 @@
 /// contact carries only the change δf since the beginning of the block and, if some law has a memory, a sum over the
 /// steps. The loads of the f at the beginning of the block are part of the particles' `base` loads. The state of a
 /// contact is therefore in three places. The chain (ContactView::chain) holds the viscoelastic state at the beginning
-/// of the block, in full precision (there is none where f follows from the displacements); settle_kernels.hpp updates it
-/// after the block. The words of TileState in memory hold δf and the sum; they are valid between launches. During a
+/// of the block, in full precision (there is none where f follows from the displacements); settle_kernels.hpp updates
+/// it after the block. The words of TileState in memory hold δf and the sum; they are valid between launches. During a
 /// launch of the resident kernel, registers hold δf and the sum of most contacts.
 #pragma once
 
@@ -75,7 +75,7 @@ __host__ __device__ constexpr int tile_constants_read(bool carried, bool memory)
 
 /// The memory in which a resident tile keeps the data of its particles. The velocities that contacts see are always in
 /// shared memory.
-enum class TileRest {
+enum class BodyStorage {
   here,      ///< all in shared memory
   away,      ///< full-precision velocities in shared memory, everything else in global memory
   all_away,  ///< all in global memory
@@ -112,7 +112,7 @@ struct WarpPackets {
 
 /// Arguments of a kernel over tiles: the plan and the arrays of one device, passed by value.
 template <class P>
-struct TileScene {
+struct TileArrays {
   using R = typename P::Particle;
   const Tile* tile;
   const std::int32_t* body;       ///< [place]
@@ -129,7 +129,7 @@ struct TileScene {
   ParticleMotion<P> motion;  ///< how bodies move; its table of wall velocities begins with the first step of the launch
   float4 law[pair_types];    ///< [group] coefficients of the step: rate·Δt, relax, α, follow
   unsigned char* rest;       ///< [thread block] particle data that does not fit in shared memory
-  TileRest where;            ///< where the particle data is
+  BodyStorage where;         ///< where the particle data is
   std::uint32_t most_bodies, most_locals, most_slots;  ///< maxima over the tiles, see TilePlan
   std::uint32_t room;                                  ///< shared memory of a resident tile [byte]
   std::uint32_t places;                                ///< number of places
@@ -336,7 +336,7 @@ __device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, con
 
 /// Returns the velocity of a driven wall at step k of the launch, rounded like the particles' velocities.
 template <class P>
-__device__ __forceinline__ Vec3<float> wall_velocity(const TileScene<P>& s, int wall, std::uint32_t k) {
+__device__ __forceinline__ Vec3<float> wall_velocity(const TileArrays<P>& s, int wall, std::uint32_t k) {
   const auto v = load_vec3(s.motion.wall.row(wall, k));
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -353,7 +353,7 @@ struct WallAxisMotion {
 
   /// `number`: axis 0 to 17 (3·wall + 0, 1 or 2). Any other number gives an axis that does not move. `first`: first
   /// step, counted from the start of the launch.
-  __device__ __forceinline__ WallAxisMotion(const TileScene<P>& s, int number, std::uint32_t first)
+  __device__ __forceinline__ WallAxisMotion(const TileArrays<P>& s, int number, std::uint32_t first)
       : moves(number >= 0 && number < wall_axes && s.motion.wall.moves(number / 3)), axis(number) {
     if (!moves) return;
     at = ParticleMotion<P>::place(s.motion.body.particles + axis / 3, axis % 3);
@@ -361,7 +361,7 @@ struct WallAxisMotion {
     v = s.motion.wall.row(axis / 3, first)[axis % 3];
   }
   /// Applies the steps first … end − 1 and writes displacement and velocity to memory.
-  __device__ __forceinline__ void move(const TileScene<P>& s, std::uint32_t first, std::uint32_t end) {
+  __device__ __forceinline__ void move(const TileArrays<P>& s, std::uint32_t first, std::uint32_t end) {
     u = multiply_add(s.motion.dt, double(v), u);
 #pragma unroll 8
     for (std::uint32_t k = first + 1; k < end; ++k) {

@@ -36,7 +36,7 @@ inline Traffic traffic_streamed(const std::vector<Tile>& tiles, std::int64_t all
 
 /// Returns the traffic of resident tiles; nothing goes through global memory.
 template <class P>
-Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scene, bool carried, bool memory) {
+Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileArrays<P>& scene, bool carried, bool memory) {
   constexpr std::int64_t of_packet = 32 * sizeof(float4), of_velocity = 32;
   const int words = tile_constants_read(carried, memory);
   const std::int64_t of_constants = of_packet * words, of_states = 2 * of_packet * tile_states_moved(memory);
@@ -53,7 +53,7 @@ Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scen
     out.cache += of_constants * std::max<std::int64_t>(0, packets - cached - kept) +
                  of_states * (packets - packets_in_registers(tile)) + of_velocity * (tile.bodies + tile.halo);
     const auto rest = static_cast<std::int64_t>(ResidentMemory<P>::rest_bytes(tile.bodies, scene.where));
-    (scene.where == TileRest::here ? out.shared : out.cache) += rest;
+    (scene.where == BodyStorage::here ? out.shared : out.cache) += rest;
   }
   return out;
 }

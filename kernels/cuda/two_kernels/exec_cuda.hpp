@@ -23,7 +23,7 @@ class ExecCuda : public CudaBodyArrays<P> {
   using R = typename P::Particle;
   using G = typename P::Geometry;
   /// ContactForces has code for up to five Kelvin units in registers, besides exactly three.
-  static constexpr bool room_for_five = true;
+  static constexpr bool five_units_in_registers = true;
 
   /// The size does not depend on the device, because it determines the layout, and sums are in the order of the layout.
   static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
@@ -35,7 +35,7 @@ class ExecCuda : public CudaBodyArrays<P> {
     forget_graphs();
   }
 
-  bool suits(const ExecStart&) const { return true; }
+  bool can_restart_with(const ExecStart&) const { return true; }
 
   void begin(const ExecStart& start) {
     forget_graphs();
