@@ -136,7 +136,7 @@ Stiffness stepped(const test::TestScene& scene, const StartState& start, const d
   return evaluate_cyclic(response, loading.frequency, 1).fit;
 }
 
-/// Prints a row for each block length. The length is given as the number of blocks in the shortest time of load and
+/// Prints one row per block length. The length is given as the number of blocks in the shortest time of load and
 /// laws.
 void run(const Case& c) {
   auto scene = test::make_scene(test::random_specimen(3, c.cells, c.cells, c.cells * 3 / 2), {},

@@ -3,7 +3,7 @@
 # frequency domain are compiled again for each newer generation of processors (v3, v4), and at run time the library
 # chooses the newest code that the processor can run. In each of these parts, all symbols except its entry are made
 # local. Otherwise the linker would keep only one copy of a template that occurs in several parts (also those of the
-# standard library), and an old processor could meet instructions that it does not have.
+# standard library), and an old processor could be given instructions that it lacks.
 function(macadam_add_processors library sources)
   foreach(level v3 v4)
     set(part macadam_code_${level})

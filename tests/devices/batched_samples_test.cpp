@@ -31,7 +31,7 @@ const std::string four = "kind = \"cyclic\"\nfrequencies = [5.0, 10.0, 20.0, 40.
 const std::string one = "kind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 2\n";
 constexpr const char* quick = "density_scaling = 1e6\n";
 
-/// The response file of the device equals that of the processor, and progress is reported for every sample.
+/// The response file of the device equals the CPU's response file, and progress is reported for every sample.
 TEST_F(BatchedSamples, AreThoseOfTheProcessor) {
   run(scene(four, quick, Backend::cpu), out("processor"));
   std::vector<double> shares;
@@ -46,7 +46,7 @@ TEST_F(BatchedSamples, AreThoseOfTheProcessor) {
   EXPECT_GT(shares.size(), 900u) << "each sample is told";
 }
 
-/// Frames of fields that are written between samples equal those of the processor, file by file.
+/// Frames of fields that are written between samples equal the CPU's frames, file by file.
 TEST_F(BatchedSamples, FramesOfFieldsAreThoseOfTheirSteps) {
   const std::string output = "fields = [\"particles\", \"contacts\"]\nevery = 45\nformat = \"vtp\"\n";
   for (const Backend backend : {Backend::cpu, Backend::cuda})
@@ -140,7 +140,7 @@ TEST_F(BatchedSamples, ADeviceThatIsFullIsNoReasonToEnd) {
   run(scene(four, quick, Backend::cuda), out("device"), asked.watcher());
   run(scene(four, quick, Backend::cpu), out("processor"));
   EXPECT_EQ(asked.steps.size(), 2u);
-  EXPECT_EQ(read(folder_ / "devices"), "1\n1\n") << "made anew once, as the first had to give way";
+  EXPECT_EQ(read(folder_ / "devices"), "1\n1\n") << "made a second time, because the first stepper was given up";
   expect_same_files({"response.csv"});
   Asked at_once{{{0}}, {}};
   run(scene(four, quick, Backend::cuda), out("device"), at_once.watcher());

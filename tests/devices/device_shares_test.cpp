@@ -65,7 +65,7 @@ TEST(DeviceShares, MovesToWhereLessIsLeft) {
   Scenes scenes(3, {0, 1}, 4);
   scenes.next(), scenes.next(), scenes.next();  // scenes 0 and 2 are on device 0, scene 1 on device 1
   EXPECT_EQ(scenes.go_on_with(1, 100), 1);
-  EXPECT_EQ(scenes.go_on_with(2, 100), 0) << "both devices have as much beside it";
+  EXPECT_EQ(scenes.go_on_with(2, 100), 0) << "the two devices have equal other work";
   EXPECT_EQ(scenes.go_on_with(0, 100), 0);
   EXPECT_EQ(scenes.go_on_with(1, 40), 1);
   EXPECT_EQ(scenes.go_on_with(2, 80), 1) << "100 are beside it on device 0, 40 on device 1";

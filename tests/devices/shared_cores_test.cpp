@@ -15,7 +15,7 @@ namespace {
 
 using SharedCores = FakeDevices;
 
-// Of eight cores one serves the device, and the first two specimens get three each. When the cells of one are made, it
+// One of eight cores serves the device, and the first two specimens get three each. When the cells of one are made, it
 // keeps two threads; the third specimen starts with the one that was released and the one that was left.
 TEST_F(SharedCores, ASceneGivesHalfOnceItsCellsAreMade) {
   std::vector<SceneJob> jobs;

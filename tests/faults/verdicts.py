@@ -102,7 +102,7 @@ def left_behind(folder, older, new, outcome, kind):
         if bytes_ == of_new or (name == "response.csv" and of_new.startswith(bytes_)):
             continue
         if found.summary is None and bytes_ == older.files.get(name):
-            continue  # there is no summary that it could contradict
+            continue  # the run wrote no summary that its message could contradict
         out.append(f"{name} is neither the new one nor told from it")
     if new.summary is None:
         out += [f"{name} is lost" for name in older.files if name in new.files and name not in found.files]

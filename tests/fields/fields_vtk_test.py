@@ -207,7 +207,7 @@ def check_stepped(out, file, others):
     norms = [np.abs(arrays(data)["displacement"]).max() for _, data in found]
     check(norms[0] == 0 and 0.7e-6 < max(norms) < 2e-6 and len(set(norms)) == len(norms), f"displacements: {norms}")
     equal(points(found[0][1]), points(found[-1][1]), "stepped: points")
-    check(arrays(found[7][1])["radius"].min() > 0, "stepped: what does not change is in every frame")
+    check(arrays(found[7][1])["radius"].min() > 0, "stepped: constant arrays are in every frame")
     for k, (_, data) in enumerate(found):
         for name, values in arrays(data).items():
             equal(values, others.setdefault((k, name), values), f"stepped: frame {k}, {name} of the two formats")

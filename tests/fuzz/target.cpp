@@ -65,8 +65,8 @@ void check_line(const std::string& line) {
     finding("a message that is not 'FILE:LINE: WHAT: found F, expected E' in a line: %s", line.c_str());
 }
 
-/// Checks a message. A table of a laboratory may have several faults: then each has a line, at most ten, and a last
-/// line counts the others.
+/// Checks a message. A laboratory table may have several faults: each of the first ten has one line, and a last line
+/// counts the others.
 void check_message(const std::string& message) {
   std::istringstream lines(message);
   int count = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_state_test.cpp  The contact state that a stepper reports: forces add up to those of particles and walls,
-// deformations follow from the displacements, and the chains are those of the laws.
+// contact_state_test.cpp  The contact state that a stepper reports: forces add up to the forces on particles and
+// walls, deformations follow from the displacements, and the chains match the laws.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -51,7 +51,7 @@ TEST_P(ContactStates, ForcesAddUpToThoseOfTheBodies) {
   for (StepperOptions options : {shaking_options(scene), slow_options(scene)}) {
     const auto stepper = make(scene, options);
     stepper->advance(137);  // a step within a block of steps, for backends that have blocks
-    // With fixed geometry the stepper keeps the initial lever arms; strains of 1e-4 would change them by as much. The
+    // With fixed geometry the stepper keeps the initial lever arms; strains of 1e-4 would change them by 1e-4. The
     // sums here use the current ones.
     const bool fixed = options.geometry == Geometry::fixed;
     const double rounding = options.precision == Precision::double_ ? 1e-12 : 2e-5;
@@ -101,7 +101,7 @@ TEST(Sampling, TellsTheStartAndEverySample) {
   stepper->set_velocities(fast, none);
   try {
     sample(*stepper, 1, 5, [](const Observation&) {});
-    FAIL() << "a particle that leaves the specimen in a step is no run";
+    FAIL() << "a run in which a particle leaves the specimen in one step is an error";
   } catch (const DivergenceError& error) { EXPECT_EQ(error.particle, 4); }
 }
 

@@ -85,7 +85,7 @@ TEST(Drives, HaversinePulsesWithRest) {
 
 class DrivenWalls : public BackendTest<StepperCase> {
  protected:
-  /// Compares motion of particles and walls, and forces on walls, with those of the reference stepper.
+  /// Compares motion of particles and walls, and forces on walls, with the reference stepper.
   void compare(const TestScene& scene, StepperOptions options, std::int64_t steps) {
     const auto& [backend, precision, form, geometry] = GetParam();
     options.form = form;

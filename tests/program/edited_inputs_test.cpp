@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// edited_inputs_test.cpp  Valid input files with one change each: what the readers report is compared with the recorded
+// edited_inputs_test.cpp  Valid input files with one change each: the readers' reports are compared with the recorded
 // reports in tests/recorded/edits, one text per file. After an intended change, record again with MACADAM_RECORD=1 in
-// the environment and review the difference. These tests notice changes; other tests say what is right.
+// the environment and review the difference. These tests notice changes; other tests check that reports are right.
 #include <functional>
 #include <set>
 
@@ -218,8 +218,8 @@ class EditedInputs : public Program, public testing::WithParamInterface<Input> {
     }
   }
 
-  /// Returns a line for each place that is changed, followed by a line for each different report with the changes that
-  /// lead to it.
+  /// Returns one line per changed place, followed by one line per distinct report with the changes that lead to
+  /// it.
   std::string happened(const Input& input) const {
     const bool is_specimen = input.file == "t8.csv";
     const fs::path file = folder_ / fs::path(input.file).filename();

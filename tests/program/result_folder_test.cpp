@@ -83,7 +83,8 @@ TEST_F(Folder, ARefusedCommandLeavesNoFolder) {
   }
 }
 
-/// `macadam specimen` may overwrite the results of an earlier specimen, but not those of a run or of another program.
+/// `macadam specimen` may overwrite the results of an earlier specimen, but not the results of a run or files of
+/// another program.
 TEST_F(Folder, ASpecimenMayReplaceASpecimenOnly) {
   write_scene();
   const std::string specimen = fmt::format("specimen {} --out {}", path("scene.toml"), path("out"));

@@ -91,7 +91,7 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
   GTEST_SKIP() << "the address sanitizer takes terabytes of addresses";
 #endif
   write_scene("method = \"harmonic\"\nlinear = \"direct\"\n");
-  // seconds of processor time, which a busy machine does not lengthen; on the clock twelve times as many
+  // seconds of processor time, which a busy machine does not lengthen; twelve times more lines by the clock
   const auto limited = [&](int megabytes, int seconds, const char* command) {
     return shell(fmt::format(
         "unset OPENBLAS_NUM_THREADS; export OMP_NUM_THREADS=1; ulimit -v {}; ulimit -t {}; timeout -k 5 {} $M {}",

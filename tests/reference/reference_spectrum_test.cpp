@@ -64,7 +64,7 @@ TEST(LargestFrequency, OfTwoUnequalSpheresInOpening) {
   PairShape shape;
   shape.side = 0.2e-3;
   const HandMade made = test::two_sphere_network(shape);
-  const auto law = test::mastic_am1();  // the instantaneous stiffness is that of the Maxwell spring
+  const auto law = test::mastic_am1();  // the instantaneous stiffness equals the Maxwell spring's
   const double k = law.E_m * shape.side * shape.side / shape.distance;
   const double found = reference_largest_frequency(made.network, same_law(law), made.inertia);
   EXPECT_NEAR(found / std::sqrt(k * (1 / shape.mass_a + 1 / shape.mass_b)), 1, 1e-12);

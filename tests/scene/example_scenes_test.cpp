@@ -49,7 +49,7 @@ TEST_P(ExampleScene, HasEveryLaw) {
   EXPECT_EQ(scene.laws[int(PairType::aa)].has_value(), !scene.specimen.aggregate.empty());
 }
 
-/// Elastic contacts. Between aggregates: the modulus in Table 4 of [1]. Within an aggregate: the modulus with which a
+/// Elastic contacts. Between aggregates: the modulus in Table 4 of [1]. The modulus within an aggregate with which a
 /// cube of fine or coarse spheres has the rock's 60 GPa. At a wall: the stiffest spring of the touching material.
 TEST_P(ExampleScene, HasThePapersElasticLaws) {
   const Scene scene = this->scene();

@@ -44,7 +44,7 @@ TEST_F(NewCommand, EverySceneIsRead) {
 }
 
 // If the # is removed from a comment that shows a key with its default, the scene stays the same. A comment on a key
-// without a fixed default says so.
+// without a fixed default states that there is none.
 TEST_F(NewCommand, EveryKeyInACommentCanBeTakenOut) {
   const std::regex key("^# ([A-Za-z0-9_]+ = )(.*)$");
   for (const NewKind kind : kinds) {

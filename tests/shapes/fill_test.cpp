@@ -82,7 +82,7 @@ TEST(Fill, RadiiAreUniformAndTheirVolumeIsThatAskedFor) {
   }
   EXPECT_NEAR(volume, 0.8 * measure_shape(icosahedron).volume, 1e-12 * volume);
   // One radius is taken from each of n equal parts of the range, then all are adjusted until the volume fits. The mean
-  // stays that of the range to 3 %.
+  // radius equals the mean of the range to 3 %.
   EXPECT_NEAR(sum / static_cast<double>(cluster.size()), 1.25e-3, 0.03 * 1.25e-3);
   EXPECT_TRUE(every_sphere_has_a_cell(cluster));
   EXPECT_LT(largest_protrusion(icosahedron, cluster), 0.15);

@@ -244,8 +244,8 @@ TEST(ShapeLibrary, DimensionsHaveTheStatisticsOfTable1) {
   }
 }
 
-/// A row of Table 2 in [1]: a property and its correlations with those of the rows before it. SI and Fl count only from
-/// 4 mm on.
+/// A row of Table 2 in [1]: a property and its correlations with the properties of earlier rows. SI and Fl count only
+/// from 4 mm on.
 struct Correlations {
   const char* name;
   const Property& property;

@@ -30,7 +30,7 @@ void expect_lengths(const ShapeMeasure& m, double l, double i, double s) {
   EXPECT_NEAR(m.d_short, s, rounding * l);
 }
 
-/// Calls `expect` with the measures of the surface as it is, and of ten random rotations about random centres.
+/// Calls `expect` with the measures of the unrotated surface and of ten random rotations about random centres.
 void in_all_poses(const Surface& surface, const std::function<void(const ShapeMeasure&)>& expect) {
   expect(measure_shape(surface));
   RandomStream random(test_seed(), 1);

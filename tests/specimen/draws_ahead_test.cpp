@@ -93,7 +93,7 @@ TEST_P(SearchesOf, GiveUpAfterSoManyTriesInARow) {
   const auto take = [&](Draws) { return ++taken > 0; };
   DrawsAhead random(RandomStream(7, 0));
   EXPECT_FALSE(random.each_good(300, 1, 4, rare, take));
-  // The expected number is that of the successes before the first 300 failures in a row.
+  // The expected value is the number of successes before the first 300 failures in a row.
   RandomStream same(7, 0);
   int expected = 0;
   for (int failed = 0; failed < 300;) same.uniform() > 0.99 ? (failed = 0, ++expected) : ++failed;

@@ -231,7 +231,7 @@ TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {
   }
 }
 
-/// A contact pushes both particles with the same force. Of two similar stones, the one that is four times larger has
+/// A contact pushes both particles with the same force. The larger of two similar aggregates (four times the size) has
 /// about 16 times the mass in this relaxation: it moves 16 times less, and rotates still less.
 TEST(ShapePlacement, PackedStonesGiveWayByTheirMasses) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));

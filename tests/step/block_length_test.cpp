@@ -34,7 +34,7 @@ Laws lasting() {
   return out;
 }
 
-/// By default a block lasts 1/4000 of the shortest time, which may be that of the load, of a law, or of the turning of
+/// By default a block lasts 1/4000 of the shortest time, which may belong to the load, to a law, or to the rotation of
 /// contacts in updated geometry.
 TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   StepperOptions options = options_of_10_hz();
@@ -78,7 +78,7 @@ TEST(BlockLength, FollowsTheNumberOfBlocks) {
   StepperOptions options = options_of_10_hz();
   options.blocks = 8000;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 125);
-  options.blocks = 1e6 / 3.9;  // blocks of three steps do not pay, so there are no blocks
+  options.blocks = 1e6 / 3.9;  // blocks of three steps are not worth while, so steps are not grouped
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
   options.blocks = 10;  // sums over this many steps are still accurate in single precision
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), kernels::longest_block);

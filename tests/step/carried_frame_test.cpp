@@ -44,7 +44,7 @@ TEST(CarriedFrame, ATangentIsSwungWithItsNormal) {
 
 TEST(CarriedFrame, ATangentIsSpunAboutItsNormal) {
   for (const double angle : {-0.2, -0.01, 0.0, 0.01, 0.2}) {
-    const double left_out = std::pow(angle, 4) / 24;  // omitted term of the cosine; that of the sine is smaller
+    const double left_out = std::pow(angle, 4) / 24;  // omitted term of the cosine; the sine's error is smaller
     EXPECT_LE(norm(spun(s, n, angle) - turned(s, n, angle)), 1.01 * left_out + rounding) << angle;
   }
 }

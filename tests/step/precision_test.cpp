@@ -69,7 +69,7 @@ std::vector<Comparison> study() {
 
 /// Returns the comparisons of the drift study in accuracy.csv and of the runs with `tolerance`. They are compared with
 /// double precision at the same settings, or otherwise with the harmonic solution of the same inertia. The number of
-/// layers is that of the precision study. Inertia 0 makes the estimate smaller, so the test is stricter.
+/// layers equals the precision study's. Inertia 0 makes the estimate smaller, so the test is stricter.
 std::vector<Comparison> drift() {
   std::map<std::string, double> layers;
   for (const Comparison& c : study()) layers[c.scene] = c.scale.layers;
@@ -203,8 +203,8 @@ TEST_F(PlannedPrecision, IsSingleWhereThatWasMeasured) {
   EXPECT_EQ(said(made).find("not measured so far"), std::string::npos) << said(made);
 }
 
-// The walls are far stiffer than in any measurement, so neither single nor mixed precision is chosen, whatever the
-// tolerance, and the program says so.
+// The walls are far stiffer than in any measurement, so neither single nor mixed precision is chosen at any
+// tolerance, and the program reports this.
 TEST_F(PlannedPrecision, IsDoubleBeyondTheMeasuredStiffnesses) {
   Scene scene = asked(0.1);
   for (const PairType pair : {PairType::aw, PairType::mw}) {

@@ -16,7 +16,7 @@ namespace macadam::test {
 /// Returns every backend except the reference, whether or not this build and machine can run it.
 inline auto all_backends() { return testing::Values(Backend::cpu, Backend::cuda); }
 
-/// Fixture of tests over backends. If there is no device, a case of CUDA is skipped with the reason, so that it is
+/// Fixture of tests over backends. Without a device, a CUDA case is skipped with the reason, so that it is
 /// counted.
 template <class Case>
 class BackendTest : public testing::TestWithParam<Case> {

@@ -41,7 +41,7 @@ inline laws::GeneralisedKelvin mastic_am2() {
 /// the area at a distance of half a side. (The second moment of the square itself is half of that.)
 inline double square_second_moment(double side) { return side * side * side * side / 6; }
 
-/// Adds a particle of given mass; its moment of inertia is that of a solid sphere.
+/// Adds a particle of given mass; it has the moment of inertia of a solid sphere.
 inline void add_particle(HandMade& made, const Vec3d& centre, double radius, double mass, Phase phase) {
   made.specimen.centre.push_back(centre);
   made.specimen.radius.push_back(radius);

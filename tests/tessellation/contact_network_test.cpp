@@ -135,7 +135,7 @@ TEST_F(RandomNetwork, ArmsPutTheReferencePointOnTheFacetsPlane) {
   EXPECT_GT(outside, 0) << "the specimen should contain a centre outside its own cell";
 }
 
-/// Point areas add up to the facet's area, and their first moments to those of the facet about x0.
+/// Point areas add up to the facet's area, and their first moments about x0 to the facet's first moments.
 TEST_F(RandomNetwork, PointAreasAndFirstMoments) {
   for (std::size_t k = 0; k < network.contacts.size(); ++k) {
     const Contact& c = network.contacts[k];

@@ -115,8 +115,8 @@ TEST(Tessellation, CoplanarAndCosphericalCentres) {
 }
 
 TEST(Tessellation, ThinFacetsAreKeptAndRoundingIsNot) {
-  // One corner of a square of centres is pushed in by δ. Its cell meets that of the opposite corner in a strip between
-  // (½, ½ − δ) and (½ − δ, ½), the points equidistant from three corners.
+  // One corner of a square of centres is pushed in by δ. Its cell touches the cell of the opposite corner in a strip
+  // between (½, ½ − δ) and (½ − δ, ½), the points equidistant from three corners.
   for (const double delta : {1e-3, 1e-6, 1e-8, 0.0, 1e-14}) {
     Specimen s = empty_box({2, 2, 1});
     for (const Vec3d& p : {Vec3d{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.5, 1.5, 0.5}, {1.5 - delta, 1.5 - delta, 0.5}})

@@ -161,7 +161,7 @@ TEST_F(VoidFiles, AreRefusedWhereTheyCannotBe) {
 }
 
 TEST_F(VoidFiles, OfAHiddenVoidIsSaid) {
-  // Of two voids with nearly the same centre, the smaller one has no cell.
+  // The smaller of two voids with nearly the same centre has no cell.
   const Specimen s = read_rows(
       "0,0.002,0.005,0.005,0.002,mastic,-1\n1,0.008,0.005,0.005,0.002,void,-1\n2,0.0081,0.005,0.005,0.001,void,-1\n");
   EXPECT_HAS(message_of([&] { build_network(s, tessellate(s)); }), "1 without (particle 2)");
@@ -281,7 +281,7 @@ TEST_F(VoidScenes, TakeTheAirVoidsOfARecipe) {
   const Scene some = scene(recipe, "[specimen.voids]\nradius = [\"0.6 mm\", \"1 mm\"]\nfraction = \"3 %\"\n");
   EXPECT_NEAR((1 - *some.specimen.mastic->porosity) * 0.97, 0.96, 1e-12);
   const MixVolumes asked = volumes_of(*all.recipe);
-  for (const Scene& s : {all, some}) {  // the solid volumes are those of the mix design, with or without voids
+  for (const Scene& s : {all, some}) {  // the solid volumes equal the mix design's, with or without voids
     const GeneratedSpecimen made = generate_specimen(s.specimen);
     const double rounding = volume_of(0.001) / s.specimen.box.volume();
     EXPECT_NEAR(made.composition[0].fraction, asked.classes[0].volume, rounding);
