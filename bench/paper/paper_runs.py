@@ -40,8 +40,8 @@ def write(file, table, head=()):
 
 
 def call(macadam, command, folder, *arguments, threads=None):
-    """Runs the program with `folder` as its output and writes the time and memory that it took into measured.json
-    there."""
+    """Runs the program with `folder` as its output and writes its wall time, processor time and memory into
+    measured.json there."""
     environment = dict(os.environ)
     if threads:
         environment.update(OMP_NUM_THREADS=str(threads), OPENBLAS_NUM_THREADS=str(threads))
@@ -52,7 +52,8 @@ def call(macadam, command, folder, *arguments, threads=None):
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode:
         raise SystemExit(f"{folder.name}: exit code {process.returncode} of {' '.join(map(str, process.args))}")
-    measured = {"seconds": round(time.monotonic() - start, 3), "memory_gb": round(usage.ru_maxrss / 1e6, 2),
+    measured = {"seconds": round(time.monotonic() - start, 3),
+                "processor_s": round(usage.ru_utime + usage.ru_stime, 3), "memory_gb": round(usage.ru_maxrss / 1e6, 2),
                 "threads": threads or os.cpu_count(), "machine": processor(),
                 "date": time.strftime("%Y-%m-%d", time.gmtime())}
     (folder / "measured.json").write_text(json.dumps(measured))

@@ -22,7 +22,7 @@ def summary(status="done", solve=17.0, **changed):
     return {"status": status, "timing_s": {name: s for name, s in timing.items() if s is not None}}
 
 
-# summary, wall time, expected message (None for a valid summary)
+# summary, wall time, expected message (None for a valid summary); processor time if it is known
 CASES = [
     (summary(), 2.0 * len(TIMED), None),
     (summary(), 2.0 * len(TIMED) + 0.9, None),
@@ -36,14 +36,17 @@ CASES = [
     (summary(stepper=float("nan")), WALL, "stepper: nan s"),
     (summary(writing=None), WALL, "timing_s has no writing"),
     (summary(status="interrupted"), WALL, "status 'interrupted'"),
+    (summary(), 2.0 * len(TIMED) + 1.1, None, 18.0),  # the process waited 3.1 s for a core
+    (summary(), 2.0 * len(TIMED) + 1.1, "sum up to 20.000 s of 21.100 s", 21.1),
+    (summary(harmonic=4.0), WALL, "sum up to 22.000 s", 18.0),  # a phase that is counted twice is found all the same
 ]
 
 
 def of_phases():
     wrong = []
-    for made, wall, expected in CASES:
+    for made, wall, expected, *processor in CASES:
         try:
-            phases = phases_of(made, wall)
+            phases = phases_of(made, wall, *processor)
         except ValueError as error:
             if expected is None or expected not in str(error):
                 wrong.append(f"expected {expected or 'nothing refused'}: {error}")
