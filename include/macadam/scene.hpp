@@ -117,6 +117,9 @@ Scene read_scene(const std::filesystem::path& file);
 /// folder. Without `lines`, messages do not name lines, because the user has not seen the text.
 Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines = true);
 
+/// Returns the text of a scene's file. Checks only that it is TOML. \throws InputError with file and line.
+std::string read_scene_text(const std::filesystem::path& file);
+
 /// Returns a scene's laws at a temperature [°C]. Viscosities are NaN if a shift law has no value there.
 LawTable laws_at(const Scene& scene, double temperature);
 /// Does the same for `laws`, given at the scene's temperature, instead of the scene's laws.
