@@ -94,6 +94,9 @@ struct Scene {
   const experiments::Cyclic& cyclic() const;
 };
 
+/// Returns one experiment of each kind, with default values, in the order of the list in experiments/all.hpp.
+std::vector<Experiment> all_experiments();
+
 /// Returns `kind` in `[loading]`.
 const char* kind_of(const Experiment& experiment);
 /// Returns the result files that a run of this experiment may write, in addition to the files that every run writes.

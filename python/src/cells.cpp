@@ -37,7 +37,7 @@ void bind_cells(nb::module_& m) {
            })
       .def_prop_ro(
           "volume", [](const Tessellation& t) { return view(t.cell_volume); },
-          "Volumes of the cells of all particles, followed by those of all voids [m³], (n,).")
+          "Volumes of the cells of all particles, followed by the cells of all voids [m³], (n,).")
       .def_prop_ro(
           "a",
           [](const Tessellation& t) { return member<std::int32_t>(t.facets, [](const Facet& f) { return &f.a; }); },

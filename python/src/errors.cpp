@@ -30,13 +30,12 @@ void bind_errors(nb::module_& m) {
   const nb::object base =
       add_exception(m, "Error", "Base class of all exceptions that Macadam raises on purpose.", exception);
   error_type = base.ptr();
-  input =
-      add_exception(
-          m, "InputError",
-          "The input is wrong. The message names file and line, or the particle, and says what was found and what was "
-          "expected. Exit code 2 of the command.",
-          nb::make_tuple(base, nb::borrow(PyExc_ValueError)))
-          .ptr();
+  input = add_exception(
+              m, "InputError",
+              "The input is wrong. The message names file and line, or the particle, the value found and the value "
+              "expected. Exit code 2 of the command.",
+              nb::make_tuple(base, nb::borrow(PyExc_ValueError)))
+              .ptr();
   const nb::object failed =
       add_exception(m, "RunError", "The input was good but the run failed. Exit code 1 of the command.",
                     nb::make_tuple(base, nb::borrow(PyExc_RuntimeError)));

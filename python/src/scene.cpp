@@ -87,9 +87,25 @@ nb::object recipe_of(const GivenScene& scene) {
   return out;
 }
 
+/// Returns the list of experiments: kind, whether a scene may ask for steps, and names of the result files.
+nb::list list_experiments() {
+  nb::list out;
+  for (const Experiment& experiment : all_experiments()) {
+    nb::dict one;
+    one["kind"] = kind_of(experiment);
+    one["can_be_stepped"] = stepping_of(experiment) != experiments::Stepping::never;
+    one["files"] = nb::cast(files_of(experiment));
+    out.append(one);
+  }
+  return out;
+}
+
 }  // namespace
 
 void bind_scene(nb::module_& m) {
+  m.def("experiments", &list_experiments,
+        "Returns all kinds of experiments, one dictionary each: kind, can_be_stepped, files (names of the result files "
+        "that a run may write).");
   nb::class_<GivenScene> c(m, "Scene", "A scene that was read and checked.");
   pickle_scenes(c);
   c.def(

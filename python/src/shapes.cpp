@@ -57,7 +57,7 @@ void bind_surface(nb::module_& m) {
       .def("__repr__", [](const Surface& s) {
         return fmt::format("<macadam Surface {}: {} points, {} facets>", s.name, s.points.size(), s.facets.size());
       });
-  nb::class_<SurfaceVerdict>(m, "Verdict", "Faults of a surface: numbers of facets, or numbers of points (`stray`).")
+  nb::class_<SurfaceVerdict>(m, "Verdict", "Faults of a surface: lists of facets, or of points (`stray`).")
       .def_prop_ro("good", &SurfaceVerdict::good, "True if the surface can be measured and filled.")
       .def_ro("stray", &SurfaceVerdict::stray)
       .def_ro("degenerate", &SurfaceVerdict::degenerate)
@@ -85,8 +85,7 @@ void bind_surface(nb::module_& m) {
         Surface out = without_lock([&] { return repair_surface(s, &repair, {}, wrap); });
         return nb::make_tuple(nb::cast(std::move(out)), repair.what + "; " + repair.changes());
       },
-      nb::arg("surface"), nb::arg("wrap") = false,
-      "Returns the repaired surface and a text that says what was changed.");
+      nb::arg("surface"), nb::arg("wrap") = false, "Returns the repaired surface and a text about the changes.");
 }
 
 void bind_measures(nb::module_& m) {

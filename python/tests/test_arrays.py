@@ -43,7 +43,7 @@ WRONG = [
     ({"phase": np.full(8, 0.5)}, r"particles: phase: found 0.5 in row 0, expected whole numbers of 32 bits"),
     ({"body": np.full(8, 2**40)}, r"particles: body: found 1099511627776 in row 0, expected whole numbers of 32 bits"),
     ({"body": [-1, np.nan, -1, -1, -1, -1, -1, -1]}, r"particles: body: found nan in row 1, expected whole numbers"),
-    ({"colour": [1] * 8}, r"particles: found 'colour', expected centre and radius, and maybe phase, body, box"),
+    ({"colour": [1] * 8}, r"particles: found 'colour', expected centre, radius and, if needed, phase, body, box"),
 ]
 
 
@@ -54,7 +54,7 @@ def test_a_wrong_array_of_particles_is_named(scene, changed, message):
 
 
 def test_what_is_missing_is_named(scene):
-    with pytest.raises(mc.InputError, match="particles: found no radius, expected centre and radius"):
+    with pytest.raises(mc.InputError, match="particles: found no radius, expected centre, radius"):
         mc.specimen(scene, particles={"centre": CENTRE})
     with pytest.raises(mc.InputError, match="box"):
         mc.specimen(scene, particles={**EIGHT, "box": [2e-3] * 2})

@@ -198,3 +198,13 @@ def test_errors_of_runs_are_told_apart(specimen):
 
 def specimen_contacts(specimen):
     return mc.Scene(specimen.scene).as_dict()["contacts"]
+
+
+def test_a_test_of_any_kind_needs_no_function_of_its_own(specimen):
+    kinds = {experiment["kind"]: experiment for experiment in mc.experiments()}
+    assert {"cyclic", "sweep", "relaxation", "creep", "monotonic"} <= set(kinds)
+    assert "relaxation.csv" in kinds["relaxation"]["files"] and not kinds["sweep"]["can_be_stepped"]
+    loading = {"times": [1e-3, 1.0], "strain": 1e-4}
+    assert mc.test(specimen, "relaxation", loading).table.equals(mc.relaxation(specimen, **loading).table)
+    with pytest.raises(mc.InputError, match="kind: found 'torsion', expected one of cyclic, sweep, relaxation"):
+        mc.test(specimen, "torsion", loading)

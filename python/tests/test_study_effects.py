@@ -84,7 +84,7 @@ def test_without_several_seeds_nothing_is_said_of_chance(tmp_path: Path) -> None
 
 
 def test_the_scatter_of_a_line() -> None:
-    """For ten values of a factor with two seeds each, the error of the slope is that of the textbook formula."""
+    """For ten values of a factor with two seeds each, the error of the slope equals the textbook formula."""
     x = np.arange(10.0)
     rows = pd.DataFrame(
         [

@@ -44,7 +44,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             folder.label, "sensitivities", "not asked for: sensitivities = true in [output], method harmonic"
         )
     if sensitive:
-        page.section("What the result depends on")
+        page.section("Sensitivity of the result")
     for folder in sensitive:
         if len(sensitive) > 1:
             page.heading(folder.label)

@@ -73,7 +73,7 @@ def read_design(source: str | Path | Table, version: str) -> Design:
     the current folder. version: of macadam; it is part of each result's key, because another version may give other
     results."""
     asked, folder = (source, Path.cwd()) if isinstance(source, dict) else (read_toml(Path(source)), Path(source).parent)
-    _known(asked, _KEYS, "study")
+    _require_known_keys(asked, _KEYS, "study")
     if not isinstance(asked.get("scene"), (str, dict)):
         raise StudyError("scene: expected the file of the scene that the study varies")
     base, beside = asked["scene"], folder
@@ -153,7 +153,7 @@ def _refuse_names(options: dict[str, Any], keys: list[str]) -> None:
 
 
 # Raises StudyError for an unknown key and suggests a similar known one.
-def _known(table: Table, names: set[str], where: str) -> None:
+def _require_known_keys(table: Table, names: set[str], where: str) -> None:
     for key in table:
         if key not in names:
             near = difflib.get_close_matches(key, names, 1)
