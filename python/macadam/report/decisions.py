@@ -72,7 +72,7 @@ def add_run(page: Page, folders: list[Folder]) -> None:
     if names:
         rows: list[list[Any]] = [[_TIMES[n]] + [_time(f, n) for f in runs] for n in names]
         rows.append(
-            ["together"]
+            ["sum"]
             + [look.seconds(sum((f.summary.get("timing_s") or {}).get(n, 0.0) for n in _TIMES)) for f in runs]
         )
         page.table(

@@ -119,8 +119,8 @@ def _relaxation(found: list[Folder]) -> tuple[Any, str]:
     _finish(figure, left, found, [left, right], [left])
     strain = found[0].in_time.get("strain")
     return figure, (
-        f"A strain{'' if strain is None else f' of {look.number(1e6 * strain, 3)} µm/m'} is put on and held: the "
-        "modulus after a step (left) and the stress under the load of this test (right). " + " ".join(words)
+        f"A strain{'' if strain is None else f' of {look.number(1e6 * strain, 3)} µm/m'} is applied and held. Left: the "
+        "modulus after a step of strain. Right: the stress in this test. " + " ".join(words)
     )
 
 
@@ -239,13 +239,13 @@ def _spectrum(found: list[Folder]) -> Any:
 
 
 def _spectrum_caption(found: list[Folder]) -> str:
-    words = ["The Prony series of the whole specimen, a line for every unit: where the lines are high it relaxes most."]
+    words = ["Prony series of the specimen, with one line per unit. High lines mark the times at which it relaxes most."]
     for f in found:
         prony = f.in_time["prony"]
         words.append(
             f"{f.label}: {len(prony['units'])} units, "
-            f"{look.modulus(f.in_time.get('instantaneous_pa') or 0)} at once and "
-            f"{look.modulus(prony.get('long_term_pa') or 0)} in the end; it holds from "
+            f"{look.modulus(f.in_time.get('instantaneous_pa') or 0)} at time 0 and "
+            f"{look.modulus(prony.get('long_term_pa') or 0)} at infinite time; valid from "
             f"{look.seconds(f.in_time['shortest_s'])} to {look.seconds(f.in_time['longest_s'])}."
         )
     tables = [n for n in ("prony.csv", "prony_abaqus.inp", "prony_ansys.txt") if found[0].has(n)]

@@ -128,6 +128,6 @@ def _add_master_curve(page: Page, folder: Folder) -> None:
         f"Master curve of {folder.label}: the frequencies of each temperature multiplied by its shift a_T. "
         f"Over {look.number(float(np.log10(ends[1] / ends[0])), 2)} decades |E*| goes from {look.modulus(low)} to "
         f"{look.modulus(high)}. Dots of neighbouring "
-        "temperatures lie on one curve where the shift holds for the whole specimen.",
+        "temperatures lie on one curve if the shift is valid for the whole specimen.",
         "master curve",
     )

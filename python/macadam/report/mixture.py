@@ -61,7 +61,7 @@ def _facts_of_mix(folder: Folder) -> list[tuple[str, Any]]:
     if recipe:
         rows += [
             ("binder, of the mix's mass", look.percent(recipe.get("binder"))),
-            ("effective binder, likewise", look.percent(recipe.get("effective_binder"))),
+            ("effective binder, of the mix's mass", look.percent(recipe.get("effective_binder"))),
             ("maximum density", f"{look.number(recipe.get('maximum_density'), 4)} kg/m³"),
             ("bulk density", f"{look.number(recipe.get('bulk_density'), 4)} kg/m³"),
             ("air voids", look.percent(recipe.get("air_voids"))),
@@ -141,7 +141,7 @@ def _gradation(folder: Folder) -> Any:
     axes.plot(1e3 * sieve, 100 * asked, "o-", color=look.INK, lw=1, ms=3.5, label="asked for")
     if folder.aggregates is not None and recipe.get("classes"):
         size, passing = _between_sieves(folder, recipe, float(reached[np.argmin(abs(sieve - cut))]))
-        axes.step(1e3 * size, 100 * passing, where="post", color=look.COLOURS[1], lw=1, label="each aggregate in turn")
+        axes.step(1e3 * size, 100 * passing, where="post", color=look.COLOURS[1], lw=1, label="single aggregates")
     axes.plot(1e3 * sieve, 100 * reached, "x", color=look.COLOURS[0], ms=5, label="reached")
     axes.set_xscale("log")
     ticks: list[float] = []

@@ -185,7 +185,7 @@ def _lines(points: pd.DataFrame, factors: list[str], repetitions: np.ndarray) ->
 
 
 def effects(quantity: Quantity) -> list[Effect]:
-    """Returns one effect per factor, the largest share of the variance first. A continuous factor has two levels, the
+    """Returns one effect per factor, the largest fraction of the variance first. A continuous factor has two levels, the
     ends of its fitted line."""
     points, repetitions, out = quantity.points, quantity.repetitions, []
     total = float(((points["value"] - points["value"].mean()) ** 2).sum())

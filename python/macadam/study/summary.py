@@ -46,7 +46,7 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
     page.section("In short")
     if missing:
         page.text(
-            f"{missing} of {len(design.results)} results are missing: {study.reason}. The same command goes on.",
+            f"{missing} of {len(design.results)} results are missing: {study.reason}. The same command continues.",
             "failure",
         )
     if failed:
@@ -182,7 +182,7 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
             "whether its effect is within the scatter. Such an effect may be chance."
         )
     if len(found) > 1:
-        heads.append("share of the variance")
+        heads.append("fraction of the variance")
         for row, e in zip(rows, found, strict=True):
             row.append(look.percent(e.share))
         notes.append("Shares need not add up to 100 %: the rest is joint effects of factors, and scatter.")
@@ -311,7 +311,7 @@ def _machines(page: Page, design: Design, folder: Path) -> None:
             record = table.read_json(file)
             rows.setdefault((record["machine"]["name"], record["machine"]["processor"]), []).append(record["wall_s"])
     page.table(
-        ["machine", "processor", "results", "median time", "together"],
+        ["machine", "processor", "results", "median time", "sum of times"],
         [
             [name, processor, len(times), look.seconds(float(np.median(times))), look.seconds(sum(times))]
             for (name, processor), times in rows.items()
