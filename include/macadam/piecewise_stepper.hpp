@@ -11,7 +11,7 @@
 namespace macadam {
 
 /// Advances a stepper in pieces that take 0.1 to 0.4 s of wall time, however long a step takes. The first piece has 16
-/// steps; later ones have twice or half as many steps as the piece before, as its time requires. Results do not depend
+/// steps; then the number of steps is doubled or halved as the time of the piece before requires. Results do not depend
 /// on the length of the pieces, to the last bit. In a run of several processes all take the same pieces.
 class PiecewiseStepper {
  public:

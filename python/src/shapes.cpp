@@ -57,7 +57,8 @@ void bind_surface(nb::module_& m) {
       .def("__repr__", [](const Surface& s) {
         return fmt::format("<macadam Surface {}: {} points, {} facets>", s.name, s.points.size(), s.facets.size());
       });
-  nb::class_<SurfaceVerdict>(m, "Verdict", "Faults of a surface: lists of facets, or of points (`stray`).")
+  nb::class_<SurfaceVerdict>(m, "Verdict",
+                             "Faults of a surface: lists of facet numbers; only the first list has point numbers.")
       .def_prop_ro("good", &SurfaceVerdict::good, "True if the surface can be measured and filled.")
       .def_ro("stray", &SurfaceVerdict::stray)
       .def_ro("degenerate", &SurfaceVerdict::degenerate)

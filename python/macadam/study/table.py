@@ -133,7 +133,7 @@ def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> No
     _write_completely(folder / "failures.csv", rows)
 
 
-# Writes a file with a temporary name and renames it, so that the file is never incomplete. fill: writes to the given path.
+# Writes to a temporary name and renames the file, which is therefore never incomplete. fill: writes to the given path.
 def _write_completely(file: Path, fill: Any) -> None:
     part = file.with_name(f".{file.name}.{os.getpid()}.part")
     try:
