@@ -52,6 +52,7 @@ std::string refusal_of(const DeviceInfo& device) {
 BackendReport report_backends() {
   BackendReport report;
   report.threads = omp_get_max_threads();
+  report.processor = processor_code().name;
   if (const kernels::CudaCode* code = cuda_code(&report.cuda_status)) {
     report.cuda_compiled = true;
     code->report(report);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lengths.cpp  Converts texts of the command line into metres.
-#include "host/base/lengths.hpp"
+#include "macadam/lengths.hpp"
 
 #include <charconv>
 

@@ -29,6 +29,12 @@ Experiment scene::read_experiment(const Section& section) {
                     kinds[kind ? kind->choice(names) : 0]);
 }
 
+std::vector<Experiment> all_experiments() {
+  std::vector<Experiment> out;
+  for_each_kind([&](const Experiment& experiment) { out.push_back(experiment); });
+  return out;
+}
+
 const char* kind_of(const Experiment& experiment) {
   return std::visit([](const auto& spec) { return spec.kind; }, experiment);
 }

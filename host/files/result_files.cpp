@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "macadam/contact_network.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file files.hpp  Writes result files so that they stay intact if a run fails.
+/// \file result_files.hpp  Writes result files so that they stay intact if a run fails.
 #pragma once
 
 #include <sys/types.h>
@@ -8,8 +8,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "macadam/contact_network.hpp"
 
 namespace macadam {
 
@@ -79,9 +77,5 @@ class FilesTogether {
   std::filesystem::path folder_, place_;
   std::vector<std::string> names_;
 };
-
-/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. \throws
-/// RunError.
-void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network);
 
 }  // namespace macadam

@@ -10,59 +10,10 @@
 
 #include "host/run/phases.hpp"
 #include "host/stepping/divergence.hpp"
-#include "macadam/ranks.hpp"
+#include "macadam/piecewise_stepper.hpp"
 
 namespace macadam {
 namespace {
-
-/// Advances in pieces of some tenths of a second, so that a signal is answered soon however long a step takes.
-class Pieces {
- public:
-  explicit Pieces(Stepper& stepper) : stepper_(stepper) {}
-
-  /// Takes the steps up to step `to` and calls look() with the number of the step after each piece.
-  void advance(std::int64_t from, std::int64_t to, const std::function<void(std::int64_t)>& look) {
-    while (from < to) {
-      const std::int64_t steps = std::min(piece_, to - from);
-      timed([&] {
-        stepper_.advance(steps);
-        return steps;
-      });
-      look(from += steps);
-    }
-  }
-  /// Takes the steps to the next sample and, as far as a piece allows, on to some of up to `times` samples that follow
-  /// at the same distance. Returns these samples, at least one. look() is not called after the last steps.
-  std::vector<Sample> sample(std::int64_t from, std::int64_t to, std::int64_t times,
-                             const std::function<void(std::int64_t)>& look) {
-    const std::int64_t before = std::max(from, to - piece_);
-    advance(from, before, look);
-    const std::int64_t steps = to - before;
-    if (steps == 0) return {{stepper_.observe(), stepper_.first_divergent()}};
-    const std::int64_t at_once = before == from ? std::min(1 + times, piece_ / steps) : 1;
-    std::vector<Sample> out;
-    timed([&] {
-      out = stepper_.advance_sampled(steps, at_once);
-      return steps * std::ssize(out);
-    });
-    return out;
-  }
-
- private:
-  /// Calls f(), which takes steps and returns their number, and adapts the size of a piece to the time that it took.
-  template <class F>
-  void timed(F&& f) {
-    const auto start = Clock::now();
-    const std::int64_t steps = f();
-    // the first rank's time, so that all ranks take the same pieces
-    const double seconds = of_first_rank(seconds_since(start));
-    if (2 * steps > piece_ && seconds < 0.1) piece_ *= 2;
-    if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
-  }
-
-  Stepper& stepper_;
-  std::int64_t piece_ = 16;
-};
 
 /// The remaining time of a run is predicted after this many seconds.
 constexpr double first_seconds = 3;
@@ -123,7 +74,7 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
     return n;
   };
   if (between > 0 && step % between == 0) course.between(stepper.observe());
-  Pieces pieces(stepper);
+  PiecewiseStepper pieces(stepper);
   for (std::int64_t k = course.first; k <= course.last && !ended;) {
     const std::int64_t to = course.step_of(k);
     while ((every > 0 || between > 0) && step < to) {  // stops before the sample, for the watcher and for the course

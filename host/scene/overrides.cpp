@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // overrides.cpp  Replaces values of a scene by options.
-#include "host/scene/overrides.hpp"
+#include "macadam/overrides.hpp"
 
 #include <fmt/format.h>
 

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/given_particles.hpp"
 #include "host/scene/sections.hpp"
 #include "host/spheres/size_law.hpp"
 #include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
+#include "macadam/specimen.hpp"
 
 namespace macadam::scene {
 namespace {

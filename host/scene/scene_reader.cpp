@@ -250,4 +250,10 @@ Scene read_scene(const std::filesystem::path& file, const std::string& text, boo
   return scene::read_tables(file, text, scene::without_lines(table));
 }
 
+std::string read_scene_text(const std::filesystem::path& file) {
+  std::string text;
+  scene::read_toml(file, "scene", text);
+  return text;
+}
+
 }  // namespace macadam

@@ -12,8 +12,8 @@
 #include "host/simulation/refused_combinations.hpp"
 #include "host/simulation/measured_costs.hpp"
 #include "host/simulation/forecast_parts.hpp"
-#include "host/base/thread_limit.hpp"
 #include "macadam/harmonic.hpp"
+#include "macadam/thread_limit.hpp"
 
 namespace macadam {
 namespace {

@@ -11,10 +11,10 @@
 #include "host/simulation/run_scene.hpp"
 #include "host/simulation/summary.hpp"
 #include "host/specimen/generate.hpp"
-#include "host/tessellation/packing_check.hpp"
-#include "host/base/thread_limit.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
+#include "macadam/tessellation.hpp"
+#include "macadam/thread_limit.hpp"
 
 namespace macadam {
 namespace {

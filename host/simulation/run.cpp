@@ -24,10 +24,10 @@
 #include "host/simulation/summary.hpp"
 #include "host/backends/choose_devices.hpp"
 #include "host/backends/cuda_code.hpp"
-#include "host/tessellation/packing_check.hpp"
-#include "host/base/thread_limit.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
+#include "macadam/tessellation.hpp"
+#include "macadam/thread_limit.hpp"
 
 namespace macadam {
 namespace {

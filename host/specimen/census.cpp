@@ -7,7 +7,7 @@
 #include "host/specimen/composition.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
 #include "host/specimen/sparse_box.hpp"
-#include "host/tessellation/packing_check.hpp"
+#include "macadam/tessellation.hpp"
 
 namespace macadam {
 namespace {

@@ -9,7 +9,7 @@
 // than 2 of its own radii. A cell that exceeds both bounds is therefore neither of these. Overlapping mastic fills up
 // to 102 % of the box in the examples. If diameters are given as radii, the fill becomes eight times as large, which
 // exceeds 150 % for any packing of 19 % or more.
-#include "host/tessellation/packing_check.hpp"
+#include "macadam/tessellation.hpp"
 
 #include <fmt/format.h>
 

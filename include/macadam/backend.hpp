@@ -46,6 +46,9 @@ struct BackendReport {
   std::vector<DeviceInfo> devices_without_code;  ///< devices that cannot run the code of this build
   std::string cuda_status;                       ///< in words: why there is no usable device, or how many there are
   int threads = 1;                               ///< OpenMP's largest number of threads
+  /// Processors that the CPU code which runs here was compiled for: "native" (this machine), "x86-64", "x86-64-v3"
+  /// (AVX2) or "x86-64-v4" (AVX-512).
+  std::string processor;
 };
 
 /// Largest speeds of a CUDA device, as measured.

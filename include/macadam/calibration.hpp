@@ -5,6 +5,7 @@
 /// by all parameters (sensitivity.hpp). The method is Levenberg–Marquardt for the natural logarithms of the parameters.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -96,6 +97,18 @@ struct Calibration {
 /// of the watcher are used.
 Calibration calibrate(const Scene& scene, const ModulusData& data, const CalibrationOptions& options,
                       const Watcher& watcher = {});
+
+/// Calibrates a scene and writes calibration.json, predicted.csv and scene.toml, the scene's text with the calibrated
+/// values, into the folder `out`.
+///
+/// \throws InputError also if the folder has a scene.toml that no calibration wrote, which would be replaced, if
+/// another command is writing into it, and if the scene was not read from a file; RunError also if a file cannot be
+/// written, or if the written scene.toml does not give the calibrated values when it is read.
+Calibration calibrate_into(const std::filesystem::path& out, const Scene& scene, const ModulusData& data,
+                           const CalibrationOptions& options, const Watcher& watcher = {});
+
+/// Returns parameters and errors of a calibration as text for people.
+std::string calibration_text(const Calibration& calibration);
 
 /// Returns the text of the scene's file with the calibrated values, for a file in `folder`; everything else in the text
 /// stays. \throws InputError if the scene was not read from a file.

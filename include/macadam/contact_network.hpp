@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
@@ -84,5 +85,9 @@ void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 ///
 /// \throws InputError if a particle has no cell (names its number) or if no contact remains.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});
+
+/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. \throws
+/// RunError.
+void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network);
 
 }  // namespace macadam

@@ -199,4 +199,29 @@ double memory_available();
 /// Returns the side of the smallest square opening that a surface passes in its best orientation [m].
 double square_sieve(const Surface& surface);
 
+/// Functions that read the inputs of `macadam ct segment` and write its results.
+namespace ct {
+
+/// Reads a gradation with the header `sieve_m,passing` (fractions) or `sieve_mm,passing_percent`; the sieves may be in
+/// any order. \throws InputError that names file and line.
+std::vector<SievePassing> read_gradation(const std::filesystem::path& file);
+
+/// Reads a cuts.csv that write_segmentation() wrote and a person may have edited. \throws InputError that names file
+/// and line.
+std::vector<GrainCut> read_cuts(const std::filesystem::path& file);
+
+/// Sets the region from a text: found, whole, cylinder, prism, cylinder:x,y,diameter[,z0,z1] or
+/// prism:x0,y0,z0,x1,y1,z1. \throws InputError.
+void read_region(const std::string& text, SegmentOptions& options);
+
+/// Returns the bytes of memory that may be used, from a text such as "3 GB" or "800 MB". For an empty text returns four
+/// fifths of the free memory, which leaves some to the system and other programs. \throws InputError.
+double memory_of(const std::string& text);
+
+/// Writes all results of `macadam ct segment` into its folder. \throws InputError if another command is writing into
+/// it, RunError if writing fails.
+void write_segmentation(const std::filesystem::path& folder, const Segmentation& out, const SegmentOptions& options);
+
+}  // namespace ct
+
 }  // namespace macadam

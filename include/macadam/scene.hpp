@@ -94,6 +94,9 @@ struct Scene {
   const experiments::Cyclic& cyclic() const;
 };
 
+/// Returns one experiment of each kind, with default values, in the order of the list in experiments/all.hpp.
+std::vector<Experiment> all_experiments();
+
 /// Returns `kind` in `[loading]`.
 const char* kind_of(const Experiment& experiment);
 /// Returns the result files that a run of this experiment may write, in addition to the files that every run writes.
@@ -116,6 +119,9 @@ Scene read_scene(const std::filesystem::path& file);
 /// Reads a scene from `text` instead of the file's contents. Messages name `file`, and paths are relative to its
 /// folder. Without `lines`, messages do not name lines, because the user has not seen the text.
 Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines = true);
+
+/// Returns the text of a scene's file. Checks only that it is TOML. \throws InputError with file and line.
+std::string read_scene_text(const std::filesystem::path& file);
 
 /// Returns a scene's laws at a temperature [°C]. Viscosities are NaN if a shift law has no value there.
 LawTable laws_at(const Scene& scene, double temperature);

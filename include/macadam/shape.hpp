@@ -56,6 +56,9 @@ Surface read_surface(const std::filesystem::path& file, double scale = 1);
 /// \throws InputError as read_surface(), or naming a file whose surface is not good, or a folder without surfaces.
 std::vector<Surface> read_shape_library(const std::filesystem::path& folder);
 
+/// Returns the surface files in a folder, ordered by name. \throws InputError if the folder has no surface file.
+std::vector<std::filesystem::path> surface_files_in(const std::filesystem::path& folder);
+
 /// Writes the format given by the ending of `file` (.off, .stl (binary), .ply, .obj). Coordinates are divided by
 /// `scale` and written with enough digits to recover each double, if the format has them.
 ///
@@ -179,6 +182,14 @@ MultiSphere fill_shape(const Surface& surface, const FillSpec& spec);
 /// Measures how well a cluster represents its shape.
 FillReport measure_fill(const Surface& surface, const MultiSphere& cluster);
 
+/// Returns the shape, scaled so that its intermediate dimension D^I is twice `radius` [m]. \throws InputError if the
+/// radius is not above 0.
+Surface scale_to_radius(Surface surface, double radius);
+
+/// Writes spheres.csv, spheres.obj and shape.obj, in metres. In spheres.obj every sphere is a subdivided icosahedron,
+/// so that any viewer of meshes shows it. \throws RunError; InputError if another command is writing into the folder.
+void write_filling(const std::filesystem::path& out, const Surface& surface, const MultiSphere& cluster);
+
 /// Returns the shape library that comes with the program (examples/shapes): the 82 aggregates of
 /// generate_shape_library().
 std::vector<Surface> shape_library();
@@ -187,6 +198,15 @@ std::vector<Surface> shape_library();
 ///
 /// \throws InputError for a number of shapes below 1 or above 1000.
 std::vector<Surface> generate_shape_library(std::uint64_t seed = 1, int shapes = 82);
+
+/// Writes shapes.csv (one row per shape, named by `names`), statistics.csv and correlation.csv (docs/shapes.md) in SI
+/// units. \throws RunError; InputError if another command is writing into the folder.
+void write_shape_tables(const std::filesystem::path& out, const std::vector<std::string>& names,
+                        const std::vector<ShapeMeasure>& shapes);
+
+/// Writes each shape as an OFF file. \throws RunError; InputError if the folder holds a shape that is not one of them,
+/// because all shapes in a folder make one library.
+void write_shape_library(const std::filesystem::path& out, const std::vector<Surface>& shapes);
 
 /// Returns the subdivided icosahedron (42 points, 80 facets) with its points on a sphere of the given radius [m].
 Surface subdivided_icosahedron(double radius = 1);

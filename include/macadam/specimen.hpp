@@ -143,6 +143,11 @@ struct ShapeSpec {
   double hold_out = 0;
 };
 
+/// The value of SpecimenSpec::file in a scene whose particles are given by the caller of the library, not by a file.
+/// Reading the scene does not look for the file. A run that is not given the particles fails, because there is no file
+/// of this name.
+inline constexpr const char* given_particles = "particles given in Python";
+
 /// Everything needed to obtain a specimen: a file, or a recipe for the generator.
 struct SpecimenSpec {
   std::optional<std::filesystem::path> file;

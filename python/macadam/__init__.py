@@ -24,13 +24,13 @@ if "OMP_WAIT_POLICY" not in os.environ and "GOMP_SPINCOUNT" not in os.environ:
 
 #: The public names of the package, by the module that defines them.
 _HOMES = {
-    "_core": ("Error", "InputError", "RunError", "InterruptedError", "DivergenceError", "info", "pair_names",
+    "_core": ("Error", "InputError", "RunError", "InterruptedError", "DivergenceError", "info", "experiments", "pair_names",
               "Specimen", "Contacts", "Cells", "Section", "Boundary", "Drive", "FieldSeries", "Stepper", "Step", "Observation",
               "ParticleState", "ContactState", "HarmonicSolver", "SteadyState", "StartState", "steady_start",
               "Spectrum", "PronySeries", "CreepSeries", "spectrum", "evaluate_cyclic", "critical_step", "__version__"),
     "_scene": ("Scene",),
     "_specimen": ("specimen",),
-    "_simulation": ("run", "harmonic", "sweep", "relaxation", "creep", "monotonic"),
+    "_simulation": ("run", "test", "harmonic", "sweep", "relaxation", "creep", "monotonic"),
     "_result": ("Result",),
     "_fit": ("fit", "Fit"),
     "_calibration": ("calibrate", "Calibration"),
@@ -44,12 +44,12 @@ if TYPE_CHECKING:
     from ._core import (Boundary, Cells, Contacts, ContactState, CreepSeries, DivergenceError, Drive, Error,
                         FieldSeries, HarmonicSolver, InputError, Observation, ParticleState,
                         PronySeries, RunError, Section, Specimen, Spectrum, StartState, SteadyState, Step, Stepper,
-                        critical_step, evaluate_cyclic, info, pair_names, spectrum, steady_start)
+                        critical_step, evaluate_cyclic, experiments, info, pair_names, spectrum, steady_start)
     from ._core import InterruptedError as InterruptedError
     from ._fit import Fit, fit
     from ._result import Result
     from ._scene import Scene
-    from ._simulation import creep, harmonic, monotonic, relaxation, run, sweep
+    from ._simulation import creep, harmonic, monotonic, relaxation, run, sweep, test
     from ._specimen import specimen
     from .report.document import report
     from .study.driver import study

@@ -59,7 +59,7 @@ class Fit:
         """The entry of `contacts` for a scene, in SI units. Its `pair` is M-M; change it to use the law for another
         pair.
 
-        Raises InputError if no chain represents the fitted model; the last of the warnings says why."""
+        Raises InputError if no chain represents the fitted model; the last warning gives the reason."""
         if "law.toml" not in self.files:
             raise _core.InputError(self.warnings[-1])
         return tomllib.loads(self.files["law.toml"])["contacts"][0]

@@ -95,8 +95,8 @@ class Result:
 
     @cached_property
     def response(self) -> pandas.DataFrame:
-        """The samples of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Other tests have no samples
-        beside `table`."""
+        """The samples of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Other tests have only
+        `table`."""
         return self.csv("response.csv")
 
     @cached_property

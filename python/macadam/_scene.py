@@ -10,7 +10,7 @@ from typing import Any
 
 from . import _core, _toml
 
-#: Overrides that are options of the command. Any other override is a key of the scene.
+#: Overrides that are options of the command. All other overrides are keys of the scene.
 OPTIONS = ("seed", "backend", "precision", "method", "linear", "threads", "device")
 
 NO_FILE = "scene"  # name in messages of a scene that does not come from a file

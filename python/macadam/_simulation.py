@@ -37,8 +37,8 @@ def _scene_and_specimen(scene: SceneLike, specimen: SpecimenLike | None,
                                "section specimen")
     other = [k for k, v in overrides.items() if k.split(".")[0] == "specimen" or k == "seed" and v is not None]
     if made is not None and other:
-        raise _core.InputError(f"{other[0]}: found another value beside a Specimen, expected a scene: the particles of a Specimen "
-                               "cannot be changed")
+        raise _core.InputError(f"{other[0]}: found a value together with a Specimen, expected it with a scene: the particles of "
+                               "a Specimen cannot be changed")
     if isinstance(scene, _core.Specimen):
         return Scene(scene.scene), made
     return scene if isinstance(scene, Scene) else Scene(scene), made
@@ -68,7 +68,7 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: S
     given, made = _scene_and_specimen(scene, specimen, overrides)
     if overrides:
         given = Scene(given, **overrides)
-    return Result(given, made, **_checked({"out": out, "resume": resume, "on_step": on_step, "every": every,
+    return Result(given, made, **_require_folder_to_resume({"out": out, "resume": resume, "on_step": on_step, "every": every,
                                            "progress": progress, "on_plan": on_plan, "on_warning": on_warning}))
 
 
@@ -88,16 +88,31 @@ def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, An
     call |= {name: overrides[name] for name in _OF_RUN if name in overrides}
     other = Scene(tables, file=given.file,
                   **{**options, **{name: value for name, value in overrides.items() if name not in _OF_RUN}})
-    return Result(other, made, **_checked(call))
+    return Result(other, made, **_require_folder_to_resume(call))
 
 
-def _several(numbers: Sequence[Number] | Number) -> Any:
+def test(scene: SceneLike, kind: str, loading: Mapping[str, Any], *, method: str = "harmonic",
+         specimen: SpecimenLike | None = None, out: str | PathLike[str] | None = None,
+         progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
+    """Runs a test of any kind of experiments() instead of the scene's own test.
+
+    kind: `kind` in [loading]. loading: the other keys of [loading], in SI units or text with a unit (docs/scene.md).
+    method: "harmonic", without time steps, or "explicit", stepped in time. overrides: as for run(). Raises InputError
+    for another kind.
+    """
+    kinds = [experiment["kind"] for experiment in _core.experiments()]
+    if kind not in kinds:
+        raise _core.InputError(f"kind: found {kind!r}, expected one of {', '.join(kinds)}")
+    return _test(scene, specimen, {**loading, "kind": kind}, overrides, method, out=out, progress=progress)
+
+
+def _as_list(numbers: Sequence[Number] | Number) -> Any:
     """Returns a single number as a list, and a list or an array unchanged."""
     return [numbers] if isinstance(numbers, str) or not hasattr(numbers, "__len__") else numbers
 
 
 # Returns the arguments unchanged. Raises InputError for `resume` without `out`.
-def _checked(call: dict[str, Any]) -> dict[str, Any]:
+def _require_folder_to_resume(call: dict[str, Any]) -> dict[str, Any]:
     if call.get("resume") and call.get("out") is None:
         raise _core.InputError("resume: found no out, expected the folder of the interrupted run")
     return call
@@ -127,7 +142,7 @@ def harmonic(scene: SceneLike, frequencies: Sequence[Number] | Number | None = N
         changed.setdefault("method", "harmonic")
         return Result(Scene(given, **changed), made, out, progress=progress)
     before = given.as_dict()["loading"]
-    loading = {"kind": "cyclic", "frequencies": before.get("frequencies") if frequencies is None else _several(frequencies),
+    loading = {"kind": "cyclic", "frequencies": before.get("frequencies") if frequencies is None else _as_list(frequencies),
                "temperatures": before.get("temperatures") if temperatures is None else temperatures}
     if before.get("kind") == "cyclic":
         loading["strain_amplitude"] = before.get("strain_amplitude")

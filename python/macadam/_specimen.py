@@ -33,7 +33,7 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
     progress: called with a stage and the fraction of it that is done, 0 to 1.
     """
     if particles is not None:
-        return _of_particles(scene, particles)
+        return _specimen_of_particles(scene, particles)
     given = scene if isinstance(scene, _core.Scene) else Scene(scene)
     if out is None:
         return _core.prepare(given, progress)
@@ -41,12 +41,12 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
 
 
 # Makes a specimen from the caller's particles. Raises InputError for an unknown or missing array.
-def _of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str],
-                  particles: Mapping[str, ArrayLike]) -> _core.Specimen:
+def _specimen_of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str],
+                           particles: Mapping[str, ArrayLike]) -> _core.Specimen:
     wrong = [name for name in particles if name not in _ARRAYS] or [name for name in _NEEDED if name not in particles]
     if wrong:
         found = f"{wrong[0]!r}" if wrong[0] in particles else f"no {wrong[0]}"
-        raise _core.InputError(f"particles: found {found}, expected centre and radius, and maybe phase, body, box")
+        raise _core.InputError(f"particles: found {found}, expected centre, radius and, if needed, phase, body, box")
     given = _scene_of_particles(scene, particles.get("box"))
     return _core.prepare_particles(given, particles.get("box", given.box), particles["centre"], particles["radius"],
                                    particles.get("phase"), particles.get("body"))

@@ -9,14 +9,14 @@ from os import PathLike, fspath
 from typing import Any
 
 
-# Returns a key as it is written in TOML, in quotes if it needs them.
+# Returns the name of a key in TOML, in quotes if necessary.
 def _key(name: object) -> str:
     text = str(name)
     bare = text and all(c.isalnum() and c.isascii() or c in "-_" for c in text)
     return text if bare else json.dumps(text)
 
 
-# Returns a float as TOML, which needs a point or an exponent.
+# Returns a float in TOML: with a point or an exponent.
 def _number(value: float) -> str:
     if math.isnan(value):
         return "nan"
@@ -60,14 +60,14 @@ def _tables(of: Any) -> bool:
 
 def dumps(table: Mapping[str, Any], path: str = "") -> str:
     """Returns the TOML text of a table and of the tables in it. Keys whose value is None are left out."""
-    own, below = "", ""
+    keys, tables = "", ""
     for name, entry in table.items():
         full = f"{path}.{_key(name)}" if path else _key(name)
         if isinstance(entry, Mapping):
-            below += f"\n[{full}]\n" + dumps(entry, full)
+            tables += f"\n[{full}]\n" + dumps(entry, full)
         elif _tables(entry):
             for one in entry:
-                below += f"\n[[{full}]]\n" + dumps(one, full)
+                tables += f"\n[[{full}]]\n" + dumps(one, full)
         elif entry is not None:
-            own += f"{_key(name)} = {value(entry)}\n"
-    return own + below
+            keys += f"{_key(name)} = {value(entry)}\n"
+    return keys + tables

@@ -8,12 +8,12 @@
 
 #include <memory>
 
-#include "host/scene/overrides.hpp"
+#include "macadam/overrides.hpp"
 #include "macadam/simulation.hpp"
 
 namespace macadam::python {
 
-/// The scene object of Python: a scene, and the command's options (seed, backend, …) that the caller set in addition.
+/// The scene object of Python: a scene, and the options (seed, backend, …) by which the caller replaced its values.
 struct GivenScene : Scene {
   Overrides instead = {};  ///< Options that replace the scene's own values.
 };

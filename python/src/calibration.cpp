@@ -9,8 +9,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/tools/calibration/calibration_files.hpp"
-#include "host/files/result_folder.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
@@ -23,13 +21,14 @@ using Pairs = std::map<std::string, std::pair<double, double>>;  // two numbers 
 /// Returns the free parameters with their bounds (low, high) and priors (value, standard deviation of its
 /// natural logarithm).
 /// \throws InputError if bounds or priors name a parameter that is not free.
-std::vector<FreeParameter> free_of(const std::vector<std::string>& names, const Pairs& bounds, const Pairs& priors) {
+std::vector<FreeParameter> free_parameters(const std::vector<std::string>& names, const Pairs& bounds,
+                                           const Pairs& priors) {
   std::vector<FreeParameter> out;
   for (const std::string& name : names) out.push_back({name, {}, {}, {}, 0});
   const auto find = [&](const char* option, const std::string& name) -> FreeParameter& {
     for (FreeParameter& p : out)
       if (p.name == name) return p;
-    throw InputError(std::string(option) + ": found \"" + name + "\", expected a parameter that free names");
+    throw InputError(std::string(option) + ": found \"" + name + "\", expected a name in `free`");
   };
   for (const auto& [name, range] : bounds) {
     FreeParameter& p = find("bounds", name);
@@ -48,7 +47,7 @@ nb::dict run_calibration(const GivenScene& scene, const ModulusData& data, const
                          double e_star_deviation, double phase_deviation, bool nearest,
                          const std::filesystem::path& out, nb::object progress) {
   CalibrationOptions options;
-  options.free = free_of(free, bounds, priors);
+  options.free = free_parameters(free, bounds, priors);
   options.seeds = in_range("seeds", seeds, 1, 1000);
   options.misfit = choice<Misfit>("misfit", misfit,
                                   {{"modulus-and-phase", Misfit::modulus_and_phase},
@@ -62,17 +61,11 @@ nb::dict run_calibration(const GivenScene& scene, const ModulusData& data, const
   Watcher watcher;
   watcher.progress = call.progress_function();
   watcher.stop = [&] { return call.stop(); };
-  const GivenScene own = scene;
-  const Calibration found = call([&] {
-    require_calibration_folder(own, out);
-    const ResultFolder folder(out);
-    Calibration made = calibrate(own, data, options, watcher);
-    write_calibration(out, own, made);
-    return made;
-  });
+  const GivenScene copy = scene;  // another Python thread may change the caller's scene
+  const Calibration calibration = call([&] { return calibrate_into(out, copy, data, options, watcher); });
   nb::dict result;
-  result["text"] = calibration_text(found);
-  result["warnings"] = nb::cast(found.warnings);
+  result["text"] = calibration_text(calibration);
+  result["warnings"] = nb::cast(calibration.warnings);
   return result;
 }
 

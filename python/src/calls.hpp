@@ -28,20 +28,20 @@ class LongCall {
   /// to 1.
   explicit LongCall(nb::object progress = nb::none()) : progress_(std::move(progress)) {}
 
-  /// Returns true if the work must end. The work may ask at any rate: signals are looked for every 50 ms at most.
+  /// Returns true if the work must end. The work may ask at any rate: signals are looked for at most every 50 ms.
   bool stop() {
     const auto now = Clock::now();
-    if (now - looked_ < std::chrono::milliseconds(50)) return raised_.has_value();
-    looked_ = now;
+    if (now - last_look_ < std::chrono::milliseconds(50)) return raised_.has_value();
+    last_look_ = now;
     const nb::gil_scoped_acquire acquire;
     if (!raised_ && PyErr_CheckSignals() != 0) raised_.emplace();
     return raised_.has_value();
   }
 
-  /// Calls f, which runs Python code, from within the work. An exception that it raises is stored and ends the work;
-  /// after one, f is no longer called.
+  /// Calls f, which runs Python code, from within the work. An exception of f is stored and ends the work; later calls
+  /// of this function do nothing.
   template <class F>
-  void tell(F&& f) {
+  void call_python(F&& f) {
     const nb::gil_scoped_acquire acquire;
     if (raised_) return;
     try {
@@ -50,17 +50,17 @@ class LongCall {
   }
 
   /// Reports progress to Python. \throws InterruptedError if the work must end.
-  void progress(const std::string& stage, double share) {
-    show(stage, share);
+  void progress(const std::string& stage, double fraction) {
+    show(stage, fraction);
     if (stop()) throw InterruptedError("interrupted at: " + stage + "; nothing was written");
   }
   /// Reports progress to Python and never throws: for work that asks stop() itself.
-  void show(const std::string& stage, double share) {
-    if (!progress_.is_none()) tell([&] { progress_(stage, share); });
+  void show(const std::string& stage, double fraction) {
+    if (!progress_.is_none()) call_python([&] { progress_(stage, fraction); });
   }
   /// Returns progress() as a function for the library. It must not outlive this object.
   Progress progress_function() {
-    return [this](const std::string& stage, double share) { progress(stage, share); };
+    return [this](const std::string& stage, double fraction) { progress(stage, fraction); };
   }
 
   /// Does the work without the interpreter's lock and returns its result. If a callback raised, or Ctrl-C came, that
@@ -69,10 +69,10 @@ class LongCall {
   auto operator()(F&& work) {
     try {
       if constexpr (std::is_void_v<decltype(work())>) {
-        released(work);
+        without_lock(work);
         raise("interrupted");
       } else {
-        auto result = released(work);
+        auto result = without_lock(work);
         raise("interrupted");
         return result;
       }
@@ -86,7 +86,7 @@ class LongCall {
   using Clock = std::chrono::steady_clock;
 
   template <class F>
-  static auto released(F&& work) {
+  static auto without_lock(F&& work) {
     const nb::gil_scoped_release release;
     return work();
   }
@@ -103,8 +103,8 @@ class LongCall {
   }
 
   nb::object progress_;
-  Clock::time_point looked_ = Clock::now();  // last time that signals were looked for
-  std::optional<nb::python_error> raised_;   // the stored exception
+  Clock::time_point last_look_ = Clock::now();  // the last time that signals were looked for
+  std::optional<nb::python_error> raised_;      // the stored exception
 };
 
 }  // namespace macadam::python

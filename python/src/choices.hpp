@@ -16,7 +16,7 @@
 
 namespace macadam::python {
 
-/// Returns the value that belongs to the name `text`. \throws InputError that lists the names if there is no such name.
+/// Returns the value with the name `text`. \throws InputError, listing the names, for any other text.
 template <class T>
 T choice(const char* name, const std::string& text, const std::vector<std::pair<const char*, T>>& choices) {
   std::string names;
@@ -33,13 +33,13 @@ std::optional<T> choice(const char* name, const std::optional<std::string>& text
   return choice(name, *text, choices);
 }
 
-/// Returns the number if it is from low to high, or nothing if none was given. \throws InputError for other numbers.
+/// Returns the number, or nothing if it is not given. \throws InputError if the number is not between low and high.
 template <class T>
 std::optional<T> in_range(const char* name, const std::optional<T>& value, T low, T high) {
   if (value && !(*value >= low && *value <= high)) {
-    constexpr bool whole = std::is_integral_v<T>;
-    throw InputError(
-        fmt::format("{}: found {}, expected a {}number from {} to {}", name, *value, whole ? "whole " : "", low, high));
+    constexpr bool is_whole = std::is_integral_v<T>;
+    throw InputError(fmt::format("{}: found {}, expected a {}number from {} to {}", name, *value,
+                                 is_whole ? "whole " : "", low, high));
   }
   return value;
 }
@@ -60,7 +60,7 @@ inline std::optional<DeviceList> devices_of(const Devices& given) {
   }
   const auto* one = std::get_if<int>(&*given);
   const DeviceList out = one ? DeviceList{*one} : std::get<std::vector<int>>(*given);
-  if (out.empty()) throw InputError("device: found an empty list, expected one device at least");
+  if (out.empty()) throw InputError("device: found an empty list, expected at least one device");
   for (const int number : out) {
     if (out != DeviceList{every_device}) in_range("device", number, 0, 1023);
     if (std::count(out.begin(), out.end(), number) > 1)

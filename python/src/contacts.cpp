@@ -16,7 +16,8 @@ void bind_contacts(nb::module_& m) {
     const auto stride = static_cast<std::int64_t>(sizeof(Contact) / sizeof(double));
     return view(n.contacts.empty() ? nullptr : &n.contacts.front().moments.a, {n.contacts.size(), 6}, {stride, 1});
   };
-  nb::class_<ContactNetwork>(m, "Contacts", "The contacts of a specimen, in order of (a, b). Arrays are views.")
+  nb::class_<ContactNetwork>(
+      m, "Contacts", "The contacts of a specimen, in order of (a, b). Arrays are views with one entry per contact.")
       .def("__len__", [](const ContactNetwork& n) { return n.contacts.size(); })
       .def("__repr__",
            [](const ContactNetwork& n) {
@@ -34,30 +35,30 @@ void bind_contacts(nb::module_& m) {
           [](const ContactNetwork& n) {
             return member<std::int32_t>(n.contacts, [](const Contact& c) { return &c.a; });
           },
-          "Number of a particle.")
+          "Number of the first particle, (n,).")
       .def_prop_ro(
           "b",
           [](const ContactNetwork& n) {
             return member<std::int32_t>(n.contacts, [](const Contact& c) { return &c.b; });
           },
-          "Of another, or a wall: -1 to -6 for -x +x -y +y -z +z.")
+          "Number of the second particle, or of a wall: -1 to -6 for -x +x -y +y -z +z, (n,).")
       .def_prop_ro(
           "pair",
           [](const ContactNetwork& n) {
             return member<std::uint8_t>(
                 n.contacts, [](const Contact& c) { return reinterpret_cast<const std::uint8_t*>(&c.pair); });
           },
-          "Index into `pair_names`.")
+          "Index into `pair_names`, (n,).")
       .def_prop_ro(
           "area",
           [](const ContactNetwork& n) { return member<double>(n.contacts, [](const Contact& c) { return &c.area; }); },
-          "[m²]")
+          "Area [m²], (n,).")
       .def_prop_ro(
           "distance",
           [](const ContactNetwork& n) {
             return member<double>(n.contacts, [](const Contact& c) { return &c.distance; });
           },
-          "Between the centres, or from a centre to the wall [m].")
+          "Distance between the centres, or from a centre to the wall [m], (n,).")
       .def_prop_ro(
           "normal",
           [](const ContactNetwork& n) {
@@ -79,35 +80,36 @@ void bind_contacts(nb::module_& m) {
       .def_prop_ro(
           "arm_a",
           [](const ContactNetwork& n) { return member<double>(n.contacts, [](const Contact& c) { return &c.arm_a; }); },
-          "From the centre of a along the normal to the facet [m].")
+          "Distance from the centre of a to the facet along the normal [m], (n,).")
       .def_prop_ro(
           "arm_b",
           [](const ContactNetwork& n) { return member<double>(n.contacts, [](const Contact& c) { return &c.arm_b; }); },
-          "From the facet along the normal to the centre of b [m].")
-      .def_prop_ro("moments", moments, "Σ A, A·s, A·t, A·s², A·s·t, A·t² over the facet [m² … m⁴], (n, 6).")
+          "Distance from the facet to the centre of b along the normal [m], (n,); 0 at a wall.")
+      .def_prop_ro("moments", moments, "Integrals of 1, s, t, s², s·t and t² over the facet [m² to m⁴], (n, 6).")
       .def_prop_ro(
           "point_begin",
           [](const ContactNetwork& n) {
             return member<std::uint32_t>(n.contacts, [](const Contact& c) { return &c.point_begin; });
           },
-          "Its first contact point.")
+          "Index of the first contact point, (n,).")
       .def_prop_ro(
           "point_end",
           [](const ContactNetwork& n) {
             return member<std::uint32_t>(n.contacts, [](const Contact& c) { return &c.point_end; });
           },
-          "The one behind its last.")
+          "Index after the last contact point, (n,).")
       .def_prop_ro(
           "point_s", [](const ContactNetwork& n) { return view(n.point_s); },
-          "Of each contact point, in its facet [m].")
+          "Coordinate along s of each contact point [m], (points,).")
       .def_prop_ro(
           "point_t", [](const ContactNetwork& n) { return view(n.point_t); },
-          "Of each contact point, in its facet [m].")
+          "Coordinate along t of each contact point [m], (points,).")
       .def_prop_ro(
-          "point_area", [](const ContactNetwork& n) { return view(n.point_area); }, "Of each contact point [m²].")
+          "point_area", [](const ContactNetwork& n) { return view(n.point_area); },
+          "Area of each contact point [m²], (points,).")
       .def_prop_ro(
           "dropped", [](const ContactNetwork& n) { return nb::make_tuple(n.dropped_gap, n.dropped_area); },
-          "Facets that gap_max and area_min dropped.")
+          "Numbers of facets that gap_max and area_min excluded: (gap, area).")
       .def_prop_ro(
           "count",
           [](const ContactNetwork& n) {
@@ -118,7 +120,7 @@ void bind_contacts(nb::module_& m) {
             }
             return out;
           },
-          "Contacts by pair.");
+          "Number of contacts by pair.");
   nb::list names;
   for (int pair = 0; pair < pair_types; ++pair) names.append(to_string(static_cast<PairType>(pair)));
   m.attr("pair_names") = nb::tuple(names);

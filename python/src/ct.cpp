@@ -13,12 +13,10 @@
 #include "python/src/choices.hpp"
 #ifdef MACADAM_CT
 
-#include "host/tools/ct/grains/gradation.hpp"
-#include "host/tools/ct/segment/segment_files.hpp"
-#include "host/tools/ct/segment/segment_texts.hpp"
-#include "host/base/lengths.hpp"
-#include "host/base/thread_limit.hpp"
+#include "macadam/ct.hpp"
+#include "macadam/lengths.hpp"
 #include "macadam/phantom.hpp"
+#include "macadam/thread_limit.hpp"
 #include "macadam/twin.hpp"
 #endif
 
@@ -92,7 +90,7 @@ nb::list grains_of(const std::vector<ScannedGrain>& grains) {
   return out;
 }
 
-/// What Python gets of a synthetic scan: voxels along x, y, z, number of grains, fractions of the scan's volume.
+/// Size of a synthetic scan (voxels along x, y, z), number of grains, and volume fractions of the scan.
 struct PhantomNumbers {
   std::array<std::int64_t, 3> size{};
   std::size_t grains = 0;
@@ -120,10 +118,10 @@ PhantomNumbers phantom(const GivenScene& scene, const std::string& voxel, const 
   spec.grey_mastic = in_range("grey_mastic", grey_mastic, 0.0, 65535.0);
   spec.grey_aggregate = in_range("grey_aggregate", grey_aggregate, 0.0, 65535.0);
   LongCall call(std::move(progress));
-  const GivenScene own = scene;
+  const GivenScene copy = scene;  // another Python thread may change the caller's scene
   return call([&] {
-    const Phantom made = make_phantom(own, spec, call.progress_function());
-    write_phantom(out, made, own, spec);
+    const Phantom made = make_phantom(copy, spec, call.progress_function());
+    write_phantom(out, made, copy, spec);
     return PhantomNumbers{made.scan.size, made.grains.size(), made.aggregate, made.mastic, made.voids};
   });
 }
@@ -137,50 +135,57 @@ Twin twin(const Path& folder, const GivenScene& scene, const Path& out, const st
   spec.least_void = length_of(least_void, "--least-void");
   spec.seed = seed;
   if (!box.empty()) {
-    if (box.size() != 6) throw InputError("box: found " + std::to_string(box.size()) + " lengths, expected six");
+    if (box.size() != 6)
+      throw InputError("box: found " + std::to_string(box.size()) + " lengths, expected six: two corners");
     const auto at = [&](std::size_t i) { return length_of(box[i], "--box"); };
     spec.box = {Vec3d{at(0), at(1), at(2)}, Vec3d{at(3), at(4), at(5)}};
   }
   LongCall call(std::move(progress));
-  const GivenScene own = scene;
+  const GivenScene copy = scene;  // another Python thread may change the caller's scene
   return call([&] {
-    Twin made = make_twin(folder, own, spec, call.progress_function());
-    write_twin(out, made, own);
+    Twin made = make_twin(folder, copy, spec, call.progress_function());
+    write_twin(out, made, copy);
     return made;
   });
 }
 
 void bind_segmentation(nb::module_& m) {
-  nb::class_<Segmentation>(m, "Segmentation", "What became of a scan. Images are views, (z, y, x).")
+  nb::class_<Segmentation>(m, "Segmentation", "Result of a segmentation. Images are views, (z, y, x).")
       .def_prop_ro(
           "phases", [](const Segmentation& s) { return voxels(s.phases); },
-          "0 air void, 1 mastic, 2 aggregate, 255 outside.")
+          "Phase of each voxel: 0 air void, 1 mastic, 2 aggregate, 255 outside.")
       .def_prop_ro(
-          "labels", [](const Segmentation& s) { return voxels(s.labels); }, "Number of the grain; 0: none.")
+          "labels", [](const Segmentation& s) { return voxels(s.labels); },
+          "Number of the grain of each voxel; 0: no grain.")
       .def_prop_ro(
           "confidence", [](const Segmentation& s) { return voxels(s.confidence); },
-          "That the phase is right, 0 to 255.")
+          "Confidence in the phase of each voxel, 0 to 255.")
       .def_prop_ro(
           "grey", [](const Segmentation& s) { return voxels(s.grey); }, "The corrected scan.")
       .def_prop_ro(
-          "spacing", [](const Segmentation& s) { return triple(s.labels.spacing); }, "Edges of a voxel, x y z [m].")
+          "spacing", [](const Segmentation& s) { return triple(s.labels.spacing); },
+          "Edges of a voxel along x, y, z [m].")
       .def_prop_ro(
           "origin", [](const Segmentation& s) { return triple(s.labels.origin); },
-          "Centre of the first voxel, x y z [m].")
+          "Coordinates of the first voxel's centre [m].")
       .def_prop_ro(
-          "grains", [](const Segmentation& s) { return grains_of(s.grains); }, "SI units.")
+          "grains", [](const Segmentation& s) { return grains_of(s.grains); }, "Grains, one dictionary each; SI units.")
       .def(
           "surface",
           [](const Segmentation& s, std::int64_t i) -> const Surface& {
-            if (i < 0 || i >= std::ssize(s.grains)) throw nb::index_error("no grain of this number");
+            if (i < 0 || i >= std::ssize(s.grains))
+              throw nb::index_error(
+                  ("grain: found " + std::to_string(i) + ", expected a number below " + std::to_string(s.grains.size()))
+                      .c_str());
             return s.grains[static_cast<std::size_t>(i)].surface;
           },
-          nb::rv_policy::reference_internal, nb::arg("grain"), "Of an entry of `grains`.")
-      .def_ro("air_voids", &Segmentation::air_voids, "Share of the specimen's volume.")
-      .def_ro("mastic", &Segmentation::mastic, "Share of the specimen's volume.")
-      .def_ro("aggregate", &Segmentation::aggregate, "Share of the specimen's volume.")
-      .def_ro("in_no_grain", &Segmentation::in_no_grain, "Part of the aggregate's volume that is in no grain.")
-      .def_ro("confidence_mean", &Segmentation::confidence_mean, "Of the voxels of the specimen, 0 to 1.")
+          nb::rv_policy::reference_internal, nb::arg("grain"),
+          "Returns the surface of the grain with this index in `grains`.")
+      .def_ro("air_voids", &Segmentation::air_voids, "Fraction of the specimen's volume.")
+      .def_ro("mastic", &Segmentation::mastic, "Fraction of the specimen's volume.")
+      .def_ro("aggregate", &Segmentation::aggregate, "Fraction of the specimen's volume.")
+      .def_ro("in_no_grain", &Segmentation::in_no_grain, "Fraction of the aggregate's volume that belongs to no grain.")
+      .def_ro("confidence_mean", &Segmentation::confidence_mean, "Mean confidence of the specimen's voxels, 0 to 1.")
       .def_ro("block", &Segmentation::block, "Edge of a voxel of these images in voxels of the scan.")
       .def_ro("warnings", &Segmentation::warnings);
   m.def("segment", &segment, nb::arg("images"), nb::arg("out"), nb::arg("voxel"), nb::arg("dataset"), nb::arg("region"),
@@ -194,8 +199,8 @@ void bind_segmentation(nb::module_& m) {
 
 void bind_ct(nb::module_& m) {
   bind_segmentation(m);
-  nb::class_<PhantomNumbers>(m, "Phantom", "What a synthetic scan holds; shares are of its volume.")
-      .def_ro("size", &PhantomNumbers::size, "Voxels along x, y, z.")
+  nb::class_<PhantomNumbers>(m, "Phantom", "A synthetic scan; aggregate, mastic and voids are fractions of its volume.")
+      .def_ro("size", &PhantomNumbers::size, "Number of voxels along x, y, z.")
       .def_ro("grains", &PhantomNumbers::grains)
       .def_ro("aggregate", &PhantomNumbers::aggregate)
       .def_ro("mastic", &PhantomNumbers::mastic)
@@ -207,15 +212,16 @@ void bind_ct(nb::module_& m) {
         nb::arg("cupping") = usual.cupping, nb::arg("rings") = usual.rings, nb::arg("drift") = usual.drift,
         nb::arg("grey_air") = usual.grey_air, nb::arg("grey_mastic") = usual.grey_mastic,
         nb::arg("grey_aggregate") = usual.grey_aggregate, nb::arg("progress") = nb::none());
-  nb::class_<Twin>(m, "Twin", "A specimen made of a scan; shares are of the box.")
+  nb::class_<Twin>(m, "Twin", "A specimen made from a scan; aggregate, mastic and voids are fractions of the box.")
       .def_prop_ro("particles", [](const Twin& t) { return t.specimen.size(); })
       .def_prop_ro(
-          "box", [](const Twin& t) { return triple(t.specimen.box.size); }, "[m]")
+          "box", [](const Twin& t) { return triple(t.specimen.box.size); }, "Edge lengths of the box [m].")
       .def_prop_ro(
-          "corner", [](const Twin& t) { return triple(t.corner); }, "Of the box, in the scan's coordinates [m].")
-      .def_ro("grains", &Twin::grains, "In the box, at least in part.")
-      .def_ro("clusters", &Twin::clusters, "Of several spheres.")
-      .def_ro("lost", &Twin::lost, "Grains of which too little is in the box for a sphere.")
+          "corner", [](const Twin& t) { return triple(t.corner); },
+          "Lowest corner of the box in the scan's coordinates [m].")
+      .def_ro("grains", &Twin::grains, "Number of grains that are in the box at least in part.")
+      .def_ro("clusters", &Twin::clusters, "Number of grains that became several spheres.")
+      .def_ro("lost", &Twin::lost, "Number of grains of which too little is in the box for a sphere.")
       .def_ro("aggregate", &Twin::aggregate)
       .def_ro("mastic", &Twin::mastic)
       .def_ro("voids", &Twin::voids)

@@ -13,7 +13,7 @@ PyObject* divergence = nullptr;
 
 /// Adds a new exception type to the module and returns it. bases: the type, or the tuple of types, that it derives
 /// from.
-nb::object make(nb::module_& m, const char* name, const char* doc, const nb::object& bases) {
+nb::object add_exception(nb::module_& m, const char* name, const char* doc, const nb::object& bases) {
   const std::string full = std::string("macadam.") + name;
   nb::object made = nb::steal(PyErr_NewExceptionWithDoc(full.c_str(), doc, bases.ptr(), nullptr));
   if (!made.is_valid()) nb::raise_python_error();
@@ -27,21 +27,24 @@ PyObject *error_type, *input, *run, *interrupted;
 
 void bind_errors(nb::module_& m) {
   const nb::object exception = nb::borrow(PyExc_Exception);
-  const nb::object base = make(m, "Error", "Everything that Macadam raises on purpose.", exception);
+  const nb::object base =
+      add_exception(m, "Error", "Base class of all exceptions that Macadam raises on purpose.", exception);
   error_type = base.ptr();
-  input = make(m, "InputError",
-               "The input is wrong: the message names file and line, or the particle, what was found, what was "
-               "expected. Exit code 2 of the command.",
-               nb::make_tuple(base, nb::borrow(PyExc_ValueError)))
+  input = add_exception(
+              m, "InputError",
+              "The input is wrong. The message names file and line, or the particle, the value found and the value "
+              "expected. Exit code 2 of the command.",
+              nb::make_tuple(base, nb::borrow(PyExc_ValueError)))
               .ptr();
-  const nb::object failed = make(m, "RunError", "The input was good but the run failed. Exit code 1 of the command.",
-                                 nb::make_tuple(base, nb::borrow(PyExc_RuntimeError)));
+  const nb::object failed =
+      add_exception(m, "RunError", "The input was good but the run failed. Exit code 1 of the command.",
+                    nb::make_tuple(base, nb::borrow(PyExc_RuntimeError)));
   run = failed.ptr();
-  interrupted = make(m, "InterruptedError", "The run was asked to stop.", failed).ptr();
-  divergence =
-      make(m, "DivergenceError",
-           "A time step diverged: `particle` (number in the specimen) left the range of sense at `time` [s].", failed)
-          .ptr();
+  interrupted = add_exception(m, "InterruptedError", "The run was asked to stop.", failed).ptr();
+  divergence = add_exception(
+                   m, "DivergenceError",
+                   "A time step diverged: `particle` (its number in the specimen) moved too far at `time` [s].", failed)
+                   .ptr();
   nb::register_exception_translator([](const std::exception_ptr& p, void*) {
     try {
       std::rethrow_exception(p);

@@ -9,7 +9,6 @@
 
 #include <mutex>
 
-#include "host/files/result_files.hpp"
 #include "python/src/given_arrays.hpp"
 
 namespace macadam::python {
@@ -18,13 +17,13 @@ namespace {
 using Path = std::filesystem::path;
 
 /// The mesh of a file for viewers, and the number of rows of its arrays.
-struct Drawn {
+struct MeshRows {
   FieldMesh mesh;
   std::size_t rows = 0;
 };
 
 /// Returns the mesh of "particles", "contacts" or "cells"; one row per particle, contact or polygon.
-Drawn drawn(const Prepared& p, const std::string& what) {
+MeshRows mesh_of(const Prepared& p, const std::string& what) {
   const Preparation& made = p.made;
   if (what == "particles") return {particle_mesh(made.specimen, made.aggregates), made.specimen.size()};
   if (what == "contacts") return {contact_mesh(made.specimen, made.network), made.network.contacts.size()};
@@ -41,7 +40,7 @@ FieldFormat format_of(const Path& file) {
   if (ending == ".vtkhdf") return FieldFormat::vtkhdf;
   if (ending == ".vtp") return FieldFormat::vtp;
   throw InputError(file.string(), 0, "ending of the file", ending.string(),
-                   ".vtkhdf, .vtp or, of particles and contacts, .csv");
+                   ".vtkhdf or .vtp; .csv for particles and contacts without arrays");
 }
 /// Returns the path without its ending.
 Path stem_of(const Path& file) { return file.parent_path() / file.stem(); }
@@ -52,20 +51,20 @@ std::vector<FieldArray> arrays_of(const nb::dict& given, std::size_t rows) {
   std::vector<FieldArray> out;
   for (const auto& [key, value] : given) {
     const std::string name = nb::cast<std::string>(key);
-    const nb::object array = number_array(value, "arrays: " + name, fmt::format("{} rows of numbers", rows));
-    const bool whole = nb::cast<std::string>(array.attr("dtype").attr("kind")) != "f";
+    const nb::object array =
+        number_array(value, "arrays: " + name, fmt::format("numbers of shape ({0},) or ({0}, columns)", rows));
+    const bool is_whole = nb::cast<std::string>(array.attr("dtype").attr("kind")) != "f";
     const auto fill = [&]<class T>(T) {
       nb::ndarray<const T, nb::c_contig, nb::device::cpu> in;
-      const auto numbers = array.attr("astype")(whole ? "int32" : "float32", "C", whole ? "same_kind" : "unsafe");
+      const auto numbers = array.attr("astype")(is_whole ? "int32" : "float32", "C", is_whole ? "same_kind" : "unsafe");
       if (!nb::try_cast(numbers, in) || in.ndim() < 1 || in.ndim() > 2 || in.shape(0) != rows) {
-        throw InputError(
-            fmt::format("arrays: {}: found an array of shape {}, expected {} rows of a number or of several", name,
-                        nb::repr(array.attr("shape")).c_str(), rows));
+        throw InputError(fmt::format("arrays: {0}: found shape {1}, expected ({2},) or ({2}, columns)", name,
+                                     nb::repr(array.attr("shape")).c_str(), rows));
       }
       const int components = in.ndim() == 2 ? static_cast<int>(in.shape(1)) : 1;
       out.push_back({name, "", components, std::vector<T>(in.data(), in.data() + in.size())});
     };
-    if (whole) {
+    if (is_whole) {
       fill(std::int32_t{});
     } else {
       fill(float{});
@@ -78,7 +77,7 @@ std::vector<FieldArray> arrays_of(const nb::dict& given, std::size_t rows) {
 class Series {
  public:
   Series(const Prepared& p, const Path& file, const std::string& what) : name_(file.filename().string()), what_(what) {
-    Drawn of = drawn(p, what);
+    MeshRows of = mesh_of(p, what);
     rows_ = of.rows;
     file_ = begin_fields(stem_of(file), format_of(file), std::move(of.mesh));
   }
@@ -90,8 +89,8 @@ class Series {
   }
   std::size_t size() const { return file_->size(); }
   std::string text() const {
-    const auto drawn = what_ == "cells" ? "polygons of cells" : what_;
-    return fmt::format("<macadam.FieldSeries {}: {} frames of {} {}>", name_, size(), rows_, drawn);
+    const auto rows = what_ == "cells" ? "polygons of cells" : what_;
+    return fmt::format("<macadam.FieldSeries {}: {} frames of {} {}>", name_, size(), rows_, rows);
   }
 
  private:
@@ -115,25 +114,27 @@ void write_specimen(const Prepared& p, const Path& file, const std::string& what
     if (what == "contacts") return write_contacts_csv(file, p.made.network);
   }
   const FieldFormat format = format_of(file);
-  Drawn of = drawn(p, what);
+  MeshRows of = mesh_of(p, what);
   auto values = arrays_of(arrays, of.rows);
   const nb::gil_scoped_release release;
   write_fields(stem_of(file), format, std::move(of.mesh), std::move(values));
 }
 
 void bind_fields(nb::module_& m) {
-  nb::class_<Series>(m, "FieldSeries", "A file for viewers that grows by frames in time; after each it is whole.")
+  nb::class_<Series>(m, "FieldSeries",
+                     "A file for viewers to which frames in time are added. It is complete after each frame.")
       .def(
           "__init__",
           [](Series* self, const PreparedPointer& specimen, const Path& file, const std::string& what) {
             new (self) Series(*specimen, file, what);
           },
           nb::arg("specimen"), nb::arg("file"), nb::arg("what") = "particles",
-          "file: .vtkhdf, or .vtp, a file a frame and a list of them. what: particles, contacts or cells.")
+          "file: .vtkhdf, or .vtp (one file per frame and a list of them). what: particles, contacts or cells.")
       .def("add", &Series::add, nb::arg("time"), nb::arg("arrays"),
-           "A frame at a time [s]: arrays by name, a row a particle, a contact or a polygon; those of the first frame "
-           "in all frames.")
-      .def("__len__", &Series::size, "Frames in the file.")
+           "Adds a frame at a time [s]. arrays: arrays by name with one row per particle, contact or polygon. All "
+           "frames "
+           "need the same arrays as the first one.")
+      .def("__len__", &Series::size, "Number of frames in the file.")
       .def("__repr__", &Series::text);
 }
 

@@ -9,8 +9,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/tools/fit/fit_files.hpp"
-#include "host/files/result_folder.hpp"
+#include "macadam/fit_report.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/choices.hpp"
@@ -20,16 +19,11 @@ namespace {
 
 using Folder = std::optional<std::filesystem::path>;
 
-void write(const Folder& out, const FitFiles& files) {
-  if (!out) return;
-  const ResultFolder folder(*out);
-  write_files(*out, files);
-}
-
-nb::dict result_of(const FitFiles& files, const std::string& text, const std::vector<std::string>& warnings) {
+/// Returns the files, the text and the warnings as a dictionary.
+nb::dict result_of(const FitReport& report, const std::vector<std::string>& warnings) {
   nb::dict out;
-  out["files"] = nb::cast(files);
-  out["text"] = text;
+  out["files"] = nb::cast(report.files);
+  out["text"] = report.text;
   out["warnings"] = nb::cast(warnings);
   return out;
 }
@@ -38,13 +32,13 @@ nb::dict fit(const ModulusData& data, const std::string& model, std::optional<in
              const std::string& criterion, std::optional<bool> flow, const std::string& shift,
              std::optional<double> reference_temperature, std::optional<double> from, std::optional<double> to,
              double error, const Folder& out) {
-  constexpr int most = laws::GeneralisedKelvin::max_units;
+  constexpr int largest = laws::GeneralisedKelvin::max_units;
   FitOptions options;
   options.model = choice<FitModel>(
       "model", model,
       {{"kelvin", FitModel::kelvin}, {"2s2p1d", FitModel::two_s2p1d}, {"huet-sayegh", FitModel::huet_sayegh}});
-  options.units = in_range("units", units, 0, most);
-  options.most_units = in_range("most_units", most_units, 0, most);
+  options.units = in_range("units", units, 0, largest);
+  options.most_units = in_range("most_units", most_units, 0, largest);
   options.criterion = choice<Criterion>("criterion", criterion, {{"aicc", Criterion::aicc}, {"bic", Criterion::bic}});
   options.flow = flow;
   options.shift = choice<ShiftKind>("shift", shift,
@@ -58,28 +52,22 @@ nb::dict fit(const ModulusData& data, const std::string& model, std::optional<in
   std::vector<std::string> warnings;
   {
     const nb::gil_scoped_release release;
-    const Fit found = fit_modulus(data, options);
-    report = report_of(found, from, to, error);
-    warnings = found.warnings;
+    const Fit fitted = fit_modulus(data, options);
+    report = report_of(fitted, from, to, error);
+    warnings = fitted.warnings;
     if (!report.refusal.empty()) warnings.push_back(report.refusal);
-    if (out) {
-      const ResultFolder folder(*out);
-      write_report(*out, report);
-    }
+    if (out) write_report(*out, report);
   }
-  return result_of(report.files, report.text, warnings);
+  return result_of(report, warnings);
 }
 
 /// Converts a 2S2P1D or Huet-Sayegh model, whose parameters are in a file, into a chain of Kelvin units.
 nb::dict convert(const std::filesystem::path& parameters, std::optional<double> from, std::optional<double> to,
                  double error, const Folder& out) {
   const ShiftedAnalogue analogue = read_analogue(parameters);
-  const auto range = chain_range(from, to, {});
-  const KelvinConversion conversion =
-      to_kelvin(analogue.model, range.first, range.second, in_range("error", error, 1e-6, 0.5));
-  const FitFiles files = conversion_files(analogue, conversion, range);
-  write(out, files);
-  return result_of(files, conversion_text(conversion, range), {});
+  const FitReport report = report_conversion(analogue, from, to, in_range("error", error, 1e-6, 0.5));
+  if (out) write_report(*out, report);
+  return result_of(report, {});
 }
 
 }  // namespace
@@ -98,8 +86,8 @@ void bind_fit(nb::module_& m) {
           },
           nb::arg("file"), nb::arg("poisson") = nb::none(), nb::arg("needed") = "modulus-and-phase")
       .def_prop_ro(
-          "unused", [](const ModulusData& d) { return d.unused; }, "Columns that were passed over.")
-      .def_rw("source", &ModulusData::source, "In messages.")
+          "unused", [](const ModulusData& d) { return d.unused; }, "Names of columns that are not used.")
+      .def_rw("source", &ModulusData::source, "Name of the data in messages.")
       .def("__len__", [](const ModulusData& d) { return d.points.size(); })
       .def_prop_ro("frequency_hz",
                    [](const ModulusData& d) {

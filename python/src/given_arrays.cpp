@@ -57,11 +57,11 @@ std::vector<double> doubles(nb::handle given, const std::string& name, std::size
   return {in.data(), in.data() + in.size()};
 }
 
-/// Returns the value as a 32-bit integer. \throws InputError that names the row `at` if it is not one.
-std::int32_t whole(double value, const std::string& name, std::size_t at) {
+/// Returns the value as a 32-bit integer. \throws InputError, naming the row, if it is not one.
+std::int32_t to_int32(double value, const std::string& name, std::size_t row) {
   using Limits = std::numeric_limits<std::int32_t>;
   if (!(value >= Limits::min() && value <= Limits::max() && value == std::floor(value))) {
-    refuse(name, fmt::format("{} at {}", value, at), "whole numbers of 32 bits");
+    refuse(name, fmt::format("{} in row {}", value, row), "whole numbers of 32 bits");
   }
   return static_cast<std::int32_t>(value);
 }
@@ -90,7 +90,7 @@ std::vector<double> numbers(const ArrayLike& given, const std::string& name, std
 
 std::vector<std::int32_t> whole_numbers(const ArrayLike& given, const std::string& name) {
   std::vector<std::int32_t> out;
-  for (const double value : doubles(given, name, 1, {})) out.push_back(whole(value, name, out.size()));
+  for (const double value : doubles(given, name, 1, {})) out.push_back(to_int32(value, name, out.size()));
   return out;
 }
 
@@ -105,7 +105,7 @@ std::vector<std::array<std::int32_t, 3>> whole_triples(const ArrayLike& given, c
   const std::vector<double> flat = doubles(given, name, 3, {});
   std::vector<std::array<std::int32_t, 3>> out;
   for (std::size_t i = 0; i < flat.size(); i += 3) {
-    const auto at = [&](std::size_t k) { return whole(flat[i + k], name, i / 3); };
+    const auto at = [&](std::size_t k) { return to_int32(flat[i + k], name, i / 3); };
     out.push_back({at(0), at(1), at(2)});
   }
   return out;

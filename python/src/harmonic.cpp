@@ -10,7 +10,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/base/thread_limit.hpp"
+#include "macadam/thread_limit.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
@@ -71,12 +71,12 @@ class Solver {
  private:
   PreparedPointer prepared_;
   std::optional<Harmonic> harmonic_;
-  LongCall* call_ = nullptr;  // the call that is running, which options.stop asks
+  LongCall* call_ = nullptr;  // the running call; options.stop asks it whether to stop
   std::mutex busy_;
 };
 
 /// Returns the fraction of E* that each pair type carries, by name; pair types that carry nothing are left out.
-nb::dict shares_of(const HarmonicResult& r) {
+nb::dict fractions_of(const HarmonicResult& r) {
   nb::dict out;
   const auto all = shares(r.parts);
   for (std::size_t pair = 0; pair < all.size(); ++pair)
@@ -100,35 +100,40 @@ nb::list sensitivities_of(const HarmonicResult& r, const Prepared& p) {
 }  // namespace
 
 void bind_harmonic(nb::module_& m) {
-  nb::class_<HarmonicResult>(m, "SteadyState", "One frequency's steady state.")
+  nb::class_<HarmonicResult>(m, "SteadyState", "Steady state at one frequency.")
       .def("__repr__",
            [](const HarmonicResult& r) {
              return fmt::format("<macadam.SteadyState: {:.6g} Hz, |E*| {:.6g} Pa, phase {:.4g} degrees>",
                                 r.frequency_hz, r.top.e_star_pa, r.top.phase_deg);
            })
-      .def_ro("frequency_hz", &HarmonicResult::frequency_hz)
+      .def_ro("frequency_hz", &HarmonicResult::frequency_hz, "Frequency [Hz].")
       .def_prop_ro(
-          "e_star_pa", [](const HarmonicResult& r) { return r.top.e_star_pa; }, "|E*| [Pa], by the top wall.")
+          "e_star_pa", [](const HarmonicResult& r) { return r.top.e_star_pa; },
+          "|E*| [Pa], from the force on the top wall.")
       .def_prop_ro(
-          "phase_deg", [](const HarmonicResult& r) { return r.top.phase_deg; }, "φ [degrees].")
+          "phase_deg", [](const HarmonicResult& r) { return r.top.phase_deg; },
+          "Phase angle φ [degrees], from the force on the top wall.")
       .def_prop_ro(
-          "modulus", [](const HarmonicResult& r) { return r.parts.modulus(); }, "E* [Pa], complex.")
+          "modulus", [](const HarmonicResult& r) { return r.parts.modulus(); }, "Complex modulus E* [Pa].")
       .def_prop_ro(
           "bottom_e_star_pa", [](const HarmonicResult& r) { return r.bottom.e_star_pa; },
-          "|E*| [Pa], by the bottom wall; the same without inertia.")
+          "|E*| [Pa], from the force on the bottom wall; equal to e_star_pa without inertia.")
       .def_prop_ro(
           "bottom_phase_deg", [](const HarmonicResult& r) { return r.bottom.phase_deg; },
-          "φ [degrees], by the bottom wall.")
-      .def_prop_ro("shares", &shares_of, "The part of E* that each pair carries; without inertia they add up to 1.")
+          "Phase angle φ [degrees], from the force on the bottom wall.")
+      .def_prop_ro("shares", &fractions_of,
+                   "Fraction of E* that each pair carries, by name; without inertia the sum is 1.")
       .def_prop_ro(
           "linear", [](const HarmonicResult& r) { return r.linear == LinearMethod::direct ? "direct" : "iterative"; },
-          "How it was solved: iterative or direct.")
-      .def_ro("why_factors", &HarmonicResult::why_factors, "Why factors were taken, where they were not asked for.")
+          "Linear solver: iterative or direct.")
+      .def_ro("why_factors", &HarmonicResult::why_factors,
+              "Reason why the direct solver was used although it was not requested; else empty.")
       .def_ro("held_force", &HarmonicResult::held_force,
-              "Force that holds free rigid motions, over the reaction: rounding, where nothing is wrong.")
-      .def_ro("residual", &HarmonicResult::residual, "Relative, of the linear system.")
-      .def_ro("iterations", &HarmonicResult::iterations)
-      .def_ro("seconds", &HarmonicResult::seconds)
+              "Force that holds free rigid motions over the reaction of the walls; only rounding in a correct "
+              "solution.")
+      .def_ro("residual", &HarmonicResult::residual, "Relative residual of the linear system.")
+      .def_ro("iterations", &HarmonicResult::iterations, "Number of iterations of the linear solver.")
+      .def_ro("seconds", &HarmonicResult::seconds, "Wall time of the solution [s].")
       .def_prop_ro(
           "motion",
           [](const HarmonicResult& r) {
@@ -137,7 +142,8 @@ void bind_harmonic(nb::module_& m) {
           "Complex displacement and rotation (ux uy uz θx θy θz) of each particle per unit displacement of the top "
           "wall, (n, 6).")
       .def("sensitivities", &sensitivities_of, nb::arg("specimen"),
-           "Change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm, without inertia.");
+           "Returns the change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm, without "
+           "inertia.");
   nb::class_<Solver>(m, "HarmonicSolver", "Steady states of one specimen at any number of frequencies.")
       .def(
           "__init__",
@@ -150,16 +156,17 @@ void bind_harmonic(nb::module_& m) {
           nb::arg("device") = nb::none(), nb::arg("tolerance") = HarmonicOptions{}.tolerance)
       .def("solve", &Solver::solve, nb::arg("frequencies"), nb::arg("density_scaling") = 0.0,
            nb::arg("viscous_damping") = 0.0,
-           "Steady states at frequencies [Hz]; without inertia where density_scaling is 0. viscous_damping [1/s].");
-  nb::class_<StartState>(m, "StartState", "A state of motion to start from.");
+           "Returns the steady states at frequencies [Hz], (n,). density_scaling: factor on all densities; 0: without "
+           "inertia. viscous_damping [1/s].");
+  nb::class_<StartState>(m, "StartState", "Positions and velocities from which a stepped run starts.");
   m.def(
       "steady_start",
       [](const Prepared& p, const HarmonicResult& r, const drives::Cyclic& drive) {
         return steady_start(p.made.network, p.scene->laws, r.motion, drive);
       },
       nb::arg("specimen"), nb::arg("solution"), nb::arg("drive"),
-      "The state from which a stepped run is periodic at once; solved with the density scaling and damping of the "
-      "run.");
+      "Returns the state from which a stepped run is periodic from its first step on. `solution` must have the density "
+      "scaling and damping of the run.");
 }
 
 }  // namespace macadam::python

@@ -3,7 +3,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
-#include "host/backends/processor_code.hpp"
 #include "macadam/macadam.hpp"
 #include "python/src/bindings.hpp"
 
@@ -45,7 +44,7 @@ void bind_machine(nb::module_& m) {
         nb::dict out;
         out["version"] = version();
         out["threads"] = report.threads;
-        out["processor"] = processor_code().name;
+        out["processor"] = report.processor;
         out["cuda"] = report.cuda_status;
         out["devices"] = list_of(report.devices);
         out["devices_without_code"] = list_of(report.devices_without_code);
@@ -54,7 +53,7 @@ void bind_machine(nb::module_& m) {
         out["auto_reason"] = reason;
         return out;
       },
-      "Version, backends and devices, as `macadam info` says them.");
+      "Returns version, backends and devices: `macadam info`.");
 }
 
 }  // namespace macadam::python

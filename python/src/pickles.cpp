@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pickles.cpp  Converts scenes and specimens to tuples of plain values and back, for Python's pickle.
+// pickles.cpp  Converts scenes and specimens to tuples of plain values and back, for pickle.
 #include "python/src/pickles.hpp"
 
 #include <nanobind/stl/array.h>
@@ -35,11 +35,11 @@ AggregateState state_of(const Aggregate& a) {
 }
 
 Aggregate aggregate_of(const AggregateState& state) {
-  const auto& [shape, whole, x] = state;
+  const auto& [shape, counts, x] = state;
   Aggregate a;
   a.shape = shape;
-  a.body = static_cast<std::int32_t>(whole[0]), a.size_class = static_cast<std::int32_t>(whole[1]);
-  a.spheres = whole[2], a.surface = static_cast<std::int32_t>(whole[3]);
+  a.body = static_cast<std::int32_t>(counts[0]), a.size_class = static_cast<std::int32_t>(counts[1]);
+  a.spheres = counts[2], a.surface = static_cast<std::int32_t>(counts[3]);
   a.size = x[0], a.d_long = x[1], a.d_short = x[2], a.volume = x[3];
   a.axis_long = {x[4], x[5], x[6]}, a.centre = {x[7], x[8], x[9]};
   a.pose = {{x[10], x[11], x[12]}, {x[13], x[14], x[15], x[16]}, x[17]};
@@ -115,7 +115,7 @@ void pickle_scenes(nb::class_<GivenScene>& c) {
     const nb::object read = nb::cast(GivenScene{read_scene(nb::cast<std::filesystem::path>(state[0]), text)});
     read.attr("override")(**nb::cast<nb::dict>(state[2]));
     new (&self) GivenScene(nb::cast<GivenScene&>(read));
-    self.text = text;  // override() adds the seed to the text, but the pickled text has it already
+    self.text = text;  // override() has added the seed to the text a second time
   });
 }
 
@@ -124,11 +124,11 @@ void pickle_specimens(nb::class_<Prepared>& c) {
         [](const Prepared& p) { return nb::make_tuple(*p.scene, spheres_of(p.made.specimen), report_of(p.made)); });
   c.def("__setstate__", [](Prepared& self, const nb::tuple& state) {
     Specimen specimen = specimen_of(nb::cast<nb::tuple>(state[1]));
-    const auto kept = std::make_shared<const GivenScene>(nb::cast<const GivenScene&>(state[0]));
+    const auto scene = std::make_shared<const GivenScene>(nb::cast<const GivenScene&>(state[0]));
     LongCall call;
-    Preparation made = call([&] { return prepare(*kept, std::move(specimen), call.progress_function()); });
+    Preparation made = call([&] { return prepare(*scene, std::move(specimen), call.progress_function()); });
     put_report(nb::cast<nb::tuple>(state[2]), made);
-    new (&self) Prepared{kept, std::move(made)};
+    new (&self) Prepared{scene, std::move(made)};
   });
 }
 

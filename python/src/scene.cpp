@@ -9,7 +9,6 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/scene/sections.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/choices.hpp"
@@ -49,12 +48,12 @@ void override_options(GivenScene& scene, std::optional<std::uint64_t> seed, cons
                       devices_of(device)};
   apply(now, scene);
   Overrides& all = scene.instead;
-  const auto take = [](auto& to, const auto& from) {
+  const auto replace = [](auto& to, const auto& from) {
     if (from) to = from;
   };
-  take(all.seed, now.seed), take(all.backend, now.backend), take(all.precision, now.precision);
-  take(all.method, now.method), take(all.linear, now.linear), take(all.threads, now.threads);
-  take(all.devices, now.devices);
+  replace(all.seed, now.seed), replace(all.backend, now.backend), replace(all.precision, now.precision);
+  replace(all.method, now.method), replace(all.linear, now.linear), replace(all.threads, now.threads);
+  replace(all.devices, now.devices);
 }
 
 /// Returns volumes, masses and densities of the scene's mix design and the sieves at which its gradation is outside the
@@ -88,9 +87,25 @@ nb::object recipe_of(const GivenScene& scene) {
   return out;
 }
 
+/// Returns the list of experiments: kind, whether a scene may ask for steps, and names of the result files.
+nb::list list_experiments() {
+  nb::list out;
+  for (const Experiment& experiment : all_experiments()) {
+    nb::dict one;
+    one["kind"] = kind_of(experiment);
+    one["can_be_stepped"] = stepping_of(experiment) != experiments::Stepping::never;
+    one["files"] = nb::cast(files_of(experiment));
+    out.append(one);
+  }
+  return out;
+}
+
 }  // namespace
 
 void bind_scene(nb::module_& m) {
+  m.def("experiments", &list_experiments,
+        "Returns all kinds of experiments, one dictionary each: kind, can_be_stepped, files (names of the result files "
+        "that a run may write).");
   nb::class_<GivenScene> c(m, "Scene", "A scene that was read and checked.");
   pickle_scenes(c);
   c.def(
@@ -101,42 +116,41 @@ void bind_scene(nb::module_& m) {
        nb::arg("file"), nb::arg("text") = nb::none(), nb::arg("lines") = true)
       .def("__init__", [](GivenScene* self, const GivenScene& other) { new (self) GivenScene(other); })
       .def_static(
-          "read_text",
-          [](const std::filesystem::path& file) {
-            std::string text;
-            scene::read_toml(file, "scene", text);
-            return text;
-          },
-          nb::arg("file"), "The text of a file that is TOML.")
+          "read_text", [](const std::filesystem::path& file) { return read_scene_text(file); }, nb::arg("file"),
+          "Returns the text of a file, checked to be TOML.")
       .def("override", &override_options, nb::kw_only(), nb::arg("seed") = nb::none(), nb::arg("backend") = nb::none(),
            nb::arg("precision") = nb::none(), nb::arg("method") = nb::none(), nb::arg("linear") = nb::none(),
-           nb::arg("threads") = nb::none(), nb::arg("device") = nb::none(), "As the command's options of these names.")
+           nb::arg("threads") = nb::none(), nb::arg("device") = nb::none(),
+           "Replaces values of the scene, as the command's options of these names do.")
       .def_prop_ro(
-          "options", [](const GivenScene& s) { return options_of(s.instead); }, "That were given beside it.")
+          "options", [](const GivenScene& s) { return options_of(s.instead); },
+          "Options that replace values of the scene.")
       .def_prop_ro(
-          "file", [](const GivenScene& s) { return s.file; }, "Where it came from.")
+          "file", [](const GivenScene& s) { return s.file; }, "File that the scene was read from.")
       .def_prop_ro(
-          "text", [](const GivenScene& s) { return s.text; }, "TOML.")
+          "text", [](const GivenScene& s) { return s.text; }, "Text of the scene, TOML.")
       .def_prop_ro(
-          "kind", [](const GivenScene& s) { return kind_of(s.experiment); }, "Of the test in `[loading]`.")
+          "kind", [](const GivenScene& s) { return kind_of(s.experiment); }, "Kind of the test in `[loading]`.")
       .def_prop_ro(
           "method",
           [](const GivenScene& s) { return s.solver.method == SolverMethod::harmonic ? "harmonic" : "explicit"; },
-          "explicit or harmonic.")
+          "Method: explicit or harmonic.")
       .def_prop_ro(
-          "backend", [](const GivenScene& s) { return to_string(s.solver.backend); }, "That is asked for.")
+          "backend", [](const GivenScene& s) { return to_string(s.solver.backend); }, "Requested backend.")
       .def_prop_ro(
-          "seed", [](const GivenScene& s) { return s.specimen.seed; }, "Of a generated specimen.")
+          "seed", [](const GivenScene& s) { return s.specimen.seed; }, "Seed of a generated specimen.")
       .def_prop_ro(
-          "box", [](const GivenScene& s) { return triple(s.specimen.box.size); }, "Edge lengths [m].")
+          "box", [](const GivenScene& s) { return triple(s.specimen.box.size); }, "Edge lengths of the box [m].")
       .def_prop_ro(
           "recipe", &recipe_of,
-          "Of a recipe by mass, else None: densities [kg/m³], air voids, VMA, VFB, binder contents, and shares of "
-          "aggregate and mastic by mass and volume, all 0 to 1.")
+          "Properties of a recipe by mass, or None: densities [kg/m³]; air voids, VMA, VFB, binder contents, and the "
+          "fractions of aggregate and mastic by mass and by volume, all from 0 to 1.")
       .def_prop_ro(
-          "frequencies", [](const GivenScene& s) { return frequencies_of(s.experiment); }, "Of the test [Hz].")
+          "frequencies", [](const GivenScene& s) { return frequencies_of(s.experiment); },
+          "Frequencies of the test [Hz].")
       .def_prop_ro(
-          "temperatures", [](const GivenScene& s) { return temperatures_of(s.experiment); }, "Of the test [°C].");
+          "temperatures", [](const GivenScene& s) { return temperatures_of(s.experiment); },
+          "Temperatures of the test [°C].");
 }
 
 }  // namespace macadam::python

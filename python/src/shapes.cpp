@@ -6,11 +6,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/files/result_files.hpp"
-#include "host/files/result_folder.hpp"
-#include "host/shapes/files/shape_files.hpp"
-#include "host/shapes/library/statistics.hpp"
-#include "host/shapes/files/surface_files.hpp"
 #include "macadam/shape.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
@@ -36,7 +31,7 @@ Surface surface_of(const std::string& name, const ArrayLike& points, const Array
 
 /// Calls f without the interpreter's lock.
 template <class F>
-auto released(F&& f) {
+auto without_lock(F&& f) {
   const nb::gil_scoped_release release;
   return f();
 }
@@ -50,20 +45,21 @@ void bind_surface(nb::module_& m) {
           },
           nb::arg("points"), nb::arg("facets"), nb::arg("name") = "surface")
       .def_ro("name", &Surface::name)
-      .def_ro("reading", &Surface::reading, "Changes made on reading, in words; empty if there are none.")
+      .def_ro("reading", &Surface::reading, "Changes made on reading, in words; empty if nothing was changed.")
       .def_prop_ro(
-          "points", [](const Surface& s) { return view(s.points); }, "[m], (n, 3).")
+          "points", [](const Surface& s) { return view(s.points); }, "Points [m], (n, 3).")
       .def_prop_ro(
           "facets",
           [](const Surface& s) {
             return view(s.facets.empty() ? nullptr : s.facets.front().data(), {s.facets.size(), 3});
           },
-          "Point numbers, counter-clockwise seen from outside, (n, 3).")
+          "Point numbers of each facet, counter-clockwise seen from outside, (n, 3).")
       .def("__repr__", [](const Surface& s) {
         return fmt::format("<macadam Surface {}: {} points, {} facets>", s.name, s.points.size(), s.facets.size());
       });
-  nb::class_<SurfaceVerdict>(m, "Verdict", "What is wrong with a surface: numbers of facets, or of points (`stray`).")
-      .def_prop_ro("good", &SurfaceVerdict::good, "Fit for measuring and filling.")
+  nb::class_<SurfaceVerdict>(m, "Verdict",
+                             "Faults of a surface: lists of facet numbers; only the first list has point numbers.")
+      .def_prop_ro("good", &SurfaceVerdict::good, "True if the surface can be measured and filled.")
       .def_ro("stray", &SurfaceVerdict::stray)
       .def_ro("degenerate", &SurfaceVerdict::degenerate)
       .def_ro("non_manifold", &SurfaceVerdict::non_manifold)
@@ -71,61 +67,53 @@ void bind_surface(nb::module_& m) {
       .def_ro("misoriented", &SurfaceVerdict::misoriented)
       .def_ro("self_intersecting", &SurfaceVerdict::self_intersecting)
       .def_ro("pieces", &SurfaceVerdict::pieces)
-      .def_ro("inner", &SurfaceVerdict::inner, "Pieces inside the one of the largest volume: closed pores.")
+      .def_ro("inner", &SurfaceVerdict::inner,
+              "Number of pieces inside the piece of the largest volume (closed pores).")
       .def_ro("inside_out", &SurfaceVerdict::inside_out)
       .def("__bool__", &SurfaceVerdict::good)
       .def("__str__", &SurfaceVerdict::text);
   m.def("read_surface", &read_surface, nb::arg("file"), nb::arg("scale") = 1.0,
-        "Reads STL, OFF, PLY or OBJ; `scale`: metres a unit of the file, 1e-3 for millimetres.");
+        "Reads STL, OFF, PLY or OBJ. scale: metres per unit of the file, 1e-3 for millimetres.");
   m.def("write_surface", &write_surface, nb::arg("file"), nb::arg("surface"), nb::arg("scale") = 1.0,
-        "Writes .off, .stl, .ply or .obj.");
+        "Writes .off, .stl, .ply or .obj. scale: metres per unit of the file.");
   m.def(
-      "check_surface", [](const Surface& s) { return released([&] { return check_surface(s); }); }, nb::arg("surface"),
-      "Looks for every fault that a Verdict knows.");
+      "check_surface", [](const Surface& s) { return without_lock([&] { return check_surface(s); }); },
+      nb::arg("surface"), "Checks a surface for all faults of a Verdict.");
   m.def(
       "repair_surface",
       [](const Surface& s, bool wrap) {
         SurfaceRepair repair;
-        Surface out = released([&] { return repair_surface(s, &repair, {}, wrap); });
+        Surface out = without_lock([&] { return repair_surface(s, &repair, {}, wrap); });
         return nb::make_tuple(nb::cast(std::move(out)), repair.what + "; " + repair.changes());
       },
-      nb::arg("surface"), nb::arg("wrap") = false,
-      "The surface made fit for measuring and filling, and in words what was done.");
-}
-
-/// Writes the measures of every shape, their statistics and their correlations into `out`.
-void write_tables(const std::filesystem::path& out, const std::vector<std::string>& names,
-                  const std::vector<ShapeMeasure>& shapes) {
-  const ResultFolder folder(out);
-  write_whole(out / "shapes.csv", shapes_csv(names, shapes));
-  write_whole(out / "statistics.csv", statistics_csv(shapes));
-  write_whole(out / "correlation.csv", correlation_csv(shapes));
+      nb::arg("surface"), nb::arg("wrap") = false, "Returns the repaired surface and a text about the changes.");
 }
 
 void bind_measures(nb::module_& m) {
   nb::class_<ShapeMeasure>(m, "ShapeMeasure", "Dimensions and indices of a shape (docs/shapes.md). Lengths in m.")
       .def_ro("points", &ShapeMeasure::points)
       .def_ro("facets", &ShapeMeasure::facets)
-      .def_ro("d_long", &ShapeMeasure::d_long, "D^L [m]")
-      .def_ro("d_intermediate", &ShapeMeasure::d_intermediate, "D^I [m]: what sieves part by.")
-      .def_ro("d_short", &ShapeMeasure::d_short, "D^S [m]")
+      .def_ro("d_long", &ShapeMeasure::d_long, "D^L [m].")
+      .def_ro("d_intermediate", &ShapeMeasure::d_intermediate, "D^I [m], the size by which sieves separate.")
+      .def_ro("d_short", &ShapeMeasure::d_short, "D^S [m].")
       .def_prop_ro("axis_long", [](const ShapeMeasure& s) { return triple(s.axis_long); })
       .def_prop_ro("axis_intermediate", [](const ShapeMeasure& s) { return triple(s.axis_intermediate); })
       .def_prop_ro("axis_short", [](const ShapeMeasure& s) { return triple(s.axis_short); })
-      .def_ro("volume", &ShapeMeasure::volume, "[m³]")
-      .def_ro("area", &ShapeMeasure::area, "[m²]")
+      .def_ro("volume", &ShapeMeasure::volume, "Volume [m³].")
+      .def_ro("area", &ShapeMeasure::area, "Area of the surface [m²].")
       .def_prop_ro(
-          "centroid", [](const ShapeMeasure& s) { return triple(s.centroid); }, "Of the volume [m].")
-      .def_ro("radius_bounding", &ShapeMeasure::radius_bounding, "Of the smallest enclosing sphere [m].")
+          "centroid", [](const ShapeMeasure& s) { return triple(s.centroid); }, "Centroid of the volume [m].")
+      .def_ro("radius_bounding", &ShapeMeasure::radius_bounding, "Radius of the smallest enclosing sphere [m].")
       .def_ro("sphericity_true", &ShapeMeasure::sphericity_true)
       .def_prop_ro("sphericity_working", &ShapeMeasure::sphericity_working)
       .def_prop_ro("shape_index", &ShapeMeasure::shape_index)
       .def_prop_ro("flatness", &ShapeMeasure::flatness)
       .def_prop_ro("elongation", &ShapeMeasure::elongation)
       .def_prop_ro("flakiness", &ShapeMeasure::flakiness);
-  m.def("write_shape_tables", &write_tables, nb::arg("out"), nb::arg("names"), nb::arg("measures"));
+  m.def("write_shape_tables", &write_shape_tables, nb::arg("out"), nb::arg("names"), nb::arg("measures"));
   m.def(
-      "measure_shape", [](const Surface& s) { return released([&] { return measure_shape(s); }); }, nb::arg("surface"));
+      "measure_shape", [](const Surface& s) { return without_lock([&] { return measure_shape(s); }); },
+      nb::arg("surface"));
 }
 
 MultiSphere fill(const Surface& surface, double radius_min, double radius_max, double porosity, std::int64_t least,
@@ -140,45 +128,46 @@ MultiSphere fill(const Surface& surface, double radius_min, double radius_max, d
                                      {{"intermediate", SingleSphere::intermediate},
                                       {"circumscribed", SingleSphere::circumscribed},
                                       {"volume", SingleSphere::volume}});
-  return released([&] { return fill_shape(surface, spec); });
+  return without_lock([&] { return fill_shape(surface, spec); });
 }
 
 void bind_filling(nb::module_& m) {
   const FillSpec usual;
-  nb::class_<MultiSphere>(m, "Spheres", "One aggregate as spheres.")
+  nb::class_<MultiSphere>(m, "Spheres", "Spheres that fill one aggregate.")
       .def("__len__", &MultiSphere::size)
       .def_prop_ro(
-          "centre", [](const MultiSphere& s) { return view(s.centre); }, "[m], (n, 3).")
+          "centre", [](const MultiSphere& s) { return view(s.centre); }, "Centres [m], (n, 3).")
       .def_prop_ro(
-          "radius", [](const MultiSphere& s) { return view(s.radius); }, "[m]");
-  nb::class_<FillReport>(m, "FillReport", "How well spheres stand for a shape.")
+          "radius", [](const MultiSphere& s) { return view(s.radius); }, "Radii [m], (n,).");
+  nb::class_<FillReport>(m, "FillReport", "Comparison of the filling spheres with their shape.")
       .def_ro("sphere_volume", &FillReport::sphere_volume, "Sum of the spheres' volumes [m³].")
-      .def_ro("covered", &FillReport::covered, "Share of the shape's volume inside a sphere.")
-      .def_ro("outside", &FillReport::outside, "Volume of the spheres outside the shape, over the shape's.")
-      .def_ro("largest_overlap", &FillReport::largest_overlap, "Of two spheres, over the sum of their radii.")
-      .def_ro("deviation_mean", &FillReport::deviation_mean, "Of the surfaces [m].")
-      .def_ro("deviation_largest", &FillReport::deviation_largest, "Of the surfaces [m].")
-      .def_ro("d_long", &FillReport::d_long, "Of the spheres [m].")
-      .def_ro("d_intermediate", &FillReport::d_intermediate, "Of the spheres [m].")
-      .def_ro("d_short", &FillReport::d_short, "Of the spheres [m].");
+      .def_ro("covered", &FillReport::covered, "Fraction of the shape's volume inside a sphere.")
+      .def_ro("outside", &FillReport::outside, "Volume of the spheres outside the shape over the volume of the shape.")
+      .def_ro("largest_overlap", &FillReport::largest_overlap,
+              "Largest overlap of two spheres over the sum of their radii.")
+      .def_ro("deviation_mean", &FillReport::deviation_mean, "Mean distance between the surfaces [m].")
+      .def_ro("deviation_largest", &FillReport::deviation_largest, "Largest distance between the surfaces [m].")
+      .def_ro("d_long", &FillReport::d_long, "D^L of the spheres together [m].")
+      .def_ro("d_intermediate", &FillReport::d_intermediate, "D^I of the spheres together [m].")
+      .def_ro("d_short", &FillReport::d_short, "D^S of the spheres together [m].");
   m.def("fill_shape", &fill, nb::arg("surface"), nb::arg("radius_min"), nb::arg("radius_max"),
         nb::arg("porosity") = usual.porosity, nb::arg("least") = usual.least, nb::arg("single") = "intermediate",
         nb::arg("seed") = usual.seed);
   m.def(
       "measure_fill",
-      [](const Surface& s, const MultiSphere& c) { return released([&] { return measure_fill(s, c); }); },
-      nb::arg("surface"), nb::arg("spheres"), "Measures spheres against their shape.");
-  m.def("scale_shape", &scaled_to, nb::arg("surface"), nb::arg("circumscribed"));
+      [](const Surface& s, const MultiSphere& c) { return without_lock([&] { return measure_fill(s, c); }); },
+      nb::arg("surface"), nb::arg("spheres"), "Compares spheres with their shape.");
+  m.def("scale_shape", &scale_to_radius, nb::arg("surface"), nb::arg("circumscribed"));
   m.def("write_filling", &write_filling, nb::arg("out"), nb::arg("surface"), nb::arg("spheres"));
   m.def("write_shape_library", &write_shape_library, nb::arg("out"), nb::arg("shapes"));
   m.def("surface_files_in", &surface_files_in, nb::arg("folder"));
-  m.def("shape_library", &shape_library, "The 82 aggregates that ship with the program.");
+  m.def("shape_library", &shape_library, "Returns the 82 aggregates that come with the program.");
   m.def(
       "generate_shape_library",
-      [](std::uint64_t seed, int count) { return released([&] { return generate_shape_library(seed, count); }); },
-      nb::arg("seed") = 1, nb::arg("count") = 82, "Crushed aggregates of the same statistics.");
+      [](std::uint64_t seed, int count) { return without_lock([&] { return generate_shape_library(seed, count); }); },
+      nb::arg("seed") = 1, nb::arg("count") = 82, "Generates crushed aggregates with the statistics of the 82.");
   m.def("subdivided_icosahedron", &subdivided_icosahedron, nb::arg("radius") = 1.0,
-        "42 points, 80 facets; radius [m].");
+        "Returns the subdivided icosahedron (42 points, 80 facets) of a radius [m].");
 }
 
 }  // namespace

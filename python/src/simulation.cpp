@@ -17,8 +17,8 @@
 namespace macadam::python {
 namespace {
 
-/// What the callback on_step gets: the state of the run at this step. After the callback has returned, reading
-/// particles or contacts raises an error, because the run has gone on.
+/// The state of a run at one step, which the callback on_step receives. After the callback has returned, reading
+/// particles or contacts raises an error, because the run has continued.
 class StepView {
  public:
   StepView(const Stepper& stepper, const Preparation& made, double frequency_hz)
@@ -27,7 +27,8 @@ class StepView {
   void end() { stepper_ = nullptr; }
 
   const Stepper& stepper() const {
-    if (!stepper_) throw RunError("step: found a use after its callback has returned, expected none");
+    if (!stepper_)
+      throw RunError("step: found a use after the callback had returned, expected uses only within the callback");
     return *stepper_;
   }
   double strain() const { return now.top_displacement() / height_; }
@@ -46,31 +47,31 @@ class StepView {
   Observation now;
 };
 
-/// Returns the watcher that calls Python's callbacks during a run. started: set when the run is planned; from then on
-/// the run itself asks stop(), so that an interrupted run writes its checkpoint. made: set when the specimen is
-/// prepared.
+/// Returns the watcher that calls Python's callbacks during a run. started: becomes true when the run is planned; after
+/// that the run itself asks stop(), so that an interrupted run writes its checkpoint. made: becomes the specimen when
+/// it is prepared.
 Watcher watcher_of(LongCall& call, bool& started, const Preparation*& made, const nb::object& on_step,
                    std::int64_t every, const nb::object& on_plan, const nb::object& on_warning) {
   Watcher w;
-  w.progress = [&](const std::string& stage, double share) {
+  w.progress = [&](const std::string& stage, double fraction) {
     if (started) {
-      call.show(stage, share);
+      call.show(stage, fraction);
     } else {
-      call.progress(stage, share);
+      call.progress(stage, fraction);
     }
   };
   w.prepared = [&](const Preparation& p) { made = &p; };
   w.planned = [&](const RunResult& planned) {
     started = true;
-    if (!on_plan.is_none()) call.tell([&] { on_plan(planned.decisions); });
+    if (!on_plan.is_none()) call.call_python([&] { on_plan(planned.decisions); });
   };
-  if (!on_warning.is_none()) w.warn = [&](const std::string& text) { call.tell([&] { on_warning(text); }); };
+  if (!on_warning.is_none()) w.warn = [&](const std::string& text) { call.call_python([&] { on_warning(text); }); };
   w.stop = [&] { return call.stop(); };
   if (on_step.is_none()) return w;
   w.every = every;
   w.stepped = [&](const Stepper& stepper, double hz) {
     const auto seen = std::make_shared<StepView>(stepper, *made, hz);
-    call.tell([&] {
+    call.call_python([&] {
       const nb::object object = nb::cast(seen);
       try {
         on_step(object);
@@ -84,7 +85,8 @@ Watcher watcher_of(LongCall& call, bool& started, const Preparation*& made, cons
   return w;
 }
 
-/// Runs the scene's experiment. specimen: made before, or null; every: number of steps from one on_step to the next.
+/// Runs the scene's experiment. specimen: a specimen made before, or null. every: number of steps between two calls of
+/// on_step.
 std::shared_ptr<RunResult> run_scene(const GivenScene& scene, const std::filesystem::path& out,
                                      const PreparedPointer& specimen, bool resume, const nb::object& on_step,
                                      std::int64_t every, const nb::object& progress, const nb::object& on_plan,
@@ -95,10 +97,10 @@ std::shared_ptr<RunResult> run_scene(const GivenScene& scene, const std::filesys
   bool started = false;
   const Preparation* made = nullptr;
   const Watcher watcher = watcher_of(call, started, made, on_step, every, on_plan, on_warning);
-  const GivenScene own = scene;  // a copy, because another Python thread may change the caller's scene
+  const GivenScene copy = scene;  // another Python thread may change the caller's scene
   return call([&] {
-    return std::make_shared<RunResult>(specimen ? run(own, specimen->made, out, watcher, resume)
-                                                : run(own, out, watcher, resume));
+    return std::make_shared<RunResult>(specimen ? run(copy, specimen->made, out, watcher, resume)
+                                                : run(copy, out, watcher, resume));
   });
 }
 
@@ -117,21 +119,22 @@ nb::list skips_of(const RunResult& result) {
 }  // namespace
 
 void bind_simulation(nb::module_& m) {
-  nb::class_<StepView>(m, "Step", "A run that is under way, as a callback sees it.")
-      .def_ro("frequency_hz", &StepView::frequency_hz, "Of a cyclic test, else 0.")
+  nb::class_<StepView>(m, "Step", "State of a run at one step, for a callback.")
+      .def_ro("frequency_hz", &StepView::frequency_hz, "Frequency of a cyclic test [Hz]; 0 for other tests.")
       .def_prop_ro("step", [](const StepView& s) { return s.now.step; })
       .def_prop_ro(
-          "time", [](const StepView& s) { return s.now.time; }, "[s]")
-      .def_prop_ro("strain", &StepView::strain, "Of the specimen, tension positive.")
-      .def_prop_ro("stress_pa", &StepView::stress, "At the top wall [Pa], tension positive.")
-      .def_ro("observation", &StepView::now, "Of all walls.")
+          "time", [](const StepView& s) { return s.now.time; }, "Time [s].")
+      .def_prop_ro("strain", &StepView::strain, "Strain of the specimen, tension positive.")
+      .def_prop_ro("stress_pa", &StepView::stress, "Stress on the top wall [Pa], tension positive.")
+      .def_ro("observation", &StepView::now, "Displacements and forces of all walls.")
       .def(
-          "particles", [](const StepView& s) { return s.stepper().particles(); }, "Motion of all particles now.")
-      .def("contacts", &StepView::contacts, "Forces and deformation of all contacts now.")
+          "particles", [](const StepView& s) { return s.stepper().particles(); },
+          "Returns the present motion of all particles.")
+      .def("contacts", &StepView::contacts, "Returns present forces and deformation of all contacts.")
       .def("stress", &StepView::cell_stress,
-           "Mean stress in each particle's cell [Pa], (n, 6): xx yy zz xy yz xz, tension positive.");
-  nb::class_<RunResult>(m, "Outcome", "A finished run; its numbers are in the folder's summary.json.")
-      .def_prop_ro("text", &results_table, "As the command says it.")
+           "Returns the mean stress in each particle's cell [Pa], (n, 6): xx yy zz xy yz xz, tension positive.");
+  nb::class_<RunResult>(m, "Outcome", "A finished run. Its numbers are in summary.json in the folder.")
+      .def_prop_ro("text", &results_table, "Results as the command prints them.")
       .def_prop_ro("decisions", [](const RunResult& o) { return o.decisions; })
       .def_prop_ro("skips", [](const RunResult& o) { return skips_of(o); })
       .def_prop_ro("warnings", [](const RunResult& o) { return o.warnings; })

@@ -10,9 +10,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/tessellation/packing_check.hpp"
-#include "host/scene/given_particles.hpp"
 #include "macadam/macadam.hpp"
+#include "macadam/tessellation.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
@@ -38,7 +37,7 @@ Specimen particles_of(const ArrayLike& box, const ArrayLike& centre, const Array
   const auto phases = phase ? whole_numbers(*phase, "particles: phase") : std::vector<std::int32_t>(n, 1);
   if (out.radius.size() != out.size() || phases.size() != out.size() || out.body.size() != out.size()) {
     throw InputError(
-        fmt::format("particles: found {} centres, {} radii, {} phases and {} bodies, expected as many of each",
+        fmt::format("particles: found {} centres, {} radii, {} phases and {} bodies, expected the same number of each",
                     out.size(), n, phases.size(), out.body.size()));
   }
   for (const std::int32_t one : phases) {
@@ -54,9 +53,9 @@ Specimen particles_of(const ArrayLike& box, const ArrayLike& centre, const Array
 PreparedPointer prepare_scene(const GivenScene& scene, nb::object progress) {
   LongCall call(std::move(progress));
   return call([&] {
-    auto kept = std::make_shared<const GivenScene>(scene);
-    Preparation made = prepare(*kept, call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(kept), std::move(made)});
+    auto copy = std::make_shared<const GivenScene>(scene);
+    Preparation made = prepare(*copy, call.progress_function());
+    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
   });
 }
 
@@ -66,9 +65,9 @@ PreparedPointer prepare_particles(const GivenScene& scene, const ArrayLike& box,
   Specimen specimen = particles_of(box, centre, radius, phase, body);
   LongCall call;
   return call([&] {
-    auto kept = std::make_shared<const GivenScene>(scene);
-    Preparation made = prepare(*kept, std::move(specimen), call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(kept), std::move(made)});
+    auto copy = std::make_shared<const GivenScene>(scene);
+    Preparation made = prepare(*copy, std::move(specimen), call.progress_function());
+    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
   });
 }
 
@@ -76,11 +75,11 @@ PreparedPointer prepare_to_folder(const GivenScene& scene, const std::filesystem
                                   const std::vector<std::string>& sections, nb::object progress) {
   LongCall call(std::move(progress));
   return call([&] {
-    auto kept = std::make_shared<const GivenScene>(scene);
+    auto copy = std::make_shared<const GivenScene>(scene);
     std::vector<SectionPlane> planes;
     for (const std::string& text : sections) planes.push_back(read_section_plane(text, scene.specimen.box));
-    Preparation made = prepare_into(out, *kept, planes, call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(kept), std::move(made)});
+    Preparation made = prepare_into(out, *copy, planes, call.progress_function());
+    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
   });
 }
 
@@ -135,31 +134,32 @@ void bind_particles(nb::class_<Prepared>& c) {
       .def_prop_ro(
           "box", [](const Prepared& p) { return triple(p.made.specimen.box.size); }, "Edge lengths [m].")
       .def_prop_ro(
-          "centre", [](const Prepared& p) { return view(p.made.specimen.centre); }, "Of each particle [m], (n, 3).")
+          "centre", [](const Prepared& p) { return view(p.made.specimen.centre); },
+          "Centres of the particles [m], (n, 3).")
       .def_prop_ro(
-          "radius", [](const Prepared& p) { return view(p.made.specimen.radius); }, "Of each particle [m].")
+          "radius", [](const Prepared& p) { return view(p.made.specimen.radius); }, "Radii of the particles [m], (n,).")
       .def_prop_ro(
           "phase",
           [](const Prepared& p) {
             const auto& phase = p.made.specimen.phase;
             return view(reinterpret_cast<const std::uint8_t*>(phase.data()), {phase.size()});
           },
-          "Of each particle: 0 aggregate, 1 mastic.")
+          "Phase of each particle, (n,): 0 aggregate, 1 mastic.")
       .def_prop_ro(
           "body", [](const Prepared& p) { return view(p.made.specimen.body); },
-          "Number of the aggregate that each particle belongs to, -1 for mastic.")
+          "Number of the aggregate of each particle, (n,); -1 for mastic.")
       .def_prop_ro(
           "void_centre",
           [](const Prepared& p) {
             return member3(p.made.specimen.voids, [](const VoidSphere& v) -> const Vec3d& { return v.centre; });
           },
-          "Of each void [m], (n, 3). Voids are no particles.")
+          "Centres of the voids [m], (n, 3). Voids are not particles.")
       .def_prop_ro(
           "void_radius",
           [](const Prepared& p) {
             return member<double>(p.made.specimen.voids, [](const VoidSphere& v) { return &v.radius; });
           },
-          "Of each void [m].");
+          "Radii of the voids [m], (n,).");
 }
 
 }  // namespace
@@ -184,47 +184,52 @@ void bind_specimen(nb::module_& m) {
           nb::rv_policy::reference_internal, "The contact network.")
       .def_prop_ro(
           "composition", [](const Prepared& p) { return fractions_of(p.made); },
-          "By class: counts, and volumes over that of the box, asked and reached; of a generated specimen.")
+          "Requested and reached composition of a generated specimen, by class: number, and volume over the volume of "
+          "the "
+          "box.")
       .def_prop_ro(
-          "aggregates", [](const Prepared& p) { return aggregates_of(p.made); }, "Of a generated specimen; SI units.")
-      .def_prop_ro("gradation", &gradation_rows,
-                   "Of a recipe by mass: sieves [m] with shares of the aggregate's mass that pass.")
+          "aggregates", [](const Prepared& p) { return aggregates_of(p.made); },
+          "Aggregates of a generated specimen; SI units.")
+      .def_prop_ro(
+          "gradation", &gradation_rows,
+          "Gradation of a recipe by mass: sieves [m] and fractions of the aggregate's mass that pass, requested and "
+          "reached.")
       .def_prop_ro(
           "loose_particles", [](const Prepared& p) { return p.made.loose_particles; },
-          "Not joined to both walls: they carry nothing.")
+          "Number of particles that are not connected to both walls and carry no load.")
       .def_prop_ro(
           "spanning_clusters", [](const Prepared& p) { return p.made.spanning_clusters; },
-          "Clusters of particles that touch both walls; one, usually.")
+          "Number of clusters of particles that touch both walls; usually 1.")
       .def_prop_ro(
           "warnings", [](const Prepared& p) { return packing_warnings(p.made.specimen, p.made.tessellation); },
-          "Sentences on a packing that does not fill its box, or fills more than it.")
+          "Warnings about spheres that do not fill the box, or fill more than the box.")
       .def_prop_ro(
           "relaxation_iterations", [](const Prepared& p) { return p.made.relaxation_iterations; },
-          "Of a generated specimen.")
+          "Number of iterations of the generator.")
       .def_prop_ro(
           "seconds",
           [](const Prepared& p) {
             return nb::make_tuple(p.made.seconds_specimen, p.made.seconds_tessellation, p.made.seconds_network);
           },
-          "What the making of particles, cells and contacts took [s].")
-      .def(
-          "write", &write_specimen, nb::arg("file"), nb::arg("what") = "particles", nb::arg("arrays") = nb::dict(),
-          "Writes particles, contacts or cells for viewers (.vtkhdf, .vtp), or the first two as .csv. arrays: more for "
-          "viewers, by name, a row a particle, a contact or a polygon.")
+          "Wall times of making particles, cells and contacts [s].")
+      .def("write", &write_specimen, nb::arg("file"), nb::arg("what") = "particles", nb::arg("arrays") = nb::dict(),
+           "Writes particles, contacts or cells for viewers (.vtkhdf, .vtp); particles or contacts also as .csv. "
+           "arrays: "
+           "additional arrays for viewers, by name, with one row per particle, contact or polygon.")
       .def(
           "section",
           [](const Prepared& p, const std::string& plane) {
             return cut(p.made.specimen, p.made.tessellation, read_section_plane(plane, p.made.specimen.box));
           },
-          nb::arg("plane"), "The cells cut by a plane: \"x=0.025\" (metres), \"z=40 mm\".")
+          nb::arg("plane"), "Returns the cells cut by a plane: \"x=0.025\" (metres), \"z=40 mm\".")
       .def(
           "inertia",
           [](const Prepared& p) {
             Inertia i = make_inertia(p.made.specimen, p.scene->materials.aggregate, p.scene->materials.mastic);
             return nb::make_tuple(owned(std::move(i.mass)), owned(std::move(i.inertia)));
           },
-          "Masses [kg] and moments of inertia [kg m²] of the particles.");
-  m.attr("given_particles") = scene::given_particles;
+          "Returns masses [kg] and moments of inertia [kg m²] of the particles, (n,) each.");
+  m.attr("given_particles") = given_particles;
   m.def("prepare", &prepare_scene, nb::arg("scene"), nb::arg("progress") = nb::none());
   m.def("prepare_particles", &prepare_particles, nb::arg("scene"), nb::arg("box"), nb::arg("centre"), nb::arg("radius"),
         nb::arg("phase"), nb::arg("body"));

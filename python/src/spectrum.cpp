@@ -10,8 +10,8 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/base/thread_limit.hpp"
 #include "macadam/results.hpp"
+#include "macadam/thread_limit.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
@@ -23,13 +23,13 @@ namespace {
 
 /// Returns the array of f(time), (n,).
 template <class F>
-nb::ndarray<nb::numpy, double> of_each(const ArrayLike& times, F&& f) {
+nb::ndarray<nb::numpy, double> values_at(const ArrayLike& times, F&& f) {
   std::vector<double> out = numbers(times, "times");
   for (double& value : out) value = f(value);
   return owned(std::move(out));
 }
 
-/// Returns (value, time) of each unit, (n, 2). value: the member of Unit that is meant, a modulus or a compliance.
+/// Returns (value, time) of each unit, (n, 2). value: the member of Unit that is returned, a modulus or a compliance.
 template <class Unit>
 nb::ndarray<nb::numpy, double> pairs_of(const std::vector<Unit>& units, double Unit::*value) {
   std::vector<double> out;
@@ -56,58 +56,61 @@ nb::dict evaluate(const ArrayLike& times, const ArrayLike& strains, const ArrayL
                             stress = numbers(stresses, "stress", time.size());
   std::vector<ResponseSample> samples;
   for (std::size_t i = 0; i < time.size(); ++i) samples.push_back({frequency, time[i], strain[i], stress[i]});
-  const CyclicResult found = evaluate_cyclic(samples, frequency, fit_cycles);
+  const CyclicResult result = evaluate_cyclic(samples, frequency, fit_cycles);
   nb::dict out;
-  out["e_star_pa"] = found.fit.e_star_pa;
-  out["phase_deg"] = found.fit.phase_deg;
-  out["e_star_peaks_pa"] = found.peaks.e_star_pa;
-  out["phase_peaks_deg"] = found.peaks.phase_deg;
-  out["fit_rms"] = found.fit_rms;
-  out["change_e_star"] = found.change_e_star;
-  out["change_phase_deg"] = found.change_phase_deg;
+  out["e_star_pa"] = result.fit.e_star_pa;
+  out["phase_deg"] = result.fit.phase_deg;
+  out["e_star_peaks_pa"] = result.peaks.e_star_pa;
+  out["phase_peaks_deg"] = result.peaks.phase_deg;
+  out["fit_rms"] = result.fit_rms;
+  out["change_e_star"] = result.change_e_star;
+  out["change_phase_deg"] = result.change_phase_deg;
   return out;
 }
 
 void bind_series(nb::module_& m) {
   nb::class_<PronySeries>(m, "PronySeries", "Relaxation modulus as a sum of Maxwell units.")
-      .def_ro("long_term", &PronySeries::long_term, "E(∞) [Pa]: 0 for what flows.")
+      .def_ro("long_term", &PronySeries::long_term, "E(∞) [Pa]; 0 for a fluid.")
       .def_prop_ro("instantaneous", &PronySeries::instantaneous, "E(0) [Pa].")
       .def_prop_ro(
           "units", [](const PronySeries& s) { return pairs_of(s.units, &PronySeries::Unit::modulus); },
-          nb::rv_policy::move, "Modulus [Pa] and relaxation time [s] of each, times ascending, (n, 2).")
+          nb::rv_policy::move, "Modulus [Pa] and relaxation time [s] of each unit, by ascending time, (n, 2).")
       .def(
           "modulus",
-          [](const PronySeries& s, const ArrayLike& t) { return of_each(t, [&](double x) { return s.modulus(x); }); },
-          nb::arg("times"), "E(t) [Pa] at times [s].")
+          [](const PronySeries& s, const ArrayLike& t) { return values_at(t, [&](double x) { return s.modulus(x); }); },
+          nb::arg("times"), "Returns E(t) [Pa] at times [s], (n,).")
       .def(
           "after_ramp",
           [](const PronySeries& s, const ArrayLike& t, double duration) {
-            return of_each(t, [&](double x) { return s.after_ramp(x, duration); });
+            return values_at(t, [&](double x) { return s.after_ramp(x, duration); });
           },
           nb::arg("times"), nb::arg("duration"),
-          "Stress over strain [Pa] where the strain grows evenly over `duration` [s] and is held.")
+          "Returns stress over strain [Pa], (n,), if the strain grows at a constant rate for `duration` [s] and is "
+          "then "
+          "held.")
       .def(
           "stiffness", [](const PronySeries& s, std::complex<double> at) { return s.stiffness(at); }, nb::arg("s"),
-          "E*(s) [Pa] of motions e^(s·t); s = 2πi·f for a frequency f.");
+          "Returns E*(s) [Pa] for motions e^(s·t); s = 2πi·f for a frequency f.");
   nb::class_<CreepSeries>(m, "CreepSeries", "Creep compliance as a chain of Kelvin units with a spring and a dashpot.")
       .def_ro("instantaneous", &CreepSeries::instantaneous, "J(0) [1/Pa].")
-      .def_ro("fluidity", &CreepSeries::fluidity, "1/η [1/(Pa s)]: 0 for what does not flow.")
+      .def_ro("fluidity", &CreepSeries::fluidity, "1/η [1/(Pa s)]; 0 for a solid.")
       .def_prop_ro(
           "units", [](const CreepSeries& s) { return pairs_of(s.units, &CreepSeries::Unit::compliance); },
-          nb::rv_policy::move, "Compliance [1/Pa] and retardation time [s] of each, times ascending, (n, 2).")
+          nb::rv_policy::move, "Compliance [1/Pa] and retardation time [s] of each unit, by ascending time, (n, 2).")
       .def(
           "compliance",
           [](const CreepSeries& s, const ArrayLike& t) {
-            return of_each(t, [&](double x) { return s.compliance(x); });
+            return values_at(t, [&](double x) { return s.compliance(x); });
           },
-          nb::arg("times"), "J(t) [1/Pa] at times [s].")
+          nb::arg("times"), "Returns J(t) [1/Pa] at times [s], (n,).")
       .def(
           "after_ramp",
           [](const CreepSeries& s, const ArrayLike& t, double duration) {
-            return of_each(t, [&](double x) { return s.after_ramp(x, duration); });
+            return values_at(t, [&](double x) { return s.after_ramp(x, duration); });
           },
           nb::arg("times"), nb::arg("duration"),
-          "Strain over stress [1/Pa] where the stress grows evenly over `duration` [s] and is held.");
+          "Returns strain over stress [1/Pa], (n,), if the stress grows at a constant rate for `duration` [s] and is "
+          "then held.");
 }
 
 }  // namespace
@@ -115,21 +118,24 @@ void bind_series(nb::module_& m) {
 void bind_spectrum(nb::module_& m) {
   bind_series(m);
   const SpectrumOptions usual;
-  nb::class_<Spectrum>(m, "Spectrum", "What a specimen's relaxation is, and how well it is known.")
+  nb::class_<Spectrum>(m, "Spectrum", "Relaxation and creep functions of a specimen, and their errors.")
       .def_ro("relaxation", &Spectrum::relaxation)
       .def_ro("creep", &Spectrum::creep)
       .def_ro("error", &Spectrum::error, "Estimate of the largest relative error of E(t).")
-      .def_ro("checked", &Spectrum::checked, "Largest relative difference of E*(iω) from solutions of their own.")
-      .def_ro("solutions", &Spectrum::solutions, "Of the whole network.");
-  m.def("spectrum", &spectrum, nb::arg("specimen"), nb::arg("shortest") = usual.shortest,
-        nb::arg("longest") = usual.longest, nb::arg("tolerance") = usual.tolerance, nb::arg("backend") = "cpu",
-        nb::arg("linear") = "auto", nb::arg("device") = nb::none(),
-        "The relaxation spectrum of a specimen between two times [s], without inertia; tolerance: relative, of E(t).");
-  m.def("evaluate_cyclic", &evaluate, nb::arg("time"), nb::arg("strain"), nb::arg("stress"), nb::arg("frequency"),
-        nb::arg("fit_cycles") = 1,
-        "|E*| [Pa] and φ [degrees] of samples at times [s], tension positive, stresses in Pa, at a frequency [Hz]: "
-        "fitted "
-        "to the last `fit_cycles` cycles, and read off the peaks of the last.");
+      .def_ro("checked", &Spectrum::checked,
+              "Largest relative difference of E*(iω) from separate solutions at single frequencies.")
+      .def_ro("solutions", &Spectrum::solutions, "Number of solutions of the whole network.");
+  m.def(
+      "spectrum", &spectrum, nb::arg("specimen"), nb::arg("shortest") = usual.shortest,
+      nb::arg("longest") = usual.longest, nb::arg("tolerance") = usual.tolerance, nb::arg("backend") = "cpu",
+      nb::arg("linear") = "auto", nb::arg("device") = nb::none(),
+      "Returns the relaxation spectrum of a specimen between two times [s], without inertia. tolerance: relative error "
+      "of E(t).");
+  m.def(
+      "evaluate_cyclic", &evaluate, nb::arg("time"), nb::arg("strain"), nb::arg("stress"), nb::arg("frequency"),
+      nb::arg("fit_cycles") = 1,
+      "Returns |E*| [Pa] and φ [degrees] of samples of time [s], strain and stress [Pa] (tension positive), (n,) each, "
+      "at a frequency [Hz]: from a fit to the last `fit_cycles` cycles, and from the peaks of the last cycle.");
 }
 
 }  // namespace macadam::python

@@ -12,7 +12,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "host/base/thread_limit.hpp"
+#include "macadam/piecewise_stepper.hpp"
+#include "macadam/thread_limit.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
@@ -24,7 +25,7 @@ namespace macadam::python {
 namespace {
 
 /// A stepper, and the specimen that it refers to. One thread at a time may use it.
-struct Steps {
+struct HeldStepper {
   PreparedPointer prepared;
   std::unique_ptr<Stepper> stepper;
   double dt = 0;
@@ -33,7 +34,7 @@ struct Steps {
   /// Locks the stepper as long as the returned lock lives. \throws RunError if another thread holds it.
   std::unique_lock<std::mutex> hold() const {
     std::unique_lock held(busy, std::try_to_lock);
-    if (!held) throw RunError("stepper: found another thread at it, expected one at a time");
+    if (!held) throw RunError("stepper: found a call from another thread, expected one thread at a time");
     return held;
   }
 };
@@ -55,24 +56,15 @@ CriticalStep critical(const Prepared& p, const StepperOptions& options) {
   return critical_step(p.made.network, p.scene->laws, make_inertia(p.made.specimen, m.aggregate, m.mastic), options);
 }
 
-/// Advances in pieces of 0.1 to 0.4 s and looks for Ctrl-C after each. Results do not depend on the length of the
-/// pieces, to the last bit.
-void advance(Steps& s, std::int64_t steps) {
-  if (steps < 0) throw InputError("advance: found " + std::to_string(steps) + " steps, expected none or more");
+/// Takes steps and looks for Ctrl-C after each piece of some tenths of a second.
+void advance(HeldStepper& s, std::int64_t steps) {
+  if (steps < 0) throw InputError("advance: found " + std::to_string(steps) + " steps, expected 0 or more");
   LongCall call;
   const auto held = s.hold();
   call([&] {
-    using Clock = std::chrono::steady_clock;
-    for (std::int64_t piece = 16; steps > 0;) {
-      const auto start = Clock::now();
-      const std::int64_t now = std::min(piece, steps);
-      s.stepper->advance(now);
-      steps -= now;
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      if (seconds < 0.1) piece *= 2;
-      if (seconds > 0.4) piece = std::max<std::int64_t>(1, piece / 2);
-      if (call.stop()) throw InterruptedError("interrupted: the stepper stands at a whole step, and may go on");
-    }
+    PiecewiseStepper(*s.stepper).advance(0, steps, [&](std::int64_t) {
+      if (call.stop()) throw InterruptedError("interrupted between two steps: the stepper can continue");
+    });
   });
 }
 
@@ -80,7 +72,7 @@ nb::object array_of(StateArray::Values values) {
   return std::visit([](auto& v) { return nb::cast(owned(std::move(v))); }, values);
 }
 
-nb::dict state_of(const Steps& s) {
+nb::dict state_of(const HeldStepper& s) {
   const auto held = s.hold();
   nb::dict out;
   for (StateArray& array : s.stepper->state()) out[array.name.c_str()] = array_of(std::move(array.values));
@@ -95,7 +87,7 @@ std::optional<StateArray::Values> values_as(nb::handle array) {
   return StateArray::Values(std::vector<T>(in.data(), in.data() + in.size()));
 }
 
-void set_state(Steps& s, const nb::dict& arrays) {
+void set_state(HeldStepper& s, const nb::dict& arrays) {
   std::vector<StateArray> state;
   for (const auto& [name, array] : arrays) {
     const std::string text = nb::cast<std::string>(name);
@@ -103,10 +95,10 @@ void set_state(Steps& s, const nb::dict& arrays) {
     if (!values) values = values_as<double>(array);
     if (!values) values = values_as<std::int64_t>(array);
     if (!values) {
-      const nb::object found = number_array(array, "arrays: " + text, "an array as state() gave it");
+      const nb::object given = number_array(array, "arrays: " + text, "an array as state() returned it");
       throw InputError(fmt::format(
-          "arrays: {}: found {} of shape {}, expected a flat array of float32, float64 or int64, as state() gave it",
-          text, nb::cast<std::string>(found.attr("dtype").attr("name")), nb::repr(found.attr("shape")).c_str()));
+          "arrays: {}: found {} of shape {}, expected shape (n,) of float32, float64 or int64, as state() returned it",
+          text, nb::cast<std::string>(given.attr("dtype").attr("name")), nb::repr(given.attr("shape")).c_str()));
     }
     state.push_back({text, "", std::move(*values)});
   }
@@ -117,7 +109,7 @@ void set_state(Steps& s, const nb::dict& arrays) {
 using OnDevice = nb::ndarray<nb::ro, nb::shape<-1, 8>, nb::device::cuda>;
 
 /// Returns the arrays of velocities and displacements on the device without a copy, or None on other backends.
-nb::object device_motion(const Steps& s) {
+nb::object device_motion(const HeldStepper& s) {
   const auto held = s.hold();
   const DeviceMotion d = s.stepper->device_motion();
   if (!d.velocity) return nb::none();
@@ -134,7 +126,7 @@ nb::object device_motion(const Steps& s) {
   return out;
 }
 
-nb::list kernels_of(const Steps& s) {
+nb::list kernels_of(const HeldStepper& s) {
   nb::list out;
   for (const KernelUse& kernel : s.stepper->kernels()) {
     nb::dict one;
@@ -149,13 +141,13 @@ nb::list kernels_of(const Steps& s) {
 
 using Text = std::string;
 
-/// Constructs a Stepper. The time step is `dt` if it is given, else that of the drives, else `safety` times the
-/// critical step.
-void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::optional<double> dt,
-          const Text& backend, const Text& precision, const Text& form, const Text& geometry, const Text& damping_kind,
-          double damping, double density_scaling, double safety, bool skip_shear, bool skip_rotations, int threads,
-          const Devices& device, int multiprocessors, const StartState* start, double blocks,
-          std::int64_t observed_every) {
+/// Constructs a Stepper. The time step is `dt` if it is given, else the time step of the drives, else `safety` times
+/// the critical step.
+void make_stepper_object(HeldStepper* self, PreparedPointer specimen, const Boundary& boundary,
+                         std::optional<double> dt, const Text& backend, const Text& precision, const Text& form,
+                         const Text& geometry, const Text& damping_kind, double damping, double density_scaling,
+                         double safety, bool skip_shear, bool skip_rotations, int threads, const Devices& device,
+                         int multiprocessors, const StartState* start, double blocks, std::int64_t observed_every) {
   StepperOptions options;
   options.form = choice("form", form, forms);
   options.geometry = choice("geometry", geometry, geometries);
@@ -172,7 +164,7 @@ void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::
   options.boundary = boundary;
   options.start = start;
   options.observed_every = observed_every;
-  const Backend where = choice("backend", backend, backends);
+  const Backend chosen = choice("backend", backend, backends);
   const std::optional<double> driven = step_of(boundary);
   options.dt = dt ? *dt : driven ? *driven : safety * critical(*specimen, options).dt;
   const Materials& m = specimen->scene->materials;
@@ -180,95 +172,106 @@ void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::
   LongCall call;
   auto stepper = call([&] {
     const ThreadLimit limit(options.threads);
-    return make_stepper(where, specimen->made.specimen, specimen->made.network, specimen->scene->laws, inertia,
+    return make_stepper(chosen, specimen->made.specimen, specimen->made.network, specimen->scene->laws, inertia,
                         options);
   });
-  new (self) Steps{std::move(specimen), std::move(stepper), options.dt};
+  new (self) HeldStepper{std::move(specimen), std::move(stepper), options.dt};
 }
 
 }  // namespace
 
 void bind_stepper(nb::module_& m) {
-  nb::class_<Steps>(m, "Stepper", "Steps a specimen in time: velocities at half steps, displacements at whole steps.")
-      .def(
-          "__init__", &make, nb::arg("specimen"), nb::arg("boundary"), nb::kw_only(), nb::arg("dt") = nb::none(),
-          nb::arg("backend") = "auto", nb::arg("precision") = "double", nb::arg("form") = "condensed",
-          nb::arg("geometry") = "updated", nb::arg("damping_kind") = "none", nb::arg("damping") = 0.0,
-          nb::arg("density_scaling") = 1.0, nb::arg("safety") = 0.8, nb::arg("skip_shear") = true,
-          nb::arg("skip_rotations") = true, nb::arg("threads") = 0, nb::arg("device") = nb::none(),
-          nb::arg("multiprocessors") = 0, nb::arg("start") = nb::none(), nb::arg("blocks") = StepperOptions{}.blocks,
-          nb::arg("observed_every") = 0,
-          "dt [s]: that of the drives, else `safety` times the critical step. damping: χ, or β [1/s] of viscous "
-          "damping. skip_shear, skip_rotations: leave out what is 0. start: a state of motion (steady_start). Of cuda: "
-          "multiprocessors: plan for so many, 0: all; blocks: so many of them at least in the shortest time of drives "
-          "and laws; observed_every: steps from one observe() to the next, 0: not known.")
-      .def("advance", &advance, nb::arg("steps"), "Takes steps. Other threads of Python run meanwhile; Ctrl-C ends it.")
+  nb::class_<HeldStepper>(m, "Stepper",
+                          "HeldStepper a specimen in time: velocities at half steps, displacements at whole steps.")
+      .def("__init__", &make_stepper_object, nb::arg("specimen"), nb::arg("boundary"), nb::kw_only(),
+           nb::arg("dt") = nb::none(), nb::arg("backend") = "auto", nb::arg("precision") = "double",
+           nb::arg("form") = "condensed", nb::arg("geometry") = "updated", nb::arg("damping_kind") = "none",
+           nb::arg("damping") = 0.0, nb::arg("density_scaling") = 1.0, nb::arg("safety") = 0.8,
+           nb::arg("skip_shear") = true, nb::arg("skip_rotations") = true, nb::arg("threads") = 0,
+           nb::arg("device") = nb::none(), nb::arg("multiprocessors") = 0, nb::arg("start") = nb::none(),
+           nb::arg("blocks") = StepperOptions{}.blocks, nb::arg("observed_every") = 0,
+           "dt: time step [s]; by default the step of the drives or, without drives, `safety` times the critical step. "
+           "damping: χ, or β [1/s] of viscous damping. skip_shear, skip_rotations: leave out shear or rotations that "
+           "are "
+           "always 0. start: state from which the run starts (steady_start). For backend cuda: multiprocessors: number "
+           "of "
+           "multiprocessors to plan for, 0: all; blocks: smallest number of blocks of steps in the shortest time of "
+           "drives "
+           "and laws; observed_every: number of steps from one observe() to the next, 0: unknown.")
+      .def("advance", &advance, nb::arg("steps"),
+           "Takes steps. Other threads of Python run at the same time. Ctrl-C ends it after a whole step.")
       .def(
           "observe",
-          [](const Steps& s) {
+          [](const HeldStepper& s) {
             const auto held = s.hold();
             return s.stepper->observe();
           },
-          "Walls now.")
+          "Returns the present state of the walls.")
       .def(
           "particles",
-          [](const Steps& s) {
+          [](const HeldStepper& s) {
             const auto held = s.hold();
             return s.stepper->particles();
           },
-          "Motion of all particles now.")
+          "Returns the present motion of all particles.")
       .def(
           "contacts",
-          [](const Steps& s) {
+          [](const HeldStepper& s) {
             const auto held = s.hold();
             return s.stepper->contacts(s.prepared->made.network);
           },
-          "Forces and deformation of all contacts now.")
+          "Returns present forces and deformation of all contacts.")
       .def(
           "stress",
-          [](const Steps& s) {
+          [](const HeldStepper& s) {
             const auto held = s.hold();
             return stress_of(s.prepared->made, s.stepper->contacts(s.prepared->made.network));
           },
-          "Mean stress in each particle's cell [Pa], (n, 6): xx yy zz xy yz xz, tension positive.")
+          "Returns the mean stress in each particle's cell [Pa], (n, 6): xx yy zz xy yz xz, tension positive.")
       .def(
           "set_velocities",
-          [](Steps& s, const ArrayLike& velocity, const ArrayLike& spin) {
+          [](HeldStepper& s, const ArrayLike& velocity, const ArrayLike& spin) {
             const std::size_t particles = s.prepared->made.specimen.size();
             const std::vector<Vec3d> v = vectors(velocity, "velocity", particles), w = vectors(spin, "spin", particles);
             const auto held = s.hold();
             s.stepper->set_velocities(v, w);
           },
-          nb::arg("velocity"), nb::arg("spin"), "At the half step, specimen order [m/s], [rad/s], (n, 3).")
-      .def("state", &state_of, "Everything that steps change, as arrays by name.")
-      .def("set_state", &set_state, nb::arg("arrays"), "Puts back what state() gave.")
+          nb::arg("velocity"), nb::arg("spin"),
+          "Sets velocities [m/s] and angular velocities [rad/s] of the particles at the last half step, (n, 3) each.")
+      .def("state", &state_of, "Returns all data that steps change, as arrays by name.")
+      .def("set_state", &set_state, nb::arg("arrays"), "Restores the arrays that state() returned.")
       .def("device_motion", &device_motion,
-           "Of backend cuda, arrays on the device by DLPack, without a copy, valid until the next call: velocity "
-           "[body][8] v, -, ω, - [m/s, rad/s], displacement [body][8] u, -, θ, - [m, rad]; `particle`: of each body, "
-           "walls behind. Else None.")
+           "Returns arrays on the device (DLPack, without a copy), valid until the next call; None for other backends "
+           "than "
+           "cuda. Rows are particles, followed by the walls. velocity, (rows, 8): v, -, ω, - [m/s, rad/s]. "
+           "displacement, "
+           "(rows, 8): u, -, θ, - [m, rad]. particle: number of the particle of each row without the walls.")
       .def_prop_ro("kernels", &kernels_of,
-                   "Of backend cuda, what a step launches: name, registers, shared_bytes, occupancy.")
+                   "Kernels that a step launches on backend cuda: name, registers, shared_bytes, occupancy.")
       .def_prop_ro(
-          "dt", [](const Steps& s) { return s.dt; }, "[s]")
-      .def_prop_ro("specimen", [](const Steps& s) { return s.prepared; })
+          "dt", [](const HeldStepper& s) { return s.dt; }, "Time step [s].")
+      .def_prop_ro("specimen", [](const HeldStepper& s) { return s.prepared; })
       .def("__repr__",
-           [](const Steps& s) {
+           [](const HeldStepper& s) {
              return fmt::format("<macadam.Stepper: {} particles, dt {:.4g} s, {}>", s.prepared->made.specimen.size(),
                                 s.dt, s.stepper->description());
            })
       .def_prop_ro(
           "first_divergent",
-          [](const Steps& s) {
+          [](const HeldStepper& s) {
             const auto held = s.hold();
             return s.stepper->first_divergent();
           },
           "First particle whose motion is not finite or exceeds its radius in a step; -1 if none.")
       .def_prop_ro(
-          "description", [](const Steps& s) { return s.stepper->description(); }, "What runs, in words.")
+          "description", [](const HeldStepper& s) { return s.stepper->description(); },
+          "Backend, precision and form that run, in words.")
       .def_prop_ro(
-          "bytes", [](const Steps& s) { return s.stepper->bytes(); }, "Held for the step.")
+          "bytes", [](const HeldStepper& s) { return s.stepper->bytes(); },
+          "Bytes of state and geometry held for the step.")
       .def_prop_ro(
-          "traffic", [](const Steps& s) { return s.stepper->traffic(); }, "Bytes that a step moves at the least.");
+          "traffic", [](const HeldStepper& s) { return s.stepper->traffic(); },
+          "Smallest number of bytes that a step reads and writes.");
   m.def(
       "critical_step",
       [](const Prepared& p, double density_scaling, double damping) {
@@ -279,7 +282,7 @@ void bind_stepper(nb::module_& m) {
         return critical(p, options).dt;
       },
       nb::arg("specimen"), nb::arg("density_scaling") = 1.0, nb::arg("damping") = 0.0,
-      "A step that is surely stable [s], for local damping χ.");
+      "Returns a stable time step [s]. damping: χ of local damping.");
 }
 
 }  // namespace macadam::python

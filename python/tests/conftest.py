@@ -26,7 +26,7 @@ def specimen(scene):
 
 @pytest.fixture(scope="session")
 def small_file(scene, tmp_path_factory):
-    """The small scene as a file."""
+    """Returns the file of the small scene."""
     file = tmp_path_factory.mktemp("scene") / "small.toml"
     file.write_text(scene.text)
     return file

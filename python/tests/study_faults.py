@@ -9,8 +9,8 @@ from pathlib import Path
 
 import report_folders
 
-# The stand-in's result: |E*| in GPa is the scene's delta, the phase angle is ten degrees. It writes a line to LOG at
-# each start and each end. Delta 13 fails with a message, delta 17 kills the program.
+# The stand-in's result: |E*| in GPa is the scene's delta, the phase angle is ten degrees. Each run logs its start
+# and its end in LOG. Delta 13 fails with a message, delta 17 kills the program.
 _PROGRAM = """#!/bin/sh
 case $1 in
   --version) echo "macadam stand-in VERSION"; exit ;;

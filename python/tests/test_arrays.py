@@ -38,12 +38,12 @@ WRONG = [
     ({"radius": ["5e-4"] * 8}, r"particles: radius: found text, expected numbers of shape \(n,\)"),
     ({"radius": np.full(8, 5e-4 + 0j)}, r"particles: radius: found complex numbers, expected"),
     ({"radius": [{}] * 8}, r"particles: radius: found objects that are not numbers, expected"),
-    ({"radius": np.full(7, 5e-4)}, r"particles: found 8 centres, 7 radii, 7 phases and 7 bodies, expected as many of each"),
+    ({"radius": np.full(7, 5e-4)}, r"particles: found 8 centres, 7 radii, 7 phases and 7 bodies, expected the same number of each"),
     ({"phase": ["mastic"] * 8}, r"particles: phase: found text, expected numbers of shape \(n,\)"),
-    ({"phase": np.full(8, 0.5)}, r"particles: phase: found 0.5 at 0, expected whole numbers of 32 bits"),
-    ({"body": np.full(8, 2**40)}, r"particles: body: found 1099511627776 at 0, expected whole numbers of 32 bits"),
-    ({"body": [-1, np.nan, -1, -1, -1, -1, -1, -1]}, r"particles: body: found nan at 1, expected whole numbers"),
-    ({"colour": [1] * 8}, r"particles: found 'colour', expected centre and radius, and maybe phase, body, box"),
+    ({"phase": np.full(8, 0.5)}, r"particles: phase: found 0.5 in row 0, expected whole numbers of 32 bits"),
+    ({"body": np.full(8, 2**40)}, r"particles: body: found 1099511627776 in row 0, expected whole numbers of 32 bits"),
+    ({"body": [-1, np.nan, -1, -1, -1, -1, -1, -1]}, r"particles: body: found nan in row 1, expected whole numbers"),
+    ({"colour": [1] * 8}, r"particles: found 'colour', expected centre, radius and, if needed, phase, body, box"),
 ]
 
 
@@ -54,7 +54,7 @@ def test_a_wrong_array_of_particles_is_named(scene, changed, message):
 
 
 def test_what_is_missing_is_named(scene):
-    with pytest.raises(mc.InputError, match="particles: found no radius, expected centre and radius"):
+    with pytest.raises(mc.InputError, match="particles: found no radius, expected centre, radius"):
         mc.specimen(scene, particles={"centre": CENTRE})
     with pytest.raises(mc.InputError, match="box"):
         mc.specimen(scene, particles={**EIGHT, "box": [2e-3] * 2})
@@ -74,11 +74,11 @@ def refusals(specimen):
         (lambda: mc.drives.Table(1e-6, column, [1, 2]), f"times: {flat}"),
         (lambda: mc.drives.Table(1e-6, [1, 2], [1, 2, 3]), r"values: found numbers of shape \(3,\), expected .*\(2,\)"),
         (lambda: mc.Boundary().fix(column), f"particles: {flat}"),
-        (lambda: mc.Boundary().fix([0.5]), "particles: found 0.5 at 0, expected whole numbers"),
+        (lambda: mc.Boundary().fix([0.5]), "particles: found 0.5 in row 0, expected whole numbers"),
         (lambda: mc.Boundary().body_force(np.ones(n)), r"force: found numbers of shape .*expected .*\(n, 3\)"),
         (lambda: stepper.set_velocities(np.zeros((n, 2)), np.zeros((n, 3))), rf"velocity: found .*\({n}, 2\), expected .*\({n}, 3\)"),
         (lambda: stepper.set_velocities(np.zeros((n, 3)), np.zeros((1, 3))), rf"spin: found .*\(1, 3\), expected .*\({n}, 3\)"),
-        (lambda: stepper.set_state({name: [[1.0]]}), rf"arrays: {name}: found float64 of shape \(1, 1\), expected a flat array"),
+        (lambda: stepper.set_state({name: [[1.0]]}), rf"arrays: {name}: found float64 of shape \(1, 1\), expected shape \(n,\)"),
         (lambda: stepper.set_state({name: "text"}), f"arrays: {name}: found text, expected an array as state"),
         (lambda: mc.HarmonicSolver(specimen).solve(column), f"frequencies: {flat}"),
         (lambda: mc.HarmonicSolver(specimen).solve(10.0), r"frequencies: found numbers of shape \(\)"),
@@ -87,8 +87,9 @@ def refusals(specimen):
         (lambda: mc.evaluate_cyclic([0, 1], [0, 1], [0], 1.0), r"stress: found numbers of shape \(1,\), expected .*\(2,\)"),
         (lambda: mc.shapes.Surface([[0, 0]], [[0, 1, 2]]), r"points: found numbers of shape \(1, 2\), expected .*\(n, 3\)"),
         (lambda: mc.shapes.Surface(triangle, [0, 1, 2]), r"facets: found numbers of shape \(3,\), expected .*\(n, 3\)"),
-        (lambda: mc.shapes.Surface(triangle, [[0, 1, 2.5]]), "facets: found 2.5 at 0, expected whole numbers"),
-        (lambda: specimen.write("a.vtp", arrays={"x": ["a"] * n}), f"arrays: x: found text, expected {n} rows of numbers"),
+        (lambda: mc.shapes.Surface(triangle, [[0, 1, 2.5]]), "facets: found 2.5 in row 0, expected whole numbers"),
+        (lambda: specimen.write("a.vtp", arrays={"x": ["a"] * n}), rf"arrays: x: found text, expected numbers of shape \({n},\)"),
+        (lambda: specimen.write("a.vtp", arrays={"x": [1.0]}), rf"arrays: x: found shape \(1,\), expected \({n},\)"),
     ]
 
 

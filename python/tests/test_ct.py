@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scans: a phantom, its segmentation and its twin are the same as those of the commands."""
+"""Scans: phantom, segmentation and twin equal the files of the commands."""
 import subprocess
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fits of laws and calibration: the same files as those of the commands, from files and from columns."""
+"""Fits of laws and calibration: from files and from columns they write the same files as the commands."""
 import subprocess
 
 import numpy as np
@@ -70,7 +70,7 @@ def test_a_calibration_finds_what_was_there(scene, small_file, lab, tmp_path, pr
 
 
 def test_results_are_targets_and_data(specimen, scene, tmp_path):
-    """result.table as it is, with columns of numbers and words that no laboratory has."""
+    """result.table can be used unchanged, with its columns that no laboratory has."""
     found = mc.harmonic(specimen, frequencies=[2, 5, 20, 50], **{"contacts.M-A.delta": 1.3})
     assert not {"frequency_hz", "e_star_pa", "phase_deg"} >= set(found.table.columns)
     law = mc.fit(found.table, units=1)

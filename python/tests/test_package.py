@@ -111,7 +111,7 @@ def test_the_program_hands_on_what_is_python(name, tmp_path, program):
 
 @pytest.mark.parametrize("name", ["report", "study"])
 def test_a_python_without_the_packages_is_told_apart(name, tmp_path, program):
-    """There is no traceback; the message says what is missing in which Python and how to install it."""
+    """The message names the missing packages, the Python and the way to install them. It is not a traceback."""
     python = tmp_path / "python"
     python.write_text(f"#!/bin/sh\nexec {sys.executable} -S \"$@\"\n")  # without its site-packages
     python.chmod(0o755)

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no program macadam: bui
 CASES = {
     "stepped": [
         "Decided by the program",
-        "as it was stepped",
+        "the last stepped cycle",
         "Error bars",
         "geometry update",
         "stepping",
@@ -34,7 +34,7 @@ CASES = {
         "Cole–Cole",
         "Black diagram",
         "Loops of the steady state",
-        "What the result depends on",
+        "Sensitivity of the result",
         "median area",
     ],
     "temperatures": ["Master curve of", "shift a_T", "φ in degrees at 3 temperatures"],
@@ -43,7 +43,7 @@ CASES = {
     "monotonic": ["Constant rate of strain", "compression at", "secant modulus"],
     "stepped_relaxation": ["Relaxation", "the modulus falls from", "Error bars of stepped points", "density scaling 100"],
     "stepped_creep": ["is left at 6.00 ms", "the error is above 1 %", "until 3.00 ms (dotted)", "or an estimate of it: at most 47 %"],
-    "stepped_monotonic": ["Constant rate of strain", "compression at 10,000 µm/m a second", "secant modulus goes from"],
+    "stepped_monotonic": ["Constant rate of strain", "compression at 10,000 µm/m per second", "secant modulus goes from"],
     "broken": ["Strength of ", "the largest stress (cross) is", "The specimen broke between t = ", "Broken contact points: "],
     "confined": ["The sides are held", "confined"],
     "recipe": [
@@ -78,7 +78,7 @@ def test_every_kind_of_folder(kind: str, tmp_path: Path, monkeypatch: pytest.Mon
         assert words in re.sub(r"<[^>]*>", "", plain) or words in plain, words
     # the page loads nothing and runs no script
     assert "<script" not in plain and "http" not in plain.replace("http-equiv", "")
-    assert not re.search(r">[^<]*\b(nan|None|inf)\b", plain), "a value that is none shows as one"
+    assert not re.search(r">[^<]*\b(nan|None|inf)\b", plain), "a missing value is shown as a number"
     assert list(tmp_path.iterdir()) == [out]
 
 
@@ -99,7 +99,7 @@ def test_fields_are_drawn_by_pyvista(tmp_path: Path, no_pictures) -> None:
     pytest.importorskip("pyvista")
     folder = make("fields")
     plain = report(folder, tmp_path / "r.html").read_text(encoding="utf-8")
-    assert "Displacement (µm), particles_2Hz.vtkhdf; what lies in front" in plain  # the lowest frequency
+    assert "Displacement (µm), particles_2Hz.vtkhdf; the front half is" in plain  # the lowest frequency
     assert "Normal force (N), contacts_2Hz.vtkhdf; those with at least" in plain
     copy = tmp_path / "cut"
     shutil.copytree(folder, copy)
@@ -246,3 +246,17 @@ def test_commands_of_the_page(tmp_path: Path, no_pictures) -> None:
     assert (tmp_path / "report.html").is_file() and "Stepped and harmonic" in (tmp_path / "both.html").read_text(
         "utf-8"
     )
+
+
+def test_a_test_in_time_without_a_drawing_of_its_own_gets_the_general_one(tmp_path: Path, no_pictures) -> None:
+    copy = shutil.copytree(make("relaxation"), tmp_path / "copy")
+    summary = json.loads((copy / "summary.json").read_text("utf-8"))
+    summary["results"][0]["kind"] = "torsion"
+    (copy / "summary.json").write_text(json.dumps(summary), "utf-8")
+    plain = report(copy, tmp_path / "r.html").read_text("utf-8")
+    assert "Torsion</h2>" in plain and "Strain (left) and stress (right) over time" in plain and "Test: torsion." in plain
+    for point in summary["results"][0]["points"]:
+        del point["stress_pa"]
+    (copy / "summary.json").write_text(json.dumps(summary), "utf-8")
+    with pytest.raises(ReportError, match="test torsion: found points without stress_pa, expected time_s"):
+        report(copy, tmp_path / "r.html")

@@ -73,9 +73,9 @@ def test_a_size_class_has_one_colour_in_all_specimens_of_a_report(tmp_path: Path
 
 def test_mastic_is_taken_away_only_where_there_is_some(tmp_path: Path) -> None:
     bare = report(_with_classes(tmp_path / "bare", ["2-4.75 mm"]), tmp_path / "bare.html").read_text("utf-8")
-    assert "The aggregates in the box." in bare and "taken away" not in bare
+    assert "The aggregates in the box." in bare and "not drawn" not in bare
     mixed = report(make("harmonic"), tmp_path / "mixed.html").read_text("utf-8")
-    assert "the mastic between them is taken away" in mixed
+    assert "the mastic between them is not drawn" in mixed
 
 
 def test_a_report_has_the_name_of_its_scene(tmp_path: Path) -> None:

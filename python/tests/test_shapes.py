@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces of aggregates: the same results as those of the commands."""
+"""Surfaces of aggregates: Python and the commands give the same results."""
 import subprocess
 
 import numpy as np

@@ -133,7 +133,7 @@ def test_a_section_specimen_is_an_override_of_every_test(small_file):
 
 @pytest.mark.parametrize("other", [{"seed": 3}, {"specimen.box": [0.01] * 3}, {"specimen": {"seed": 3}}])
 def test_a_made_specimen_is_not_changed_by_overrides(specimen, other):
-    with pytest.raises(mc.InputError, match=r"^(seed|specimen).*: found another value beside a Specimen, expected a scene"):
+    with pytest.raises(mc.InputError, match=r"^(seed|specimen).*: found a value together with a Specimen, expected it with a scene"):
         mc.harmonic(specimen, frequencies=[10], **other)
     with pytest.raises(mc.InputError, match="specimen: found 'a.csv', expected a Specimen, or a dictionary of keys"):
         mc.run(specimen.scene, specimen="a.csv")
@@ -198,3 +198,13 @@ def test_errors_of_runs_are_told_apart(specimen):
 
 def specimen_contacts(specimen):
     return mc.Scene(specimen.scene).as_dict()["contacts"]
+
+
+def test_a_test_of_any_kind_needs_no_function_of_its_own(specimen):
+    kinds = {experiment["kind"]: experiment for experiment in mc.experiments()}
+    assert {"cyclic", "sweep", "relaxation", "creep", "monotonic"} <= set(kinds)
+    assert "relaxation.csv" in kinds["relaxation"]["files"] and not kinds["sweep"]["can_be_stepped"]
+    loading = {"times": [1e-3, 1.0], "strain": 1e-4}
+    assert mc.test(specimen, "relaxation", loading).table.equals(mc.relaxation(specimen, **loading).table)
+    with pytest.raises(mc.InputError, match="kind: found 'torsion', expected one of cyclic, sweep, relaxation"):
+        mc.test(specimen, "torsion", loading)

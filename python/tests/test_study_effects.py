@@ -69,7 +69,7 @@ def test_an_effect_within_the_scatter_of_seeds_is_told(change: float, within: bo
     write_report(design, Study(tmp_path, rows_of(change, {1: -0.2, 2: 0.0, 3: 0.2}).assign(key="k"), [], 0), tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
     assert ("is within the scatter of seeds (±4.5 %)" in page) is within
-    assert "share of the variance" not in page and "of the variance between points" not in page  # one factor
+    assert "fraction of the variance" not in page and "of the variance between points" not in page  # one factor
     assert "standard error from the scatter of seeds" in page
 
 
@@ -80,11 +80,11 @@ def test_without_several_seeds_nothing_is_said_of_chance(tmp_path: Path) -> None
     assert all(e.scatter is None and e.errors is None and not e.within_scatter for e in effects(quantity))
     write_report(design, Study(tmp_path, rows.assign(key="k"), [], 0), tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
-    assert "scatter of seeds" not in page and "share of the variance" in page
+    assert "scatter of seeds" not in page and "fraction of the variance" in page
 
 
 def test_the_scatter_of_a_line() -> None:
-    """For ten values of a factor with two seeds each, the error of the slope is that of the textbook formula."""
+    """For ten values of a factor with two seeds each, the error of the slope equals the textbook formula."""
     x = np.arange(10.0)
     rows = pd.DataFrame(
         [

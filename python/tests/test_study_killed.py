@@ -46,7 +46,7 @@ def processes(driver: subprocess.Popen, folder: Path) -> list[psutil.Process]:
 
 
 def is_worker(process: psutil.Process) -> bool:
-    """Whether the process is a worker or the program that a worker runs. Parsl's manager of the workers is not one."""
+    """True for workers and for the programs that they run. Parsl's manager is neither."""
     try:
         line, above = " ".join(process.cmdline()), process.parent()
         if "macadam.study.manager" in line:  # the process that watches the manager

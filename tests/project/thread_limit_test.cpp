@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // thread_limit_test.cpp  Every part of a job uses the given number of threads, and waiting threads do not spin.
-#include "host/base/thread_limit.hpp"
+#include "macadam/thread_limit.hpp"
 
 #include <dlfcn.h>
+#include <omp.h>
 
 #include <set>
 

@@ -10,11 +10,11 @@
 #include <numbers>
 #include <numeric>
 
-#include "host/shapes/files/shape_files.hpp"
 #include "host/shapes/surface/interval_search.hpp"
 #include "host/shapes/library/statistics.hpp"
-#include "tests/support/long_tests.hpp"
 #include "macadam/error.hpp"
+#include "macadam/shape.hpp"
+#include "tests/support/long_tests.hpp"
 #include "tests/support/test_scenes.hpp"
 #include "tests/support/test_surfaces.hpp"
 
@@ -42,9 +42,9 @@ void in_all_poses(const Surface& surface, const std::function<void(const ShapeMe
 
 TEST(ShapeFiles, AreScaledToALengthAboveZero) {
   const Surface ball = subdivided_icosahedron(1);
-  EXPECT_NEAR(measure_shape(scaled_to(ball, 0.003)).d_intermediate, 0.006, 1e-15);
+  EXPECT_NEAR(measure_shape(scale_to_radius(ball, 0.003)).d_intermediate, 0.006, 1e-15);
   for (const double length : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(scaled_to(ball, length), InputError) << length;
+    EXPECT_THROW(scale_to_radius(ball, length), InputError) << length;
 }
 
 TEST(Stabbing, AnIntervalHoldsItsEnds) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // packing_check_test.cpp  Specimens that do not fill their box, or overfill it, give a warning before a run.
-#include "host/tessellation/packing_check.hpp"
+#include "macadam/tessellation.hpp"
 
 #include <numbers>
 #include <random>

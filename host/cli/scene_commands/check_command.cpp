@@ -12,8 +12,8 @@
 #include "host/cli/terminal/job.hpp"
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/streams.hpp"
-#include "host/scene/overrides.hpp"
 #include "host/simulation/forecast.hpp"
+#include "macadam/overrides.hpp"
 
 namespace macadam {
 namespace {

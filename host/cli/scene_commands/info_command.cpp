@@ -8,7 +8,6 @@
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/streams.hpp"
 #include "host/scene/keys_page.hpp"
-#include "host/backends/processor_code.hpp"
 #include "host/backends/rank_device.hpp"
 #include "macadam/macadam.hpp"
 
@@ -20,7 +19,7 @@ enum class Keys : std::uint8_t { markdown, json };
 void info_command() {
   const BackendReport report = report_backends();
   say("macadam {}\n", version());
-  say("cpu        yes, {} threads, compiled for {}\n", report.threads, processor_code().name);
+  say("cpu        yes, {} threads, compiled for {}\n", report.threads, report.processor);
   say("reference  yes, for checking: per point, double, one thread\n");
   say("cuda       {}: {}\n", report.devices.empty() ? "no" : "yes", report.cuda_status);
   const auto list = [](const std::vector<DeviceInfo>& devices, const char* remark) {

@@ -10,8 +10,8 @@
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/scene_commands/run_scenes.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
-#include "host/scene/overrides.hpp"
 #include "macadam/macadam.hpp"
+#include "macadam/overrides.hpp"
 
 namespace macadam {
 namespace {

@@ -7,8 +7,8 @@
 #include "host/cli/terminal/help.hpp"
 #include "host/cli/terminal/job.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
-#include "host/tessellation/packing_check.hpp"
 #include "macadam/macadam.hpp"
+#include "macadam/tessellation.hpp"
 
 namespace macadam {
 namespace {

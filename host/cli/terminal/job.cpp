@@ -8,8 +8,8 @@
 
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
-#include "host/scene/overrides.hpp"
 #include "macadam/error.hpp"
+#include "macadam/overrides.hpp"
 
 namespace macadam {
 

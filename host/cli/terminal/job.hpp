@@ -9,7 +9,7 @@
 
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/progress_line.hpp"
-#include "host/scene/overrides.hpp"
+#include "macadam/overrides.hpp"
 #include "macadam/simulation.hpp"
 
 namespace macadam {

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <memory>
 
-#include "host/tools/calibration/calibration_files.hpp"
 #include "host/cli/terminal/draw_results.hpp"
 #include "host/cli/terminal/help.hpp"
 #include "host/cli/terminal/job.hpp"
@@ -15,7 +14,6 @@
 #include "host/cli/terminal/stop_signals.hpp"
 #include "host/cli/terminal/streams.hpp"
 #include "host/tools/fit/fit_files.hpp"
-#include "host/files/result_folder.hpp"
 #include "macadam/calibration.hpp"
 #include "macadam/error.hpp"
 
@@ -85,16 +83,13 @@ void calibrate_command(CalibrateArguments arguments) {
     if (scene.solver.backend == Backend::cpu) scene.solver.devices.clear();
   }
   const std::filesystem::path out = arguments.job.out;
-  require_calibration_folder(scene, out);
-  const ResultFolder folder(out);
   ProgressLine line;
   Watcher watcher;
   watcher.progress = [&](const std::string& stage, double share) { show_or_stop(line, stage, share); };
   watcher.stop = stop_asked;
   listen_to_stop_signals();
-  const Calibration calibration = calibrate(scene, data, arguments.options, watcher);
+  const Calibration calibration = calibrate_into(out, scene, data, arguments.options, watcher);
   line.clear();
-  write_calibration(out, scene, calibration);
   say("{}{}", unused_columns_text(data), calibration_text(calibration));
   for (const std::string& warning : calibration.warnings) say("warning: {}\n", warning);
   say("files in {}: scene.toml calibration.json predicted.csv\n", arguments.job.out);

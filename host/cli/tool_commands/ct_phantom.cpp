@@ -7,10 +7,10 @@
 
 #include "host/cli/terminal/fractions.hpp"
 #include "host/cli/terminal/job.hpp"
-#include "host/base/lengths.hpp"
 #include "host/cli/terminal/help.hpp"
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
+#include "macadam/lengths.hpp"
 #include "macadam/phantom.hpp"
 
 namespace macadam {

@@ -4,18 +4,17 @@
 
 #include <memory>
 
-#include "host/tools/ct/segment/segment_texts.hpp"
 #include "host/cli/terminal/fractions.hpp"
 #include "host/cli/terminal/job.hpp"
-#include "host/base/lengths.hpp"
 #include "host/cli/terminal/help.hpp"
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/streams.hpp"
 #include "host/tools/ct/grains/gradation.hpp"
 #include "host/tools/ct/segment/segment_files.hpp"
-#include "host/base/thread_limit.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
+#include "macadam/lengths.hpp"
+#include "macadam/thread_limit.hpp"
 
 namespace macadam {
 namespace {

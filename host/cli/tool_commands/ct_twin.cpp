@@ -7,11 +7,11 @@
 
 #include "host/cli/terminal/fractions.hpp"
 #include "host/cli/terminal/job.hpp"
-#include "host/base/lengths.hpp"
 #include "host/cli/terminal/help.hpp"
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
 #include "macadam/error.hpp"
+#include "macadam/lengths.hpp"
 #include "macadam/twin.hpp"
 
 namespace macadam {

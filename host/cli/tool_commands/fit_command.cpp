@@ -11,7 +11,6 @@
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/streams.hpp"
 #include "host/tools/fit/fit_files.hpp"
-#include "host/files/result_folder.hpp"
 #include "macadam/error.hpp"
 #include "macadam/fit.hpp"
 
@@ -54,11 +53,9 @@ void require_uses(const CLI::App& command, const FitArguments& arguments) {
 /// Without data: converts a model that was fitted elsewhere into a Kelvin chain.
 void convert(const FitArguments& arguments) {
   const ShiftedAnalogue analogue = read_analogue(arguments.parameters);
-  const auto range = chain_range(arguments.from, arguments.to, {});
-  const KelvinConversion conversion = to_kelvin(analogue.model, range.first, range.second, arguments.error);
-  const ResultFolder folder(arguments.out);
-  write_files(arguments.out, conversion_files(analogue, conversion, range));
-  say("{}", conversion_text(conversion, range));
+  const FitReport report = report_conversion(analogue, arguments.from, arguments.to, arguments.error);
+  write_report(arguments.out, report);
+  say("{}", report.text);
   say("files in {}: law.toml\n", arguments.out);
 }
 
@@ -75,7 +72,6 @@ void fit_command(const CLI::App& command, FitArguments arguments) {
   const Fit fit = fit_modulus(data, arguments.fit);
   const FitReport report = report_of(fit, arguments.from, arguments.to, arguments.error);
   const std::filesystem::path out = arguments.out;
-  const ResultFolder folder(out);
   write_report(out, report);
   say("{}{}", unused_columns_text(data), report.text);
   for (const std::string& warning : fit.warnings) say("warning: {}\n", warning);

@@ -14,8 +14,6 @@
 #include "host/cli/tool_commands/shapes_generate.hpp"
 #include "host/cli/terminal/streams.hpp"
 #include "kernels/base/parallel.hpp"
-#include "host/files/result_files.hpp"
-#include "host/files/result_folder.hpp"
 #include "host/shapes/library/statistics.hpp"
 #include "host/shapes/files/surface_files.hpp"
 #include "macadam/error.hpp"
@@ -114,11 +112,7 @@ void measure(const ShapesArguments& arguments) {
     names.push_back(files[i].stem().string());
     shapes.push_back(outcomes[i].value);
   }
-  const fs::path out = arguments.out;
-  const ResultFolder folder(out);
-  write_whole(out / "shapes.csv", shapes_csv(names, shapes));
-  write_whole(out / "statistics.csv", statistics_csv(shapes));
-  write_whole(out / "correlation.csv", correlation_csv(shapes));
+  write_shape_tables(arguments.out, names, shapes);
   say("{}", statistics_text(shapes));
   if (std::any_of(shapes.begin(), shapes.end(), [](const ShapeMeasure& m) { return m.d_long > 1; })) {
     say("warning: aggregates of more than 1 m; files in millimetres want --scale 1e-3\n");

@@ -9,12 +9,11 @@
 #include <memory>
 #include <utility>
 
-#include "host/base/lengths.hpp"
 #include "host/cli/terminal/fractions.hpp"
 #include "host/cli/terminal/help.hpp"
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/streams.hpp"
-#include "host/shapes/files/shape_files.hpp"
+#include "macadam/lengths.hpp"
 #include "macadam/macadam.hpp"
 #include "macadam/shape.hpp"
 
@@ -57,7 +56,7 @@ void fill_command(ShapesFillArguments arguments) {
     if (!(radius > 0))
       throw InputError("command line", 0, "--circumscribed", "\"" + arguments.circumscribed + "\"",
                        "a positive length");
-    surface = scaled_to(std::move(surface), radius);
+    surface = scale_to_radius(std::move(surface), radius);
   }
   const MultiSphere cluster = fill_shape(surface, spec);
   write_filling(arguments.out, surface, cluster);

@@ -11,7 +11,6 @@
 #include "host/cli/terminal/help.hpp"
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/streams.hpp"
-#include "host/shapes/files/shape_files.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // shape_files.cpp  Writes the files of `macadam shapes fill` and `macadam shapes generate`.
-#include "host/shapes/files/shape_files.hpp"
+#include "macadam/shape.hpp"
 
 #include <fmt/format.h>
 
@@ -48,10 +48,9 @@ void refuse_others(const std::filesystem::path& folder, const std::vector<Surfac
 
 }  // namespace
 
-Surface scaled_to(Surface surface, double circumscribed) {
-  if (!(circumscribed > 0))
-    throw InputError(fmt::format("circumscribed: found {} m, expected a positive length", circumscribed));
-  const double factor = 2 * circumscribed / measure_shape(surface).d_intermediate;
+Surface scale_to_radius(Surface surface, double radius) {
+  if (!(radius > 0)) throw InputError(fmt::format("circumscribed: found {} m, expected a positive length", radius));
+  const double factor = 2 * radius / measure_shape(surface).d_intermediate;
   for (Vec3d& p : surface.points) p = factor * p;
   return surface;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_files.hpp  Chooses the format of surface files by their ending, reads surfaces from bytes, and lists
-/// the files of a folder.
+/// \file surface_files.hpp  Chooses the format of surface files by their ending, and reads surfaces from bytes.
 #pragma once
 
 #include <filesystem>
@@ -27,9 +26,6 @@ void require_scale(const std::filesystem::path& file, double scale);
 
 /// Returns whether read_surface() can read files with this ending.
 bool is_surface_file(const std::filesystem::path& file);
-
-/// Returns the surface files in a folder, ordered by name. \throws InputError if the folder has no surface file.
-std::vector<std::filesystem::path> surface_files_in(const std::filesystem::path& folder);
 
 /// Returns the surface that read_surface() would return if this surface had been written to `file`. Writes no file.
 /// \throws InputError for an unknown ending, or if the format cannot hold the surface.

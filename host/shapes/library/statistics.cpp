@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "host/files/result_files.hpp"
+#include "host/files/result_folder.hpp"
 
 namespace macadam {
 namespace {
@@ -173,6 +174,14 @@ std::string statistics_text(const std::vector<ShapeMeasure>& shapes) {
     for (std::size_t j = 0; j <= i; ++j) text += fmt::format(" {:>5}", to_decimals(matrix[i][j], 2));
   }
   return text + "\n";
+}
+
+void write_shape_tables(const std::filesystem::path& out, const std::vector<std::string>& names,
+                        const std::vector<ShapeMeasure>& shapes) {
+  const ResultFolder folder(out);
+  write_whole(out / "shapes.csv", shapes_csv(names, shapes));
+  write_whole(out / "statistics.csv", statistics_csv(shapes));
+  write_whole(out / "correlation.csv", correlation_csv(shapes));
 }
 
 }  // namespace macadam

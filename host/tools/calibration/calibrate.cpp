@@ -16,9 +16,9 @@
 #include "host/tools/calibration/free_parameters.hpp"
 #include "host/tools/calibration/misfit.hpp"
 #include "host/tools/calibration/statistics.hpp"
-#include "host/base/thread_limit.hpp"
 #include "macadam/calibration.hpp"
 #include "macadam/error.hpp"
+#include "macadam/thread_limit.hpp"
 
 namespace macadam {
 namespace calibration {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibration_files.cpp  Writes a calibration as JSON, CSV and text.
-#include "host/tools/calibration/calibration_files.hpp"
+// calibration_files.cpp  Calibrates into a folder, and writes a calibration as JSON, CSV and text.
+#include "macadam/calibration.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/files/result_files.hpp"
+#include "host/files/result_folder.hpp"
 #include "macadam/error.hpp"
 #include "macadam/version.hpp"
 
@@ -50,8 +51,7 @@ Json residual_json(const CalibratedPoint& p, const Calibration& c) {
   return out;
 }
 
-}  // namespace
-
+/// Returns all data of a calibration.
 std::string calibration_json(const Calibration& c) {
   Json out;
   out["macadam"] = version();
@@ -84,6 +84,7 @@ std::string calibration_json(const Calibration& c) {
   return out.dump(2) + "\n";
 }
 
+/// Returns one line per measurement: measured, predicted, difference.
 std::string predicted_csv(const Calibration& c) {
   std::string out =
       "frequency_hz,temperature_c,e_star_pa,phase_deg,predicted_e_star_pa,predicted_phase_deg,e_star_error,"
@@ -99,6 +100,8 @@ std::string predicted_csv(const Calibration& c) {
   }
   return out;
 }
+
+}  // namespace
 
 std::string calibration_text(const Calibration& c) {
   std::string out = fmt::format("{:<16} {:>13} {:>13} {:>14}\n", "parameter", "scene", "calibrated", "within (95 %)");
@@ -134,6 +137,10 @@ std::string calibration_text(const Calibration& c) {
   return out;
 }
 
+namespace {
+
+/// Checks the output folder. \throws InputError if it has a scene.toml that would be overwritten and that was not
+/// written by a calibration.
 void require_calibration_folder(const Scene& scene, const std::filesystem::path& out) {
   std::error_code error;
   if (std::filesystem::equivalent(scene.file, out / "scene.toml", error)) {
@@ -145,8 +152,6 @@ void require_calibration_folder(const Scene& scene, const std::filesystem::path&
                      "another folder: it would be replaced");
   }
 }
-
-namespace {
 
 /// Writes the calibrated scene and reads it again. \throws RunError, and removes the file, if it does not give the
 /// calibrated values.
@@ -162,14 +167,25 @@ void write_scene(const Scene& scene, const Calibration& calibration, const std::
   }
 }
 
-}  // namespace
-
+/// Writes the files of a calibration. \throws InputError if the scene was not read from a file; RunError if a file
+/// cannot be written, or if the scene.toml does not give the calibrated values when it is read.
 void write_calibration(const std::filesystem::path& out, const Scene& scene, const Calibration& calibration) {
   std::error_code error;
   std::filesystem::remove(out / "calibration.png", error);  // from an older calibration
   write_whole(out / "calibration.json", calibration_json(calibration));
   write_whole(out / "predicted.csv", predicted_csv(calibration));
   write_scene(scene, calibration, out);
+}
+
+}  // namespace
+
+Calibration calibrate_into(const std::filesystem::path& out, const Scene& scene, const ModulusData& data,
+                           const CalibrationOptions& options, const Watcher& watcher) {
+  require_calibration_folder(scene, out);
+  const ResultFolder locked(out);
+  Calibration calibration = calibrate(scene, data, options, watcher);
+  write_calibration(out, scene, calibration);
+  return calibration;
 }
 
 }  // namespace macadam

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/files/result_files.hpp"
+#include "host/files/result_folder.hpp"
 #include "macadam/error.hpp"
 #include "macadam/version.hpp"
 
@@ -195,11 +196,16 @@ std::string fit_text(const Fit& fit) {
   return out;
 }
 
+namespace {
+
+/// Returns a sentence about the chain that replaces a fitted model.
 std::string conversion_text(const KelvinConversion& conversion, std::pair<double, double> range_hz) {
   return fmt::format("Kelvin chain of {} units for it from {:.4g} to {:.4g} Hz: largest error {:.2g} % of |E*|\n",
                      conversion.law.units(), range_hz.first, range_hz.second, 100 * conversion.largest_error);
 }
 
+/// Returns the frequency range of that chain [Hz]: as given, or the range of the data. \throws InputError when there is
+/// neither.
 std::pair<double, double> chain_range(std::optional<double> from, std::optional<double> to,
                                       std::optional<std::pair<double, double>> data) {
   if (!data && !(from && to)) {
@@ -208,6 +214,8 @@ std::pair<double, double> chain_range(std::optional<double> from, std::optional<
   }
   return {from.value_or(data ? data->first : 0), to.value_or(data ? data->second : 0)};
 }
+
+}  // namespace
 
 FitReport report_of(const Fit& fit, std::optional<double> from, std::optional<double> to, double error) {
   FitReport out;
@@ -234,22 +242,21 @@ FitReport report_of(const Fit& fit, std::optional<double> from, std::optional<do
   return out;
 }
 
+FitReport report_conversion(const ShiftedAnalogue& model, std::optional<double> from, std::optional<double> to,
+                            double error) {
+  const auto range = chain_range(from, to, {});
+  const KelvinConversion conversion = to_kelvin(model.model, range.first, range.second, error);
+  const std::string origin = fmt::format("macadam fit: stands for {} from {} to {} Hz, largest error {:.2g} of |E*|",
+                                         std::isfinite(model.model.beta) ? "2S2P1D" : "Huet-Sayegh", range.first,
+                                         range.second, conversion.largest_error);
+  return {{{"law.toml", law_toml(conversion.law, model.shift, origin)}}, conversion_text(conversion, range), ""};
+}
+
 void write_report(const std::filesystem::path& folder, const FitReport& report) {
+  const ResultFolder locked(folder);
   std::error_code error;
   if (!report.files.contains("law.toml")) std::filesystem::remove(folder / "law.toml", error);
-  write_files(folder, report.files);
-}
-
-FitFiles conversion_files(const ShiftedAnalogue& model, const KelvinConversion& conversion,
-                          std::pair<double, double> range_hz) {
-  const std::string origin = fmt::format("macadam fit: stands for {} from {} to {} Hz, largest error {:.2g} of |E*|",
-                                         std::isfinite(model.model.beta) ? "2S2P1D" : "Huet-Sayegh", range_hz.first,
-                                         range_hz.second, conversion.largest_error);
-  return {{"law.toml", law_toml(conversion.law, model.shift, origin)}};
-}
-
-void write_files(const std::filesystem::path& folder, const FitFiles& files) {
-  for (const auto& [name, text] : files) write_whole(folder / name, text);
+  for (const auto& [name, text] : report.files) write_whole(folder / name, text);
 }
 
 }  // namespace macadam

@@ -13,12 +13,11 @@ def main(arguments: list[str] | None = None) -> int:
     """Runs the command. Returns its exit code: 0 the report was written, 1 it could not be written, 2 wrong input."""
     parser = argparse.ArgumentParser(
         prog="macadam report",
-        description="One HTML file of what is in result folders: mix, "
-        "specimen, |E*| and phase angle, contacts, decisions, times. It needs no network and "
-        "prints on A4.",
+        description="Writes one HTML file about result folders: mix, specimen, |E*| and phase angle, contacts, "
+        "decisions, times. The file needs no network and prints on A4.",
         epilog="example: macadam report results/demo results/paper --out report.html",
     )
-    parser.add_argument("dirs", nargs="+", metavar="DIR", help="folder that macadam wrote; several stand side by side")
+    parser.add_argument("dirs", nargs="+", metavar="DIR", help="folder of results; several are shown side by side")
     parser.add_argument("--out", default="report.html", metavar="FILE", help="the file to write (report.html)")
     parser.add_argument("--title", help="of the page; else the names of the folders")
     options = parser.parse_args(arguments)

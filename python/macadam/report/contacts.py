@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section of the report on contacts: their number and area by type, the share of E* that each type carries, and the
+"""Section of the report on contacts: their number and area by type, the fraction of E* that each type carries, and the
 sensitivities of |E*| and phase angle to the parameters of the laws."""
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             folder.label, "sensitivities", "not asked for: sensitivities = true in [output], method harmonic"
         )
     if sensitive:
-        page.section("What the result depends on")
+        page.section("Sensitivity of the result")
     for folder in sensitive:
         if len(sensitive) > 1:
             page.heading(folder.label)
@@ -119,7 +119,7 @@ def _areas(page: Page, folder: Folder) -> None:
     )
 
 
-# Adds a picture of the share of E* that each type of contact carries, for at most 12 frequencies.
+# Adds a picture of the fraction of E* that each type of contact carries, for at most 12 frequencies.
 def _shares(page: Page, folder: Folder) -> None:
     rows = _at_first_temperature([r for r in folder.by_frequency if r.get("shares")])[:12]
     if not rows:
@@ -127,13 +127,13 @@ def _shares(page: Page, folder: Folder) -> None:
     figure, axes = look.figure(look.WIDE, 0.75 + 0.2 * len(rows))
     base = np.zeros(len(rows))
     for pair in NAMES:
-        share = np.array([100 * (r["shares"].get(pair) or 0) for r in rows])
-        if share.any():
-            axes.barh(range(len(rows)), share, 0.7, left=base, color=look.PAIRS[pair], label=NAMES[pair])
-            base += share
+        percent = np.array([100 * (r["shares"].get(pair) or 0) for r in rows])
+        if percent.any():
+            axes.barh(range(len(rows)), percent, 0.7, left=base, color=look.PAIRS[pair], label=NAMES[pair])
+            base += percent
     axes.set_yticks(range(len(rows)), [look.hertz(r["frequency_hz"]) for r in rows])
     axes.invert_yaxis()
-    axes.set(xlabel="share of E* (%)", xlim=(0, 100))
+    axes.set(xlabel="fraction of E* (%)", xlim=(0, 100))
     axes.grid(axis="y", visible=False)
     figure.legend(loc="outside lower center", ncols=6)
     top = max(NAMES, key=lambda p: rows[-1]["shares"].get(p) or 0)

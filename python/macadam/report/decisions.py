@@ -28,7 +28,7 @@ _TIMES = {
 # Adds the section on decisions and skips.
 def add_decisions(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
-    page.section("What was decided and left out, and why")
+    page.section("Decisions and omissions, with their reasons")
     blocks = []
     for f in runs:
         decisions = (f.summary.get("solver") or {}).get("decisions") or []
@@ -67,18 +67,18 @@ def add_run(page: Page, folders: list[Folder]) -> None:
     if not runs:
         return
     page.section("The run: method, times, version and machine")
-    page.columns([(f.label, f.colour, facts(_facts(f))) for f in runs])
+    page.columns([(f.label, f.colour, facts(_facts_of_run(f))) for f in runs])
     names = [n for n in _TIMES if any((f.summary.get("timing_s") or {}).get(n, 0) >= 5e-3 for f in runs)]
     if names:
         rows: list[list[Any]] = [[_TIMES[n]] + [_time(f, n) for f in runs] for n in names]
         rows.append(
-            ["together"]
+            ["sum"]
             + [look.seconds(sum((f.summary.get("timing_s") or {}).get(n, 0.0) for n in _TIMES)) for f in runs]
         )
         page.table(
             ["wall time"] + [f.label for f in runs],
             rows,
-            "Where the time went. What took less than 5 ms in every run is not listed.",
+            "Where the time went. Times below 5 ms in every run are not listed.",
         )
 
 
@@ -89,7 +89,7 @@ def _time(folder: Folder, name: str) -> str:
 
 
 # Returns names and values of the facts about a run.
-def _facts(folder: Folder) -> list[tuple[str, Any]]:
+def _facts_of_run(folder: Folder) -> list[tuple[str, Any]]:
     s = folder.summary
     solver, machine = s.get("solver") or {}, s.get("machine") or folder.of_study.get("machine")
     rows: list[tuple[str, Any]] = [("status", s["status"]), ("macadam", s.get("macadam", "not recorded"))]
@@ -123,7 +123,7 @@ def add_warnings(page: Page, folders: list[Folder]) -> None:
         status = f.summary.get("status")
         if f.kind == "run" and status not in ("done", "prepared"):
             page.text(
-                f"{of}this run is not complete. Its status is “{status}”. What is shown was found until then.",
+                f"{of}this run is not complete. Its status is “{status}”. The report shows the results until then.",
                 "failure",
             )
         for words in f.summary.get("warnings") or []:

@@ -112,18 +112,18 @@ def _overview(page: Page, folders: list[Folder]) -> None:
     page.section("In short")
     decisions.add_warnings(page, folders)
     if len(folders) == 1:
-        for words in _words(folders[0]):
+        for words in _summary_sentences(folders[0]):
             page.text(words, "lead")
         return
     page.table(
         ["folder", "what", "status", "found"],
-        [[f.label, _what(f), f.summary.get("status", "done"), _found(f)] for f in folders],
+        [[f.label, _test_or_kind(f), f.summary.get("status", "done"), _main_results(f)] for f in folders],
         words=4,
     )
 
 
 # Returns the kind of the folder, or the test of a run, for the table of several folders.
-def _what(f: Folder) -> str:
+def _test_or_kind(f: Folder) -> str:
     if f.kind != "run":
         return _KINDS[f.kind]
     if f.summary["status"] == "prepared":
@@ -131,8 +131,8 @@ def _what(f: Folder) -> str:
     return f.in_time["kind"] if f.in_time else f"|E*| by method {(f.summary.get('solver') or {}).get('method', '–')}"
 
 
-# Returns the most important results of a folder on one line; a dash if there are none.
-def _found(f: Folder) -> str:
+# Returns the most important results of a folder on one line; a dash if the folder has no results.
+def _main_results(f: Folder) -> str:
     if f.by_frequency:
         rows = sorted(f.by_frequency, key=lambda r: (r.get("temperature_c") or 0, r["frequency_hz"]))
         return "; ".join(_point(r) for r in ([rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]))
@@ -140,7 +140,7 @@ def _found(f: Folder) -> str:
         points = f.in_time.get("points") or []
         if f.in_time.get("strength_pa") is not None:
             return _strength(f)
-        key = {"relaxation": "modulus_pa", "monotonic": "secant_pa"}.get(f.in_time["kind"])
+        key = f.modulus_column
         if points and key:
             return "; ".join(f"{look.modulus(p[key])} at {look.seconds(p['time_s'])}" for p in (points[0], points[-1]))
         return (
@@ -148,8 +148,8 @@ def _found(f: Folder) -> str:
             if points
             else "–"
         )
-    if fits.found(f):
-        return fits.found(f)
+    if fits.main_result(f):
+        return fits.main_result(f)
     if f.kind == "run" and f.summary.get("particles"):
         return f"{look.number(f.summary['particles'])} particles"
     return "–"
@@ -186,11 +186,11 @@ def _broken(f: Folder) -> str:
 
 
 # Returns the sentences that summarise one folder.
-def _words(f: Folder) -> list[str]:
+def _summary_sentences(f: Folder) -> list[str]:
     s, words = f.summary, []
     if f.in_time and f.in_time.get("strength_pa") is not None:
-        found = _strength(f)  # not capitalize(), which takes the units down: "kpa"
-        words.append(found[:1].upper() + found[1:] + ".")
+        text = _strength(f)  # not capitalize(), which would change the units to "kpa"
+        words.append(text[:1].upper() + text[1:] + ".")
     if f.kind == "run":
         edges = " × ".join(map(look.length, s.get("box_m") or []))
         contacts_of = sum(v or 0 for v in (s.get("contacts") or {}).values())
@@ -203,14 +203,15 @@ def _words(f: Folder) -> list[str]:
         ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
         words.append(f"Its |E*| and phase angle are {' and '.join(_point(r) for r in ends)}.")
     elif f.in_time:
-        words.append(f"Test: {f.in_time['kind']}. Found: {_found(f)}.")
-        # other tests report it as a warning
-        rupture = f.in_time.get("rupture") if f.in_time["kind"] == "monotonic" else None
-        words += [w for w in ((rupture or {}).get("words"), _broken(f)) if w]
+        words.append(f"Test: {f.in_time['kind']}. Found: {_main_results(f)}.")
+        rupture = (f.in_time.get("rupture") or {}).get("words")
+        if rupture and rupture not in (s.get("warnings") or []):  # a warning is shown already
+            words.append(rupture)
+        words += [w for w in [_broken(f)] if w]
     elif f.kind == "run":
         words.append("The folder holds the specimen and its contacts; no test was run in it.")
-    elif fits.found(f):
-        words.append(f"Found: {fits.found(f)}.")
+    elif fits.main_result(f):
+        words.append(f"Found: {fits.main_result(f)}.")
     else:
         words.append(f"The folder holds a {_KINDS[f.kind]}.")
     return words

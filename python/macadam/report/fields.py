@@ -86,7 +86,7 @@ def _files(folder: Folder) -> dict[str, Path]:
 
 
 def _frequency(file: Path) -> float:
-    """Returns the frequency in a file's name, such as particles_20Hz.vtkhdf; 0 if there is none."""
+    """Returns the frequency in a file's name, such as particles_20Hz.vtkhdf; 0 if the name has no frequency."""
     try:
         return float(file.stem.split("_")[1].removesuffix("Hz"))
     except (IndexError, ValueError):
@@ -123,13 +123,13 @@ def figure(
     low, high = limits or (float(values.min()), float(np.quantile(values, 0.999)))
     words, box = [f"{label or name}, {Path(file).name}"], data.bounds
     if half:
-        words.append("what lies in front of the middle is taken away")
-        data = _behind(data)
+        words.append("the front half is not drawn")
+        data = _back_half(data)
     if least is None and strongest < 1:
         least = float(np.quantile(np.abs(values), 1 - strongest))
     if least is not None:
         words.append(f"those with at least {look.number(least, 2)} are drawn")
-        data = _those(data, np.abs((data.point_data if of_points else data.cell_data)["shown"]) >= least, of_points)
+        data = _selected_part(data, np.abs((data.point_data if of_points else data.cell_data)["shown"]) >= least, of_points)
         low = low if limits else max(low, least)
     made, axes = look.figure(*size)
     axes.imshow(_rendered(_shapes(data), box, (low, high), size))
@@ -178,7 +178,7 @@ def _array(data: Any, file: Path, names: tuple[str, ...]) -> tuple[str, bool]:
     raise ReportError(f"{file}: found the arrays {there}; expected {' or '.join(names)}")
 
 
-def _those(data: Any, chosen: np.ndarray, of_points: bool) -> Any:
+def _selected_part(data: Any, chosen: np.ndarray, of_points: bool) -> Any:
     """Returns the chosen points (of_points) or cells of a mesh, with their arrays."""
     import pyvista
 
@@ -191,12 +191,12 @@ def _those(data: Any, chosen: np.ndarray, of_points: bool) -> Any:
 
 
 # Returns the half of a mesh that is farther from the eye: larger y than the middle of the box.
-def _behind(data: Any) -> Any:
+def _back_half(data: Any) -> Any:
     low, high = data.bounds[2:4]
     middle = 0.5 * (low + high)
     if data.n_verts:
-        return _those(data, np.asarray(data.points)[:, 1] >= middle, True)
-    return _those(data, data.cell_centers().points[:, 1] >= middle, False)
+        return _selected_part(data, np.asarray(data.points)[:, 1] >= middle, True)
+    return _selected_part(data, data.cell_centers().points[:, 1] >= middle, False)
 
 
 def _shapes(data: Any) -> Any:

@@ -26,7 +26,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             _fit(page, f)
 
 
-def found(f: Folder) -> str:
+def main_result(f: Folder) -> str:
     """Returns the result of a calibration or a fit in one sentence, and an empty text for other folders."""
     if f.kind == "calibration":
         errors = f.summary.get("errors") or {}

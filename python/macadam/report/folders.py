@@ -26,8 +26,12 @@ KINDS = {
 }
 
 
+# columns of a test's points that are moduli [Pa]
+MODULI = ("modulus_pa", "secant_pa")
+
+
 class ReportError(ValueError):
-    """The folder or the request is wrong: the message names it, what was found and what was expected."""
+    """The folder or the request is wrong. The message names the culprit, the value found and the value expected."""
 
 
 @dataclass
@@ -70,7 +74,7 @@ class Folder:
 
     @cached_property
     def aggregates(self) -> pd.DataFrame | None:
-        """The aggregates as generated (body, size_class, class, size [m], volume [m3]); None if there are none."""
+        """The aggregates as generated (body, size_class, class, size [m], volume [m3]); None if the specimen has no such file or no aggregates."""
         if not self.has("aggregates.csv"):
             return None
         file = self.path / "aggregates.csv"
@@ -99,8 +103,16 @@ class Folder:
 
     @property
     def in_time(self) -> dict[str, Any] | None:
-        """The result of a relaxation, creep or monotonic test; None if there is none."""
-        return next((r for r in self.results if r.get("kind") in ("relaxation", "creep", "monotonic")), None)
+        """The result of a test over time, which has a `kind` and, unless the run was stopped before, `points`; None for
+        tests over frequencies."""
+        return next((r for r in self.results if "kind" in r), None)
+
+    @property
+    def modulus_column(self) -> str | None:
+        """The column of `points` with the modulus [Pa] of a test over time; None if the test yields another quantity,
+        for example a compliance."""
+        points = (self.in_time or {}).get("points") or [{}]
+        return next((key for key in points[0] if key in MODULI), None)
 
 
 def read(path: str | Path) -> Folder:

@@ -10,28 +10,22 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from macadam.report import look
-from macadam.report.folders import Folder
+from macadam.report.folders import Folder, ReportError
 from macadam.report.modulus import decades
 from macadam.report.page import Page
 
 
-# Adds a section for each kind of test in time, and one for Prony series.
+# Adds a section for each kind of test in time, and one for Prony series. A kind without a drawing of its own gets the
+# general one.
 def add(page: Page, folders: list[Folder]) -> None:
-    for kind, title, draw in (
-        ("relaxation", "Relaxation", _relaxation),
-        ("creep", "Creep", _creep),
-        ("monotonic", "Constant rate of strain", _monotonic),
-    ):
-        found = [
-            f
-            for f in folders
-            if f.kind == "run" and f.in_time and f.in_time["kind"] == kind and f.in_time.get("points")
-        ]
-        if not found:
-            continue
+    with_points = [f for f in folders if f.kind == "run" and f.in_time and f.in_time.get("points")]
+    kinds = {f.in_time["kind"] for f in with_points}
+    for kind in [*(k for k in _DRAWINGS if k in kinds), *sorted(kinds - {*_DRAWINGS})]:
+        title, draw = _DRAWINGS.get(kind, (kind.capitalize(), _any_test))
+        found = [f for f in with_points if f.in_time["kind"] == kind]
         page.section(title)
         figure, words = draw(found)
-        page.figure(figure, words + _known(found), f"curves of {title.lower()}")
+        page.figure(figure, words + _error_note(found), f"curves of {title.lower()}")
     series = [f for f in folders if f.kind == "run" and f.in_time and (f.in_time.get("prony") or {}).get("units")]
     if series:
         page.section("The mixture's own material")
@@ -49,8 +43,8 @@ def _points(folder: Folder, *keys: str) -> list[np.ndarray]:
 def _errors(folder: Folder) -> np.ndarray:
     """Returns the relative error of each point: the point's own error in a stepped test, otherwise the error of the
     test."""
-    whole = folder.in_time.get("error") or 0
-    errors = np.array([float(p.get("error") or whole) for p in folder.in_time["points"]])
+    error_of_test = folder.in_time.get("error") or 0
+    errors = np.array([float(p.get("error") or error_of_test) for p in folder.in_time["points"]])
     if folder.in_time.get("rupture"):
         errors[-1] = 0  # the specimen is in two pieces, without equilibrium, so the difference is not an error
     return errors
@@ -66,7 +60,7 @@ def _bars(folder: Folder) -> np.ndarray:
 
 
 # Returns the sentences of a caption on errors and on sides that are held.
-def _known(found: list[Folder]) -> str:
+def _error_note(found: list[Folder]) -> str:
     words = ""
     for stepped, what in (
         (False, "The curves are known to"),
@@ -125,8 +119,8 @@ def _relaxation(found: list[Folder]) -> tuple[Any, str]:
     _finish(figure, left, found, [left, right], [left])
     strain = found[0].in_time.get("strain")
     return figure, (
-        f"A strain{'' if strain is None else f' of {look.number(1e6 * strain, 3)} µm/m'} is put on and held: the "
-        "modulus after a step (left) and the stress under the load of this test (right). " + " ".join(words)
+        f"A strain{'' if strain is None else f' of {look.number(1e6 * strain, 3)} µm/m'} is applied and held. Left: the "
+        "modulus after a step of strain. Right: the stress in this test. " + " ".join(words)
     )
 
 
@@ -178,13 +172,13 @@ def _monotonic(found: list[Folder]) -> tuple[Any, str]:
                 f"{look.number(peak[0], 3)} µm/m."
             )
         rate = f.in_time.get("rate_1_s")
-        way = (
+        loading = (
             ""
             if rate is None
-            else f"{'compression' if rate < 0 else 'tension'} at {look.number(1e6 * abs(rate), 3)} µm/m a second, "
+            else f"{'compression' if rate < 0 else 'tension'} at {look.number(1e6 * abs(rate), 3)} µm/m per second, "
         )
         words.append(
-            f"{f.label}: {way}the secant modulus goes from {look.modulus(secant[0])} to {look.modulus(secant[-1])}."
+            f"{f.label}: {loading}the secant modulus goes from {look.modulus(secant[0])} to {look.modulus(secant[-1])}."
         )
     left.set(xlabel="strain (µm/m)", ylabel="stress (kPa)")
     right.set(xlabel="time (s)", ylabel=f"stress over strain ({unit})")
@@ -193,6 +187,33 @@ def _monotonic(found: list[Folder]) -> tuple[Any, str]:
         figure,
         "Stress over strain (left), and the secant modulus over time (right); tension is positive. " + " ".join(words),
     )
+
+
+# Draws strain and stress over time, which every test in time has. Returns figure and caption.
+def _any_test(found: list[Folder]) -> tuple[Any, str]:
+    figure, (left, right) = _axes(found)
+    for f in found:
+        missing = [key for key in ("time_s", "strain", "stress_pa") if key not in f.in_time["points"][0]]
+        if missing:
+            raise ReportError(
+                f"{f.path}: test {f.in_time['kind']}: found points without {', '.join(missing)}, expected time_s, strain "
+                "and stress_pa"
+            )
+        t, strain, stress = _points(f, "time_s", "strain", "stress_pa")
+        left.plot(t, 1e6 * strain, "o-", color=f.colour, ms=2.5, label=f.label)
+        right.plot(t, 1e-3 * stress, "o-", color=f.colour, ms=2.5)
+    left.set(xlabel="time (s)", ylabel="strain (µm/m)")
+    right.set(xlabel="time (s)", ylabel="stress (kPa)")
+    _finish(figure, left, found, [left, right], [])
+    return figure, "Strain (left) and stress (right) over time; tension is positive."
+
+
+# Title and drawing of the tests in time, in the order of the report.
+_DRAWINGS = {
+    "relaxation": ("Relaxation", _relaxation),
+    "creep": ("Creep", _creep),
+    "monotonic": ("Constant rate of strain", _monotonic),
+}
 
 
 # Draws the moduli of the units of Prony series over their relaxation times.
@@ -218,13 +239,13 @@ def _spectrum(found: list[Folder]) -> Any:
 
 
 def _spectrum_caption(found: list[Folder]) -> str:
-    words = ["The Prony series of the whole specimen, a line for every unit: where the lines are high it relaxes most."]
+    words = ["Prony series of the specimen, with one line per unit. High lines mark the times at which it relaxes most."]
     for f in found:
         prony = f.in_time["prony"]
         words.append(
             f"{f.label}: {len(prony['units'])} units, "
-            f"{look.modulus(f.in_time.get('instantaneous_pa') or 0)} at once and "
-            f"{look.modulus(prony.get('long_term_pa') or 0)} in the end; it holds from "
+            f"{look.modulus(f.in_time.get('instantaneous_pa') or 0)} at time 0 and "
+            f"{look.modulus(prony.get('long_term_pa') or 0)} at infinite time; valid from "
             f"{look.seconds(f.in_time['shortest_s'])} to {look.seconds(f.in_time['longest_s'])}."
         )
     tables = [n for n in ("prony.csv", "prony_abaqus.inp", "prony_ansys.txt") if found[0].has(n)]

@@ -116,8 +116,8 @@ def number(value: Any, digits: int = 4) -> str:
     return text.replace("-", "−")
 
 
-def percent(share: Any, digits: int = 3) -> str:
-    return "–" if share is None else f"{number(100.0 * share, digits)} %"
+def percent(fraction: Any, digits: int = 3) -> str:
+    return "–" if fraction is None else f"{number(100.0 * fraction, digits)} %"
 
 
 def bound(value: float, unit: str = "") -> str:

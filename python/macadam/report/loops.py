@@ -27,16 +27,16 @@ def add(page: Page, folders: list[Folder]) -> None:
         page.figure(figure, (f"{folder.label}: " if several else "") + words, "loops of stress over strain", third=True)
     page.section("Master curve")
     for folder in runs:
-        _master(page, folder)
+        _add_master_curve(page, folder)
 
 
 def _stepped(folder: Folder) -> tuple[Any, str]:
-    """Draws the last cycle of each frequency as it was recorded during stepping. Returns figure and caption."""
+    """Draws the recorded samples of the last cycle of each frequency. Returns figure and caption."""
     table = folder.table("response.csv", ["frequency_hz", "time_s", "strain", "stress_pa"])
     figure, axes = look.figure(look.THIRD, 2.2)
     groups = list(table.groupby("frequency_hz"))
     peak = 1e-6
-    for k, (f, rows) in enumerate(_choice(groups)):
+    for k, (f, rows) in enumerate(_evenly_chosen(groups)):
         last = rows[rows["time_s"] >= rows["time_s"].iloc[-1] - (1 + 1e-6) / float(f)]
         axes.plot(
             1e6 * last["strain"],
@@ -48,8 +48,8 @@ def _stepped(folder: Folder) -> tuple[Any, str]:
     axes.set(xlabel="strain (µm/m)", ylabel="stress (kPa)")
     axes.legend(fontsize=6, handlelength=1, labelspacing=0.2)
     return figure, (
-        f"Stress over strain in the last cycle of each frequency, as it was stepped, tension positive. Stress "
-        f"reaches {look.modulus(peak)}. The area within a loop is the energy that a cycle takes; "
+        f"Stress over strain in the last stepped cycle of each frequency, tension positive. Stress "
+        f"reaches {look.modulus(peak)}. The area within a loop is the energy dissipated per cycle; "
         "the slope is the stiffness."
     )
 
@@ -63,7 +63,7 @@ def _from_moduli(folder: Folder) -> tuple[Any, str]:
     figure, axes = look.figure(look.THIRD, 2.2)
     factor, unit = look.modulus_unit(r["e_star_pa"] for r in rows)
     turn = np.linspace(0, 2 * np.pi, 181)
-    chosen = _choice([(r["frequency_hz"], r) for r in rows])
+    chosen = _evenly_chosen([(r["frequency_hz"], r) for r in rows])
     for k, (f, r) in enumerate(chosen):
         axes.plot(
             np.sin(turn),
@@ -76,19 +76,19 @@ def _from_moduli(folder: Folder) -> tuple[Any, str]:
     at = "" if shown is None else f" at {shown:g} °C"
     return figure, (
         f"Loops of the steady state{at}, drawn from |E*| and φ: the method is harmonic, nothing was stepped. A "
-        "wide loop takes much energy in a cycle, a thin one is nearly elastic."
+        "wide loop dissipates much energy per cycle, a thin loop is nearly elastic."
     )
 
 
-def _choice(groups: list[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
+def _evenly_chosen(groups: list[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
     """Returns all groups, or MOST of them at even distances if there are more."""
     if len(groups) <= MOST:
         return groups
     return [groups[round(k)] for k in np.linspace(0, len(groups) - 1, MOST)]
 
 
-# Adds the master curve of a run at several temperatures, or the reason why there is none.
-def _master(page: Page, folder: Folder) -> None:
+# Adds the master curve of a run at several temperatures, or the reason why it is missing.
+def _add_master_curve(page: Page, folder: Folder) -> None:
     rows = folder.by_frequency
     temperatures = sorted({r["temperature_c"] for r in rows if r.get("temperature_c") is not None})
     if len(temperatures) < 2:
@@ -128,6 +128,6 @@ def _master(page: Page, folder: Folder) -> None:
         f"Master curve of {folder.label}: the frequencies of each temperature multiplied by its shift a_T. "
         f"Over {look.number(float(np.log10(ends[1] / ends[0])), 2)} decades |E*| goes from {look.modulus(low)} to "
         f"{look.modulus(high)}. Dots of neighbouring "
-        "temperatures lie on one curve where the shift holds for the whole specimen.",
+        "temperatures lie on one curve if the shift is valid for the whole specimen.",
         "master curve",
     )

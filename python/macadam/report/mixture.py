@@ -23,7 +23,7 @@ def add(page: Page, folders: list[Folder]) -> None:
     if not runs:
         return
     page.section("The mix")
-    page.columns([(f.label, f.colour, facts(_facts(f))) for f in runs])
+    page.columns([(f.label, f.colour, facts(_facts_of_mix(f))) for f in runs])
     _composition(page, runs)
     mixes = [f for f in runs if f.summary.get("recipe", {}).get("gradation")]
     for folder in mixes:
@@ -38,7 +38,7 @@ def add(page: Page, folders: list[Folder]) -> None:
         page.figure(_sizes(plain), _sizes_caption(plain), "sizes of the aggregates by volume")
 
 
-def _facts(folder: Folder) -> list[tuple[str, Any]]:
+def _facts_of_mix(folder: Folder) -> list[tuple[str, Any]]:
     s, recipe = folder.summary, folder.summary.get("recipe")
     rows: list[tuple[str, Any]] = []
     if s.get("box_m"):
@@ -61,7 +61,7 @@ def _facts(folder: Folder) -> list[tuple[str, Any]]:
     if recipe:
         rows += [
             ("binder, of the mix's mass", look.percent(recipe.get("binder"))),
-            ("effective binder, likewise", look.percent(recipe.get("effective_binder"))),
+            ("effective binder, of the mix's mass", look.percent(recipe.get("effective_binder"))),
             ("maximum density", f"{look.number(recipe.get('maximum_density'), 4)} kg/m³"),
             ("bulk density", f"{look.number(recipe.get('bulk_density'), 4)} kg/m³"),
             ("air voids", look.percent(recipe.get("air_voids"))),
@@ -76,7 +76,7 @@ def _facts(folder: Folder) -> list[tuple[str, Any]]:
 def _composition(page: Page, folders: list[Folder]) -> None:
     with_classes = [f for f in folders if f.summary.get("composition")]
     for folder in (f for f in folders if f not in with_classes):
-        page.leave_out(folder.label, "size classes", "the specimen comes from a file: it says no classes")
+        page.leave_out(folder.label, "size classes", "the specimen comes from a file without classes")
     if 1 < len(with_classes) <= ABREAST:
         names = _from_coarse_to_fine({p["class"]: None for f in with_classes for p in f.summary["composition"]})
         of = [{p["class"]: p for p in f.summary["composition"]} for f in with_classes]
@@ -91,8 +91,8 @@ def _composition(page: Page, folders: list[Folder]) -> None:
         page.table(
             ["class"] + [f.label for f in with_classes],
             rows,
-            "Number of aggregates (of the others: spheres) that found a "
-            "place in the specimen, and their share of the box.",
+            "Number of aggregates (of the others: spheres) placed "
+            "in the specimen, and their fraction of the box.",
         )
     else:
         for folder in with_classes:
@@ -109,12 +109,12 @@ def _composition(page: Page, folders: list[Folder]) -> None:
             page.table(
                 ["class", "number asked", "number reached", "of the box asked", "of the box reached"],
                 rows,
-                f"{folder.label}: what the mix asks for, and what found a place in the specimen.",
+                f"{folder.label}: numbers and volumes requested by the mix and reached in the specimen.",
             )
     for folder in with_classes:
         short = [_class(p["class"]) for p in folder.summary["composition"] if p.get("count") != p.get("count_asked")]
         if short:
-            page.text(f"{folder.label}: not all that the mix asks for found a place: {', '.join(short)}.", "warning")
+            page.text(f"{folder.label}: not all requested aggregates could be placed: {', '.join(short)}.", "warning")
 
 
 def _from_coarse_to_fine(names: Iterable[str]) -> list[str]:
@@ -141,7 +141,7 @@ def _gradation(folder: Folder) -> Any:
     axes.plot(1e3 * sieve, 100 * asked, "o-", color=look.INK, lw=1, ms=3.5, label="asked for")
     if folder.aggregates is not None and recipe.get("classes"):
         size, passing = _between_sieves(folder, recipe, float(reached[np.argmin(abs(sieve - cut))]))
-        axes.step(1e3 * size, 100 * passing, where="post", color=look.COLOURS[1], lw=1, label="each aggregate in turn")
+        axes.step(1e3 * size, 100 * passing, where="post", color=look.COLOURS[1], lw=1, label="single aggregates")
     axes.plot(1e3 * sieve, 100 * reached, "x", color=look.COLOURS[0], ms=5, label="reached")
     axes.set_xscale("log")
     ticks: list[float] = []
@@ -173,9 +173,9 @@ def _gradation_caption(folder: Folder) -> str:
     off = max(abs(r["asked"] - r["reached"]) for r in recipe["gradation"])
     outside = recipe.get("outside_of_envelope_m") or []
     words = (
-        f"Gradation of {folder.label}: the curve of the mix design and what the specimen reached. At the sieves they "
-        f"differ by {look.bound(100 * off, ' %')} of the mass at most. What is finer than "
-        f"{look.number(1e3 * recipe['cut_m'], 3)} mm is part of the mastic and has no particles of its own."
+        f"Gradation of {folder.label}: the curve of the mix design and of the specimen. At the sieves they "
+        f"differ by {look.bound(100 * off, ' %')} of the mass at most. Aggregate finer than "
+        f"{look.number(1e3 * recipe['cut_m'], 3)} mm is part of the mastic and has no particles."
     )
     if outside:
         words += (

@@ -56,7 +56,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             _black(found),
             "Black diagram: |E*| over the phase angle. Frequency does not appear in it, so that "
             "curves of different temperatures fall onto one another where one shift of frequency joins them."
-            + _colours_words(found),
+            + _colour_note(found),
             "black diagram",
             third=True,
         )
@@ -102,12 +102,12 @@ def error(result: dict[str, Any]) -> tuple[float, float]:
     return float("nan"), float("nan")
 
 
-def decades(axis: Any, most: int = 9) -> None:
-    """Labels a logarithmic axis with at most `most` plain numbers; if it covers few decades, also between the
-    decades."""
+def decades(axis: Any, largest_number: int = 9) -> None:
+    """Labels a logarithmic axis with at most `largest_number` plain numbers. An axis of few decades also has labels between
+    the decades."""
     low, high = sorted(axis.get_view_interval())
     few = np.log10(high / low) < 2.2
-    axis.set_major_locator(LogLocator(base=10, subs=(1, 2, 5) if few else (1,), numticks=most))
+    axis.set_major_locator(LogLocator(base=10, subs=(1, 2, 5) if few else (1,), numticks=largest_number))
     axis.set_major_formatter(
         FuncFormatter(lambda v, _: f"{v:g}" if 1e-3 <= v < 1e5 else f"$10^{{{round(np.log10(v))}}}$")
     )
@@ -125,7 +125,7 @@ def _over_frequency(found: list[Curve]) -> Any:
     for seeds in scatter(found):
         left.errorbar(seeds.frequency, factor * seeds.e_star, factor * seeds.e_scatter, **_OF_SEEDS, label=seeds.label)
         right.errorbar(seeds.frequency, seeds.phase, seeds.phase_scatter, **_OF_SEEDS)
-    wide = _wide(found)
+    wide = _covers_wide_range(found)
     several = min(c.frequency.min() for c in found) < max(c.frequency.max() for c in found)
     along = "log" if several else "linear"
     left.set(xscale=along, yscale="log" if wide else "linear", xlabel="frequency (Hz)", ylabel=f"|E*| ({unit})")
@@ -169,9 +169,9 @@ def _caption(found: list[Curve]) -> str:
     wrong = np.concatenate([c.e_error for c in found])
     if np.isfinite(wrong).any():
         words.append(
-            f"Error bars: {look.bound(100 * float(np.nanmax(wrong)), ' %')} of |E*| at most; where none is seen it is "
-            "smaller than its dot. A stepped result is compared with the harmonic solution, a harmonic one "
-            "at its two walls. How much another specimen of the mix would differ is not in them."
+            f"Error bars: {look.bound(100 * float(np.nanmax(wrong)), ' %')} of |E*| at most; a bar that is not "
+            "visible is smaller than its dot. A stepped result is compared with the harmonic solution, a harmonic one "
+            "at its two walls. They do not include the scatter between specimens of the mix."
         )
     for seeds in scatter(found):
         words.append(
@@ -204,7 +204,7 @@ def _cole_cole_caption(found: list[Curve]) -> str:
     storage, loss = _parts(best)
     k = int(np.argmax(loss))
     return (
-        f"Cole–Cole diagram: what is lost (E″) over what is stored (E′). E″ is largest, {look.modulus(loss[k])}, at "
+        f"Cole–Cole diagram: loss modulus E″ over storage modulus E′. E″ is largest, {look.modulus(loss[k])}, at "
         f"{look.hertz(best.frequency[k])}{', ' + best.label if best.label else ''}."
     )
 
@@ -215,16 +215,16 @@ def _black(found: list[Curve]) -> Any:
     for c in found:
         axes.plot(c.phase, factor * c.e_star, marker=c.marker, color=c.colour, ms=3, label=c.label)
     axes.set(xlabel="phase angle φ (°)", ylabel=f"|E*| ({unit})")
-    if _wide(found):
+    if _covers_wide_range(found):
         axes.set_yscale("log")
         decades(axes.yaxis)
     return figure
 
 
-def _wide(found: list[Curve]) -> bool:
+def _covers_wide_range(found: list[Curve]) -> bool:
     """Whether |E*| covers more than a factor of four, so that its axis is logarithmic."""
     return max(c.e_star.max() for c in found) > 4 * min(c.e_star.min() for c in found)
 
 
-def _colours_words(found: list[Curve]) -> str:
-    return " Colours are those of the picture above." if len(found) > 1 else ""
+def _colour_note(found: list[Curve]) -> str:
+    return " The colours are the same as in the picture above." if len(found) > 1 else ""

@@ -37,7 +37,7 @@ def add(page: Page, folders: list[Folder]) -> None:
                 "Statistics over all shapes; lengths in metres.",
             )
         else:
-            page.columns([(f.label, f.colour, facts(_facts(f.summary)))])
+            page.columns([(f.label, f.colour, facts(_facts_of_scan(f.summary)))])
 
 
 def _cell(value: Any) -> Any:
@@ -55,12 +55,12 @@ def _rounded(value: Any) -> Any:
 
 
 # Returns the entries of a summary as names and values; entries of nested tables have the table's name before theirs.
-def _facts(summary: dict[str, Any], before: str = "") -> list[tuple[str, Any]]:
+def _facts_of_scan(summary: dict[str, Any], before: str = "") -> list[tuple[str, Any]]:
     rows: list[tuple[str, Any]] = []
     for key, value in summary.items():
         name = before + key.replace("_", " ")
         if isinstance(value, dict):
-            rows += _facts(value, name + ": ")
+            rows += _facts_of_scan(value, name + ": ")
         elif isinstance(value, list):
             if all(isinstance(v, (int, float, str)) for v in value) and len(value) <= 6:
                 rows.append((name, ", ".join(look.number(_rounded(v)) for v in value)))

@@ -58,7 +58,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             page.figure(grains, words, "the aggregates in the specimen", third=True, raster=True)
 
 
-# Returns the edges of the box [m]; without a summary, those of the volume that the spheres fill.
+# Returns the edges of the box [m]; without a summary, the edges of the volume that contains the spheres.
 def _box(folder: Folder) -> np.ndarray:
     edges = folder.summary.get("box_m")
     s = folder.specimen

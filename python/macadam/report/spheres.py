@@ -27,7 +27,7 @@ def spheres(
     of the picture in inches."""
     rows = np.flatnonzero((specimen["phase"] == "aggregate").to_numpy())
     words = "The aggregates in the box"
-    words += "; the mastic between them is taken away." if (specimen["phase"] == "mastic").any() else "."
+    words += "; the mastic between them is not drawn." if (specimen["phase"] == "mastic").any() else "."
     radius = specimen["radius"].to_numpy(float)
     if len(rows) > _MOST:
         words += f" Of {look.number(len(rows))} spheres the {look.number(_MOST)} largest are drawn."

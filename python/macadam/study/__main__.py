@@ -40,7 +40,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         return _command(_options(arguments), stop)
     except KeyboardInterrupt:
-        print("\nmacadam study: stopped; the same command goes on from here", file=sys.stderr)
+        print("\nmacadam study: stopped; the same command continues", file=sys.stderr)
         return 130
     finally:
         for number, handler in before.items():
@@ -52,7 +52,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="macadam study",
         description="Computes a scene at many points: grids, Latin hypercubes or lists over its keys. "
-        "What is in the folder already is not computed again.",
+        "Results that are already in the folder are not computed again.",
         epilog="example: macadam study study.toml --out results/study",
     )
     parser.add_argument("study", metavar="STUDY.toml", help="what to vary; docs/studies.md explains it")

@@ -18,7 +18,7 @@ __all__ = ["Design", "Job", "number_and_unit", "read_design"]
 
 _KEYS = {"scene", "command", "arguments", "grid", "latin_hypercube", "list", "choice", "experiment", "run", "report"}
 _COMMANDS = ("run", "specimen")
-# columns of the table other than the factors, named as in summary.json: AT says at which point a result was found,
+# columns of the table other than the factors, named as in summary.json: AT names the columns of a result's coordinates,
 # MEASURED are the results
 AT = ("temperature_c", "frequency_hz", "time_s")
 MEASURED = (
@@ -73,13 +73,13 @@ def read_design(source: str | Path | Table, version: str) -> Design:
     the current folder. version: of macadam; it is part of each result's key, because another version may give other
     results."""
     asked, folder = (source, Path.cwd()) if isinstance(source, dict) else (read_toml(Path(source)), Path(source).parent)
-    _known(asked, _KEYS, "study")
+    _require_known_keys(asked, _KEYS, "study")
     if not isinstance(asked.get("scene"), (str, dict)):
         raise StudyError("scene: expected the file of the scene that the study varies")
-    base, beside = asked["scene"], folder
+    base, folder_of_scene = asked["scene"], folder
     if isinstance(base, str):
         file = folder / base
-        base, beside = read_toml(file), file.parent
+        base, folder_of_scene = read_toml(file), file.parent
     words = _command(asked)
     axes, sampled = points.grid(asked), points.samples(asked)
     options = {
@@ -103,7 +103,7 @@ def read_design(source: str | Path | Table, version: str) -> Design:
         chosen = [options[name][value] for name, value in values.items() if name in options]
         factors = Changes("point", {key: value for key, value in values.items() if key not in options})
         for experiment, changes in experiments.items():
-            scene, digests = located(applied(base, [*chosen, factors, changes]), beside)
+            scene, digests = located(applied(base, [*chosen, factors, changes]), folder_of_scene)
             job = Job(key_of(scene, digests, words, version), text_of(scene), words, values, experiment)
             _add(design, job, equal.setdefault(key_of(normal(scene), digests, words, version), []))
     design.factors = list(dict.fromkeys(name for job in design.jobs for name in job.values))
@@ -153,7 +153,7 @@ def _refuse_names(options: dict[str, Any], keys: list[str]) -> None:
 
 
 # Raises StudyError for an unknown key and suggests a similar known one.
-def _known(table: Table, names: set[str], where: str) -> None:
+def _require_known_keys(table: Table, names: set[str], where: str) -> None:
     for key in table:
         if key not in names:
             near = difflib.get_close_matches(key, names, 1)

@@ -19,11 +19,11 @@ from macadam.study import executors, summary, table
 from macadam.study.design import Design, Job, read_design
 from macadam.study.errors import StudyError
 from macadam.study.job import compute
-from macadam.study.locks import Taken, locked, taken
+from macadam.study.locks import Taken, is_locked, locked
 from macadam.study.parsl_pool import Trouble
 from macadam.study.program import find_program, version_of
 
-_IDLE_ROUNDS = 3  # after so many consecutive rounds without a new result, the study gives up
+_IDLE_ROUNDS = 3  # number of consecutive rounds without a new result after which the study gives up
 STOPPED = "the study was stopped"
 DIED = "their workers died; the logs are in the folder parsl"
 
@@ -86,12 +86,12 @@ def study(
         try:
             reason = _compute_all(design, folder, program, executor, progress or (lambda *_: None))
         except KeyboardInterrupt:
-            _written(design, folder, reason)
+            _write_results(design, folder, reason)
             raise
         try:
-            return _written(design, folder, reason)
+            return _write_results(design, folder, reason)
         except KeyboardInterrupt:
-            _written(design, folder, reason)
+            _write_results(design, folder, reason)
             raise
 
 
@@ -110,10 +110,10 @@ def checked_design(source: str | Path | dict[str, Any], version: str, on: str | 
     return design
 
 
-def _written(design: Design, folder: Path, reason: str) -> Study:
+def _write_results(design: Design, folder: Path, reason: str) -> Study:
     """Writes tables and report of the results that are in the folder, and returns the results. reason: why some are
     missing."""
-    missing = sum(not _settled(folder, job) for job in design.results)
+    missing = sum(not _has_result_or_failure(folder, job) for job in design.results)
     found = Study(
         folder,
         table.read(design, folder),
@@ -129,8 +129,8 @@ def _written(design: Design, folder: Path, reason: str) -> Study:
     return found
 
 
-# Whether the folder has the job's result or its failure.
-def _settled(folder: Path, job: Job) -> bool:
+# Returns whether the folder has the job's result or its failure.
+def _has_result_or_failure(folder: Path, job: Job) -> bool:
     return (folder / "results" / job.key).is_dir() or (folder / "failures" / f"{job.key}.json").is_file()
 
 
@@ -146,20 +146,20 @@ def _compute_all(
     idle = 0
     limits = None if given is not None or design.run.get("on") == "threads" else executors.patience(design.run)
     while idle < _IDLE_ROUNDS:
-        left = [job for job in design.results if not _settled(folder, job)]
-        _say(design, folder, progress)
+        left = [job for job in design.results if not _has_result_or_failure(folder, job)]
+        _report_progress(design, folder, progress)
         if not left:
             return ""
-        jobs = [_handed(job, folder, program, design.run) for job in left]
+        jobs = [_job_arguments(job, folder, program, design.run) for job in left]
         died, trouble = "", Trouble()
         try:
             with _pool(given, design.run, folder) as (pool, asked):
-                died = _round(pool, jobs, lambda: _say(design, folder, progress), limits)
+                died = _round(pool, jobs, lambda: _report_progress(design, folder, progress), limits)
                 trouble = asked()
         except (concurrent.futures.BrokenExecutor, RuntimeError):  # the executor accepts no more jobs
             if given is not None:
                 return died or DIED
-        idle = idle + 1 if all(not _settled(folder, job) for job in left) else 0
+        idle = idle + 1 if all(not _has_result_or_failure(folder, job) for job in left) else 0
         if idle and trouble.refused:
             return f"no worker could start: {trouble.words}"
     return f"{DIED}{f' ({trouble.words or died})' if trouble.words or died else ''}"
@@ -192,7 +192,7 @@ def _round(
                     raise error
                 died = f"{type(error).__name__}: {error}" if error else died
             said()
-            if done or patience and any(map(taken, locks)):
+            if done or patience and any(map(is_locked, locks)):
                 quiet, begun = time.monotonic(), True
             elif patience and time.monotonic() - quiet > patience[begun]:
                 return died
@@ -205,7 +205,7 @@ def _round(
 
 
 # Returns the job as the dictionary that compute() of job.py expects.
-def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[str, Any]:
+def _job_arguments(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[str, Any]:
     command = [*job.command]
     if job.command[0] == "run" and "--threads" not in {word.partition("=")[0] for word in command}:
         command += ["--threads", str(executors.threads(run))]
@@ -222,7 +222,7 @@ def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[s
 
 
 # Reports the numbers of results that are done, failed and asked for.
-def _say(design: Design, folder: Path, progress: Callable[[int, int, int], None]) -> None:
+def _report_progress(design: Design, folder: Path, progress: Callable[[int, int, int], None]) -> None:
     done = sum((folder / "results" / job.key).is_dir() for job in design.results)
     failed = sum((folder / "failures" / f"{job.key}.json").is_file() for job in design.results)
     progress(done, failed, len(design.results))

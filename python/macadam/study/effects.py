@@ -13,7 +13,7 @@ from macadam.study import table
 from macadam.study.design import Design
 from macadam.study.quantiles import fisher_95
 
-FEW = 8  # a factor with at most so many different values has levels; a numeric factor with more values is continuous
+FEW = 8  # largest number of levels of a factor; a numeric factor with more different values is continuous
 
 
 @dataclass
@@ -50,8 +50,8 @@ class Quantity:
         return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].size().to_numpy()
 
 
-# column of the table, key of [report], default value, and unit of what a quantity is shown at; infinity: the largest
-# value
+# Coordinates at which quantities are shown: column of the table, key of [report], default value, unit. Infinity means
+# the largest value.
 _AT = (
     ("frequency_hz", "frequency", 10.0, "Hz"),
     ("temperature_c", "temperature", 20.0, "°C"),
@@ -185,7 +185,7 @@ def _lines(points: pd.DataFrame, factors: list[str], repetitions: np.ndarray) ->
 
 
 def effects(quantity: Quantity) -> list[Effect]:
-    """Returns one effect per factor, the largest share of the variance first. A continuous factor has two levels, the
+    """Returns one effect per factor, the largest fraction of the variance first. A continuous factor has two levels, the
     ends of its fitted line."""
     points, repetitions, out = quantity.points, quantity.repetitions, []
     total = float(((points["value"] - points["value"].mean()) ** 2).sum())

@@ -47,7 +47,7 @@ def locked(file: Path, wait: bool) -> Iterator[None]:
             _change.notify_all()
 
 
-def taken(file: Path) -> bool:
+def is_locked(file: Path) -> bool:
     """Whether another process holds the lock of this file."""
     try:
         handle = os.open(file, os.O_RDWR)

@@ -16,7 +16,7 @@ import time
 from pathlib import Path
 
 
-def begun(process: int) -> str | None:
+def start_time_of(process: int) -> str | None:
     """Returns the start time of a process, which distinguishes it from a later process with the same number; None if
     the process has ended."""
     try:
@@ -29,10 +29,10 @@ def begun(process: int) -> str | None:
 def watch(study: int, manager: int, seconds: float) -> None:
     """Returns when the manager, whose child this process is, has ended. Kills the manager if it still runs `seconds`
     after the study has ended."""
-    since, gone = begun(study), None
+    since, gone = start_time_of(study), None
     while os.getppid() == manager:
         time.sleep(1)
-        if since is not None and begun(study) == since:
+        if since is not None and start_time_of(study) == since:
             continue
         gone = gone or time.monotonic()
         if time.monotonic() > gone + seconds and os.getppid() == manager:

@@ -54,7 +54,7 @@ def parsl_pool(
         from parsl.concurrent import ParslPoolExecutor
     except ImportError:
         raise StudyError(
-            f"on = {place!r} takes the Python package parsl, which is not installed; "
+            f"run.on: found {place!r} without the Python package parsl, expected parsl to be installed; "
             'on = "threads" runs on this machine without it'
         ) from None
     # Parsl starts its own programs by name, so the search path begins with the folder of this Python, which has them

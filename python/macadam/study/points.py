@@ -119,7 +119,7 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     try:
         from scipy.stats import qmc
     except ImportError:
-        raise StudyError("latin_hypercube: it takes the Python package SciPy, which is not installed") from None
+        raise StudyError("latin_hypercube: found no Python package SciPy, expected it to be installed") from None
     ranges = {key: _range(key, value) for key, value in block.items()}
     # random-cd: values are exchanged between points to lower the discrepancy, so that factors are hardly correlated by
     # chance

@@ -16,8 +16,8 @@ _BUILDS = ("local", "cuda-release", "cpu-release", "release")
 
 def find_program() -> str:
     """Returns the program's path: MACADAM_PROGRAM if it is set, else the program that came with this package, else
-    macadam in the search path, else a build of the source tree around this package. Raises StudyError if there is
-    none."""
+    macadam in the search path, else a build of the source tree around this package. Raises StudyError if no
+    program is found."""
     asked = os.environ.get("MACADAM_PROGRAM")
     if asked:
         if not os.access(asked, os.X_OK) or Path(asked).is_dir():
@@ -31,8 +31,8 @@ def find_program() -> str:
         if os.access(tree / "build" / build / "macadam", os.X_OK):
             return str(tree / "build" / build / "macadam")
     raise StudyError(
-        "no program macadam: neither MACADAM_PROGRAM nor the search path has it, nor has a build of this "
-        f"source tree ({tree / 'build'})"
+        "macadam: found no such program, expected it in MACADAM_PROGRAM, in the search path or in a build of this source tree "
+        f"({tree / 'build'})"
     )
 
 

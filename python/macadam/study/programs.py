@@ -20,7 +20,7 @@ _change = threading.Lock()  # guards both
 
 def error_line(message: str) -> str:
     """Returns the line of the program's messages that says what is wrong: the first one that begins with `macadam:` and
-    is not a warning; without such a line the last one, or "" if there are none. The lines after an error are hints."""
+    is not a warning; without such a line the last line, or "" if the message is empty. The lines after an error are hints."""
     lines = message.strip().splitlines() or [""]
     errors = (line for line in lines if line.startswith("macadam:") and not line.startswith("macadam: warning:"))
     return next(errors, lines[-1])

@@ -87,7 +87,7 @@ def merged(scene: Table, more: Table) -> Table:
     return out
 
 
-# Returns the contacts with the new entries in place of those of the same pairs; entries of other pairs are appended.
+# Returns the contacts with the new entries in place of the old entries of the same pairs; entries of other pairs are appended.
 def _contacts(there: Any, new: list[Any]) -> list[Any]:
     for contacts in (new, there):
         if not isinstance(contacts, list) or not all(isinstance(c, dict) for c in contacts):

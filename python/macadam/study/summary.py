@@ -46,7 +46,7 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
     page.section("In short")
     if missing:
         page.text(
-            f"{missing} of {len(design.results)} results are missing: {study.reason}. The same command goes on.",
+            f"{missing} of {len(design.results)} results are missing: {study.reason}. The same command continues.",
             "failure",
         )
     if failed:
@@ -59,9 +59,9 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
         page.text(f"{len(study.notes) - NOTES} more points have the scene of another one.", "warning")
     values = quantities(found, design) if len(found) else []
     for q in values:
-        words = f"{q.title}: {_value(q, q.jobs['value'].min())} to {_value(q, q.jobs['value'].max())}{_strongest(q)}"
+        words = f"{q.title}: {_value(q, q.jobs['value'].min())} to {_value(q, q.jobs['value'].max())}{_strongest_factor_words(q)}"
         page.text(words[:1].upper() + words[1:] + ".")
-    page.table(["factor", "values", "number"], _factors(design), "What differs between the points.", words=2)
+    page.table(["factor", "values", "number"], _factors(design), "Factors that differ between the points.", words=2)
     page.section("Main effects")
     for q in values:
         _main_effects(page, q)
@@ -90,14 +90,14 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
     _machines(page, design, folder)
 
 
-def _strongest(q: Quantity) -> str:
+def _strongest_factor_words(q: Quantity) -> str:
     """Returns the end of a sentence that names the factor with the largest effect on a quantity; empty if no factor
     differs."""
     found = effects(q)
     if not found:
         return ""
     first = found[0]
-    name, change = short(first.factor), _change(q, first) + _from_to(first)
+    name, change = short(first.factor), _change_words(q, first) + _from_to(first)
     if first.within_scatter:
         most = f"the change with {name}" if len(found) == 1 else f"the largest change, with {name}"
         return f"; {most}, {change}, is within the scatter of seeds ({_chance(q, first)})"
@@ -154,7 +154,7 @@ def _main_effects(page: Page, q: Quantity) -> None:
         for axis, effect in zip(axes[0], shown, strict=True):
             _panel(axis, effect, points)
         axes[0, 0].set_ylabel(f"{q.name} ({q.unit})")
-        words = "; ".join(f"{short(e.factor)}: {_change(q, e)}{_from_to(e)}" for e in shown)
+        words = "; ".join(f"{short(e.factor)}: {_change_words(q, e)}{_from_to(e)}" for e in shown)
         bars = any(e.errors for e in shown)
         dots = "Dots with bars" if bars else "Dots"
         error = ", and its standard error from the scatter of seeds" if bars else ""
@@ -171,7 +171,7 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
     """Adds the table of effects, with the scatter of seeds if it is known, and with shares of the variance if there are
     several factors."""
     heads, notes = ["factor", "from … to", f"change of {q.name}"], []
-    rows = [[e.factor, " … ".join(_level(e.levels[k]) for k in e.at_ends), _change(q, e)] for e in found]
+    rows = [[e.factor, " … ".join(_level(e.levels[k]) for k in e.at_ends), _change_words(q, e)] for e in found]
     if any(e.scatter is not None for e in found):
         heads.append("scatter of seeds (95 %)")
         for row, e in zip(rows, found, strict=True):
@@ -182,7 +182,7 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
             "whether its effect is within the scatter. Such an effect may be chance."
         )
     if len(found) > 1:
-        heads.append("share of the variance")
+        heads.append("fraction of the variance")
         for row, e in zip(rows, found, strict=True):
             row.append(look.percent(e.share))
         notes.append("Shares need not add up to 100 %: the rest is joint effects of factors, and scatter.")
@@ -196,7 +196,7 @@ def _level(value: Any) -> str:
     return look.number(float(value), 3) if "e" in text else text.replace("-", "−")
 
 
-def _change(q: Quantity, effect: Effect) -> str:
+def _change_words(q: Quantity, effect: Effect) -> str:
     """Returns the change of an effect as text: of angles in degrees, otherwise in per cent of the first of its two
     means."""
     first, last = effect.ends
@@ -268,7 +268,7 @@ def design_map(q: Quantity) -> tuple[Any, str] | None:
         axis.set_yticks(y)
         for ends, reach in ((x, axis.set_xlim), (y, axis.set_ylim)):  # space for the numbers at the edge
             reach(ends[0] - 0.09 * np.ptp(ends), ends[-1] + 0.09 * np.ptp(ends))
-        how = "The numbers are those of the points; colours lie between them."
+        how = "The numbers belong to the points; colours are interpolated between them."
     else:
         drawn = axis.scatter(mean[two[0]], mean[two[1]], c=mean["value"], cmap="viridis", s=28)
         how = "Each dot is a point."
@@ -311,7 +311,7 @@ def _machines(page: Page, design: Design, folder: Path) -> None:
             record = table.read_json(file)
             rows.setdefault((record["machine"]["name"], record["machine"]["processor"]), []).append(record["wall_s"])
     page.table(
-        ["machine", "processor", "results", "median time", "together"],
+        ["machine", "processor", "results", "median time", "sum of times"],
         [
             [name, processor, len(times), look.seconds(float(np.median(times))), look.seconds(sum(times))]
             for (name, processor), times in rows.items()

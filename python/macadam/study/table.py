@@ -111,13 +111,13 @@ def failed_results(failed: list[dict[str, Any]]) -> int:
 def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> None:
     """Writes table.csv, table.parquet if pyarrow is installed, and failures.csv if there are failures. An error leaves
     no incomplete file."""
-    _whole(folder / "table.csv", lambda file: found.to_csv(file, index=False, encoding="utf-8"))
+    _write_completely(folder / "table.csv", lambda file: found.to_csv(file, index=False, encoding="utf-8"))
     try:
         import pyarrow  # noqa: F401
     except ImportError:
         (folder / "table.parquet").unlink(missing_ok=True)
     else:
-        _whole(folder / "table.parquet", lambda file: found.to_parquet(file, index=False))
+        _write_completely(folder / "table.parquet", lambda file: found.to_parquet(file, index=False))
     if not failed:
         (folder / "failures.csv").unlink(missing_ok=True)
         return
@@ -130,11 +130,11 @@ def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> No
                 values = "; ".join(f"{k} = {v}" for k, v in f["values"].items())
                 writer.writerow([f["key"], f["experiment"], values, f["exit_code"], f["message"]])
 
-    _whole(folder / "failures.csv", rows)
+    _write_completely(folder / "failures.csv", rows)
 
 
-# Writes a file under a temporary name and renames it, so that it is never incomplete. fill: writes to the given path.
-def _whole(file: Path, fill: Any) -> None:
+# Writes to a temporary name and renames the file, which is therefore never incomplete. fill: writes to the given path.
+def _write_completely(file: Path, fill: Any) -> None:
     part = file.with_name(f".{file.name}.{os.getpid()}.part")
     try:
         fill(part)

@@ -9,10 +9,6 @@
 
 namespace macadam::ct {
 
-/// Reads a gradation with the header `sieve_m,passing` (fractions) or `sieve_mm,passing_percent`; the sieves may be in
-/// any order. \throws InputError that names file and line.
-std::vector<SievePassing> read_gradation(const std::filesystem::path& file);
-
 /// Returns the fraction of a laboratory's gradation below `size` [m], interpolated linearly over the logarithm of the
 /// size between its sieves; below the smallest sieve it is proportional to the size. With `from` [m], returns the
 /// fraction of the part that is larger than `from`.

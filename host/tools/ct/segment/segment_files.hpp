@@ -16,11 +16,4 @@ std::string grains_csv(const std::vector<ScannedGrain>& grains);
 
 /// Returns the table of cuts: one row per face between two fragments.
 std::string cuts_csv(const std::vector<GrainCut>& cuts);
-/// Reads a table that cuts_csv() wrote. \throws InputError that names file and line.
-std::vector<GrainCut> read_cuts(const std::filesystem::path& file);
-
-/// Writes all results of `macadam ct segment` into its folder. \throws InputError if another command is writing into
-/// it, RunError if writing fails.
-void write_segmentation(const std::filesystem::path& folder, const Segmentation& out, const SegmentOptions& options);
-
 }  // namespace macadam::ct

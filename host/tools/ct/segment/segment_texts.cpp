@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // segment_texts.cpp  Parses a region given by name or by coordinates, and an amount of memory.
-#include "host/tools/ct/segment/segment_texts.hpp"
+#include "macadam/ct.hpp"
 
 #include <limits>
 #include <vector>
 
-#include "host/base/lengths.hpp"
 #include "host/base/in_quotes.hpp"
 #include "host/base/units.hpp"
 #include "macadam/error.hpp"
+#include "macadam/lengths.hpp"
 
 namespace macadam::ct {
 namespace {

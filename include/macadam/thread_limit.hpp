@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file thread_limit.hpp  Limits the number of threads of a job.
+/// \file thread_limit.hpp  Limits the number of CPU threads of a job.
 #pragma once
-
-#include <omp.h>
 
 #include <optional>
 
@@ -13,12 +11,10 @@ namespace macadam {
 class ThreadLimit {
  public:
   /// `threads`: 0 or no value changes nothing.
-  explicit ThreadLimit(std::optional<int> threads) : before_(omp_get_max_threads()) {
-    if (threads.value_or(0) > 0) omp_set_num_threads(*threads);
-  }
+  explicit ThreadLimit(std::optional<int> threads);
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
-  ~ThreadLimit() { omp_set_num_threads(before_); }
+  ~ThreadLimit();
 
  private:
   int before_;
