@@ -3,11 +3,13 @@
 // specimen breaks in two.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "host/files/checkpoint_file.hpp"
+#include "host/simulation/forecast.hpp"
 #include "tests/support/stepper_cases.hpp"
 #include "tests/support/test_folder.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -211,7 +213,7 @@ TEST_F(CracksOfATest, ACyclicTestBelowTheStrengthBreaksNoBond) {
 /// Interruptions change neither the files nor the counts of a cyclic test that breaks some bonds.
 TEST_F(CracksOfATest, ACyclicTestInPiecesBreaksTheSamePoints) {
   const Scene asked = bonded_scene(
-      "kind = \"cyclic\"\nfrequencies = [10.0, 40.0]\nstrain_amplitude = 1.5e-4\ncycles = 2\n"
+      "kind = \"cyclic\"\nfrequencies = [10.0, 40.0]\nstrain_amplitude = 2.5e-4\ncycles = 2\n"
       "samples_per_cycle = 100\n",
       "");
   const RunResult whole = run(asked, out("whole"));
@@ -319,6 +321,21 @@ TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   expect_same("pieces");
   run(bonded("threads = 2\n", 200), out("two"));
   expect_same("two");
+}
+
+/// The forecast of the size of cracks.csv follows from the number of contacts that can break.
+TEST_F(CracksOfATest, TheForecastOfTheListFollowsFromTheContacts) {
+  const Scene asked = bonded();
+  const auto bytes = [](const Scene& scene) {
+    const Forecast found = forecast(scene);
+    const auto at = std::ranges::find(found.files, "cracks.csv") - found.files.begin();
+    return found.file_bytes.at(static_cast<std::size_t>(at));
+  };
+  run(asked, out("out"));
+  EXPECT_NEAR(std::log(bytes(asked) / static_cast<double>(fs::file_size(out("out") / "cracks.csv"))), 0, std::log(2));
+  // the column has 4 spheres, t8 has 175
+  const Scene small = column(4, "kind = \"monotonic\"\nrate = 0.002\nstrain = 1.5e-4\npoints = 200\n");
+  EXPECT_LT(bytes(small), 0.05 * bytes(asked));
 }
 
 /// Break events in a checkpoint that refer to wrong points, times or kinds are refused.

@@ -188,5 +188,25 @@ TEST_F(ForecastRules, SoftScenesTakeLonger) {
   EXPECT_EQ(of("10.0", "direct").host_bytes, of("1e-9").host_bytes);
 }
 
+// Heat softens the viscoelastic contacts, which slows the iterative solver down. A temperature of [loading] does the
+// same as the same temperature of [materials].
+TEST_F(ForecastRules, SolutionsAreThoseOfTheirTemperature) {
+  const auto seconds = [&](const std::string& materials, const std::string& temperatures) {
+    const fs::path file = write_t8("kind = \"cyclic\"\nfrequencies = [10.0]\n" + temperatures,
+                                   "backend = \"cpu\"\nmethod = \"harmonic\"\n");
+    std::string text = read(file);
+    const std::string shift = "shift = \"wlf\"\nC1 = 14.0\nC2 = 120.0\nreference_temperature = 10.0\n";
+    for (std::size_t at = 0; (at = text.find("alpha = 0.10\n", at)) != std::string::npos; at += shift.size() + 1)
+      text.insert(at, shift);
+    text.insert(text.find("[loading]\n"), materials);
+    write(file, text);
+    return forecast(read_scene(file)).harmonic_s;
+  };
+  const double at_reference = seconds("", ""), hot = seconds("[materials]\ntemperature = 60.0\n", "");
+  EXPECT_GT(hot, 2 * at_reference);
+  EXPECT_EQ(seconds("", "temperatures = [60.0]\n"), hot);
+  EXPECT_NEAR(seconds("", "temperatures = [10.0, 60.0]\n") / (at_reference + hot), 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace macadam::test

@@ -129,7 +129,7 @@ class Planner {
   void choose_start() {
     const bool asked = scene_.cyclic().start == Start::steady;
     start_ = asked_start(scene_);
-    if (!automatic() && start_ == Start::rest) return;
+    if (!plans_with_solutions(scene_)) return;
     make_harmonic();
     if (!harmonic_) decide("no harmonic solution: {}", no_harmonic_);
     const bool local = scene_.solver.damping_kind == Damping::local;

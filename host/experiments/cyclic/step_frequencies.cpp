@@ -159,11 +159,6 @@ class Steps : public Solution {
     found.critical_dt_s = at_.plan.critical.dt;
     found.seconds_planning = at_.seconds_planning;
     result.skips = find_skips(scene_, prepared_, at_.plan.form, at_.plan.geometry, scene_.cyclic().strain_amplitude);
-    if (!scene_.output.response) {
-      result.skips.push_back({"observation",
-                              "response.csv is not asked for: only the fitted cycles and the one before are observed",
-                              "none: same bits"});
-    }
     result.warnings = at_.warnings;
     for (std::size_t i = 0; i < at_.seconds.size(); ++i) finish(i, result);
   }

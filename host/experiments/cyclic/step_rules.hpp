@@ -32,6 +32,10 @@ Start asked_start(const Scene& scene);
 /// because of damping, strain or a law.
 Start cyclic_start(const Scene& scene, Geometry geometry);
 
+/// Returns whether the plan of a stepped test solves its frequencies without time steps: to predict errors, if there is
+/// a tolerance, and for a steady start.
+bool plans_with_solutions(const Scene& scene);
+
 /// Cycles of one frequency: all, those that are fitted, and those in which the amplitude grows.
 struct CycleCount {
   int cycles = 0, fitted = 0;
