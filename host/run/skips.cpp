@@ -31,7 +31,7 @@ constexpr const char* none = "none: same bits";
 
 std::vector<Skip> geometry_skips(Geometry geometry, std::optional<double> strain) {
   if (geometry != Geometry::fixed) return {};
-  return {{"geometry update", "normals and lever arms are those of the start",
+  return {{"geometry update", "normals and lever arms keep their initial values",
            strain ? fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
                                 fixed_geometry_error(std::abs(*strain)), *strain)
                   : "grows as the square of the strain: see docs/accuracy.md"}};
@@ -44,8 +44,9 @@ std::vector<Skip> asked_skips(const Scene& scene) {
   if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", none});
   const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
   if (cyclic && scene.solver.method == SolverMethod::explicit_ && !scene.output.response) {
-    out.push_back(
-        {"observation", "response.csv is not asked for: only the fitted cycles and the one before are observed", none});
+    out.push_back({"observation",
+                   "response.csv is not asked for: only the fitted cycles and the cycle before them are observed",
+                   none});
   }
   return out;
 }

@@ -64,7 +64,8 @@ class LoadError : public TestFolder {
     return read_scene(folder_ / "pair.toml");
   }
 
-  /// Returns J(t) in closed form: half of the chain's compliance and half of that of the walls' springs.
+  /// Returns J(t) in closed form: half of the compliance of the chain plus half of the compliance of the walls'
+  /// springs.
   static CreepSeries exact_creep() {
     CreepSeries out;
     out.instantaneous = 0.5 / 1e9 + 0.5 / 1e10;

@@ -95,9 +95,9 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
                    !kernels::blocks_are_exact(plan.geometry, facts_of(scene.laws));
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
-  plan.decisions.push_back(
-      fmt::format("laws settled {:.0f} times in the shortest time of load and laws: that costs at most {:.1e}",
-                  std::ceil(blocks), block_error(blocks)));
+  plan.decisions.push_back(fmt::format(
+      "viscoelastic states are updated {:.0f} times in the shortest time of load and laws: the error is at most {:.1e}",
+      std::ceil(blocks), block_error(blocks)));
 }
 
 /// Returns the stepper of one frequency. It continues from `from`, a checkpoint's state, unless that is empty;
@@ -288,7 +288,7 @@ class Steps : public Solution {
   }
 
   /// Returns the course of a frequency. Every sample is stored in `at_` and written at once. Without a writer, only the
-  /// fitted cycles and the one before them, which shows the change from cycle to cycle, are kept.
+  /// fitted cycles and the cycle before them are kept; this cycle shows the change from cycle to cycle.
   Course course_of(std::size_t i, LineWriter* writer, CrackWatch& cracks, const Content& content) {
     const FrequencyPlan& p = at_.plan.frequencies[i];
     const std::int64_t per_cycle = scene_.cyclic().samples_per_cycle, per_period = p.loading.steps_per_period;
@@ -371,8 +371,8 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
     decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
       at.warnings.push_back(fmt::format(
-          "law {} of {} has no complex stiffness: |E*| and phi are those of the fundamental of the measured "
-          "loops, at this amplitude and after these cycles, and no frequency domain judges them",
+          "law {} of {} has no complex stiffness: |E*| and phi are computed from the fundamental of the "
+          "measured loops, at this amplitude and after these cycles, and are not compared with a harmonic solution",
           without->law, to_string(without->pair)));
     }
     at.seconds_planning = seconds_since(start);
