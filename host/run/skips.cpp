@@ -25,7 +25,7 @@ std::pair<std::string, std::int64_t> pairs_that(const Scene& scene, const Prepar
   return {names, contacts};
 }
 
-constexpr const char* none = "none: same bits";
+constexpr const char* same_bits = "none: same bits";
 
 }  // namespace
 
@@ -41,12 +41,12 @@ std::vector<Skip> asked_skips(const Scene& scene) {
   std::vector<Skip> out;
   if (!scene.network.lateral_walls)
     out.push_back({"lateral walls", "the sides are free", "free sides, as the scene has them"});
-  if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", none});
+  if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", same_bits});
   const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
   if (cyclic && scene.solver.method == SolverMethod::explicit_ && !scene.output.response) {
     out.push_back({"observation",
                    "response.csv is not asked for: only the fitted cycles and the cycle before them are observed",
-                   none});
+                   same_bits});
   }
   return out;
 }
@@ -72,7 +72,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   const auto [smooth, smooth_count] =
       pairs_that(scene, prepared, []<class L>(const L& law) { return law.alpha == 0 && !coupled_law<L>; });
   if (smooth_count > 0 && !reference) {
-    out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), none});
+    out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), same_bits});
   }
   if (!reference && nothing_turns(prepared.network, scene.laws)) {
     out.push_back({"rotations", "no shear, and every facet is centred: nothing turns a particle",

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
-#include <limits>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -18,6 +16,7 @@
 #include "host/run/skips.hpp"
 #include "host/harmonic/law_stiffness.hpp"
 #include "host/files/result_files.hpp"
+#include "host/experiments/cyclic/finished_frequency.hpp"
 #include "host/experiments/cyclic/run_state.hpp"
 #include "host/run/error_model.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
@@ -38,47 +37,6 @@ namespace {
 constexpr double block_share = 0.02;
 /// Number of times per cycle at which broken contact points are counted. Reading them takes longer than a step.
 constexpr std::int64_t looks_per_cycle = 50;
-
-/// Returns the samples of one frequency, which are contiguous and begin at number `first`.
-std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
-                                           double frequency) {
-  std::size_t end = first;
-  while (end < samples.size() && samples[end].frequency_hz == frequency) ++end;
-  return std::span(samples).subspan(first, end - first);
-}
-
-/// Returns the result of cycles that could not be completed: all numbers are NaN.
-CyclicResult without_result() {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {{none, none}, {none, none}, none, none, none};
-}
-
-/// Returns the result of a finished frequency.
-SteppedFrequency finished(const Scene& scene, const Plan& whole, std::size_t number,
-                          std::span<const ResponseSample> samples, double seconds,
-                          const std::optional<experiments::Rupture>& rupture) {
-  const FrequencyPlan& plan = whole.frequencies[number];
-  const double frequency = plan.loading.frequency;
-  const CyclicResult cyclic = rupture ? without_result() : evaluate_cyclic(samples, frequency, plan.fit_cycles);
-  SteppedFrequency f;
-  static_cast<experiments::Frequency&>(f) =
-      frequency_of(scene, frequency, scene.materials.temperature, plan.density_scaling, cyclic.fit, seconds);
-  f.cyclic = cyclic;
-  f.dt_s = plan.loading.dt();
-  f.cycles = plan.cycles;
-  f.start = plan.start;
-  f.steps = plan.loading.steps_per_period * plan.cycles;
-  f.predicted = plan.predicted;
-  f.rupture = rupture;
-  if (rupture) {
-    f.steps = std::llround(rupture->time_s / f.dt_s);
-    return f;
-  }
-  const std::optional<double>& tolerance = scene.solver.tolerance;
-  if (plan.known) f.achieved = difference(f.stiffness, *plan.known);
-  if (plan.known && tolerance) f.kept = largest(*f.achieved) + whole.geometry_error <= *tolerance;
-  return f;
-}
 
 /// Returns the options that the steppers of all frequencies have in common.
 StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
@@ -332,7 +290,7 @@ class Steps : public Solution {
     auto& frequencies = std::get<SteppedCyclic>(result.found).frequencies;
     const FrequencyCracks& cracks = at_.cracks[i];
     SteppedFrequency& f =
-        frequencies.emplace_back(finished(scene_, at_.plan, i, samples, at_.seconds[i], cracks.rupture));
+        frequencies.emplace_back(finished_frequency(scene_, at_.plan, i, samples, at_.seconds[i], cracks.rupture));
     if (counts_cracks(scene_)) f.cracks = CrackWatch(scene_, prepared_, cracks.events).found();
     if (f.rupture) return;
     const bool linear = !first_without_stiffness(scene_.laws);
