@@ -34,10 +34,11 @@ class OneCycle {
 
   Stiffness stepped(const StepperOptions& options) const {
     const auto stepper = make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
-    const Vec3d& box = scene_.specimen.box.size;
+    const Box& box = scene_.specimen.box;
     std::vector<ResponseSample> response;
     sample(*stepper, steps_per_period / samples, samples, [&](const Observation& now) {
-      response.push_back({frequency, now.time, now.top_displacement() / box.z, -now.top_force() / (box.x * box.y)});
+      response.push_back(
+          {frequency, now.time, now.top_displacement() / gauge_length(box), -now.top_force() / section_area(box)});
     });
     return evaluate_cyclic(response, frequency, 1).fit;
   }

@@ -191,8 +191,8 @@ std::vector<Outcome> Runner::run(Case& c) {
     for (int k = cycle == 0 ? 0 : 1; k <= samples_per_cycle; ++k) {
       if (k > 0) stepper->advance(loading.steps_per_period / samples_per_cycle);
       const Observation seen = stepper->observe();
-      samples.push_back({c.frequency, seen.time, seen.top_displacement() / box.size.z,
-                         -seen.top_force() / (box.size.x * box.size.y)});
+      samples.push_back(
+          {c.frequency, seen.time, seen.top_displacement() / gauge_length(box), -seen.top_force() / section_area(box)});
     }
     now.seconds = seconds_since(start);
     now.cycles = cycle + 1;

@@ -130,12 +130,12 @@ std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specime
   constexpr std::int64_t samples_per_cycle = 100;
   if (loading.steps_per_period % samples_per_cycle != 0) throw RunError("a cycle must be a multiple of 100 steps");
   const std::int64_t stride = loading.steps_per_period / samples_per_cycle;
-  const double area = specimen.box.size.x * specimen.box.size.y;
+  const double area = section_area(specimen);
   stepper.advance((cycles - 1) * loading.steps_per_period);
   std::vector<ResponseSample> samples;
   sample(stepper, stride, samples_per_cycle, [&](const Observation& now) {
     samples.push_back(
-        {loading.frequency, now.time, now.top_displacement() / specimen.box.size.z, -now.top_force() / area});
+        {loading.frequency, now.time, now.top_displacement() / gauge_length(specimen), -now.top_force() / area});
   });
   return samples;
 }

@@ -2,27 +2,33 @@
 /// \file disjoint_sets.hpp  Groups numbered things into connected sets (union–find).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace macadam {
 
-/// Disjoint sets of the numbers 0 … n − 1, which are joined pair by pair. Each set is identified by one of its members,
-/// its root.
+/// Disjoint sets of the numbers 0 … n − 1, which are joined pair by pair. The root of a set is its smallest member.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
   /// Returns the root of the set that contains i. Shortens the path from i to the root, so that later searches are
   /// faster.
   std::int32_t find(std::int32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
   }
   /// Merges the sets that contain i and j.
-  void join(std::int32_t i, std::int32_t j) { parent_[find(i)] = find(j); }
+  void join(std::int32_t i, std::int32_t j) {
+    std::int32_t low = find(i), high = find(j);
+    if (high < low) std::swap(low, high);
+    parent(high) = low;
+  }
 
  private:
+  std::int32_t& parent(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
   std::vector<std::int32_t> parent_;
 };
 

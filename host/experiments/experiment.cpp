@@ -2,6 +2,7 @@
 // experiment.cpp  Reads a scene's experiment and answers questions about it, through the one list of experiments.
 #include "host/experiments/experiment.hpp"
 
+#include "host/run/cracks.hpp"
 #include "host/scene/sections.hpp"
 #include "macadam/error.hpp"
 
@@ -70,8 +71,17 @@ std::vector<std::string> files_of(const Experiment& experiment) {
                     experiment);
 }
 
+std::vector<std::string> files_of_run(const Scene& scene, bool aggregates) {
+  std::vector<std::string> out = {"summary.json", "specimen.csv"};
+  if (aggregates) out.emplace_back("aggregates.csv");
+  if (scene.recipe) out.emplace_back("gradation.csv");
+  for (std::string& name : files_written(scene)) out.push_back(std::move(name));
+  if (scene.output.contacts) out.emplace_back("contacts.csv");
+  return out;
+}
+
 std::vector<std::string> result_files() {
-  std::vector<std::string> out = {"contacts.csv", "summary.json", "cracks.csv"};
+  std::vector<std::string> out = {"contacts.csv", "summary.json", cracks_file};
   for_each_kind([&](const Experiment& experiment) {
     for (const std::string& name : files_of(experiment)) out.push_back(name);
   });

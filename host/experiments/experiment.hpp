@@ -66,6 +66,10 @@ void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_js
 /// preconditioner.
 double solve_seconds(const RunResult& result);
 
+/// Returns the names of all files that a run of the scene leaves in its folder, fields and checkpoints aside.
+/// `aggregates`: whether the specimen is generated and has aggregates.
+std::vector<std::string> files_of_run(const Scene& scene, bool aggregates);
+
 /// Returns the names of all result files that a run of any experiment may leave, including summary.json and
 /// contacts.csv.
 std::vector<std::string> result_files();

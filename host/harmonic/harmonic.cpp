@@ -237,8 +237,8 @@ class Harmonic::Implementation {
     HarmonicResult out;
     out.parts = w.parts;
     const double top = std::abs(out.parts.modulus());
-    const Vec3d& box = specimen_.box.size;
-    const double to_modulus = box.z / (box.x * box.y);  // stress per strain of a unit displacement
+    const double to_modulus =
+        gauge_length(specimen_) / section_area(specimen_);  // stress per strain of a unit displacement
     out.frequency_hz = load.frequency_hz;
     out.growth = load.growth;
     out.linear = w.method;

@@ -68,9 +68,9 @@ std::size_t usual_boxes(std::size_t particles);
 /// Returns the iterative solver: COCG preconditioned by each particle's own stiffness block and by the rigid motions of
 /// boxes of particles. Only the small matrix of the boxes is factored. Up to four tasks are solved side by side.
 /// `backend`: cpu, or cuda on `devices`, where the whole iteration runs. `boxes`: approximate number of boxes, instead
-/// of usual_boxes(). With 0 there are no boxes, only the blocks of single particles. \throws NotIterable when a single
-/// particle can move without force or the specimen has more than six free motions; RunError when a device has too
-/// little memory.
+/// of usual_boxes(). With 0 the preconditioner has only the blocks of single particles. \throws NotIterable when a
+/// single particle can move without force or the specimen has more than six free motions; RunError when a device has
+/// too little memory.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free, Backend backend = Backend::cpu,

@@ -216,8 +216,7 @@ ReducedModel::Solution ReducedModel::solve(const LawTable& laws, const HarmonicL
     out.of_the_motions.tail(free) = -(scale.asDiagonal() * scaled.partialPivLu().solve(right));
   }
   if (!out.of_the_motions.allFinite()) throw RunError("harmonic: no solution between the motions known");
-  const Vec3d& box = specimen_.box.size;
-  const double to_modulus = box.z / (box.x * box.y);
+  const double to_modulus = gauge_length(specimen_) / section_area(specimen_);
   const auto energy = [&](const Matrix& m) -> Complex {  // without conjugates
     return to_modulus * (out.of_the_motions.transpose() * m * out.of_the_motions).value();
   };

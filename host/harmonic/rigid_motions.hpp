@@ -44,7 +44,7 @@ struct FreeMotion {
 /// The load is orthogonal to all of them, because a contact that a motion does not deform does not transfer the motion
 /// of the top wall to it either. So E* is determined although these motions are not.
 struct FreeMotions {
-  std::vector<Pin> pins;            ///< one per motion; they carry no force under a load in equilibrium
+  std::vector<Pin> pins;            ///< one per motion; without force under a load in equilibrium
   std::vector<FreeMotion> motions;  ///< orthonormal with respect to masses and moments of inertia
 };
 

@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "host/base/disjoint_sets.hpp"
 
 namespace macadam::harmonic {
 namespace {
@@ -26,14 +27,9 @@ std::vector<std::vector<std::int32_t>> sliding_parts(const Cluster& cluster, con
                                                      const PairStiffness& stiffness) {
   const std::vector<std::int32_t>& members = cluster.particles;
   const auto index_of = [&](std::int32_t particle) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(members, particle) - members.begin());
+    return static_cast<std::int32_t>(std::ranges::lower_bound(members, particle) - members.begin());
   };
-  std::vector<std::size_t> parent(members.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(members.size());
   bool slides = false;
   for (std::size_t i = 0; i < members.size(); ++i) {
     for (const std::uint32_t number : network.row(static_cast<std::size_t>(members[i]))) {
@@ -43,13 +39,12 @@ std::vector<std::vector<std::int32_t>> sliding_parts(const Cluster& cluster, con
         slides = true;
         continue;
       }
-      const std::size_t a = root(i), b = root(index_of(c.b));
-      parent[std::max(a, b)] = std::min(a, b);  // the root is the first particle
+      sets.join(static_cast<std::int32_t>(i), index_of(c.b));
     }
   }
   if (!slides) return {members};
-  std::map<std::size_t, std::vector<std::int32_t>> parts;
-  for (std::size_t i = 0; i < members.size(); ++i) parts[root(i)].push_back(members[i]);
+  std::map<std::int32_t, std::vector<std::int32_t>> parts;
+  for (std::size_t i = 0; i < members.size(); ++i) parts[sets.find(static_cast<std::int32_t>(i))].push_back(members[i]);
   std::vector<std::vector<std::int32_t>> out;
   for (auto& [first, part] : parts) out.push_back(std::move(part));
   return out;

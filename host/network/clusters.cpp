@@ -3,35 +3,26 @@
 #include "host/network/clusters.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <map>
 #include <string>
+
+#include "host/base/disjoint_sets.hpp"
 
 namespace macadam {
 
 std::vector<Cluster> find_clusters(const ContactNetwork& network, std::size_t particles) {
-  std::vector<std::int32_t> parent(particles);
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](std::int32_t i) {
-    auto at = [&](std::int32_t k) -> std::int32_t& { return parent[static_cast<std::size_t>(k)]; };
-    while (at(i) != i) i = at(i) = at(at(i));
-    return i;
-  };
+  DisjointSets sets(particles);
   for (const Contact& c : network.contacts) {
-    if (c.b < 0) continue;
-    const std::int32_t a = root(c.a), b = root(c.b);
-    // The root of a cluster is its smallest number.
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    if (c.b >= 0) sets.join(c.a, c.b);
   }
   std::map<std::int32_t, Cluster> found;
-  for (std::size_t i = 0; i < particles; ++i) {
-    found[root(static_cast<std::int32_t>(i))].particles.push_back(static_cast<std::int32_t>(i));
-  }
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(particles); ++i) found[sets.find(i)].particles.push_back(i);
   for (const Contact& c : network.contacts) {
-    if (c.b == wall_z_lo) found[root(c.a)].bottom = true;
-    if (c.b == wall_z_hi) found[root(c.a)].top = true;
+    if (c.b == wall_z_lo) found[sets.find(c.a)].bottom = true;
+    if (c.b == wall_z_hi) found[sets.find(c.a)].top = true;
   }
   std::vector<Cluster> out;
-  for (auto& [number, cluster] : found) out.push_back(std::move(cluster));
+  for (auto& [root, cluster] : found) out.push_back(std::move(cluster));
   return out;
 }
 

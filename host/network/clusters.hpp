@@ -2,7 +2,8 @@
 /// \file clusters.hpp  Finds clusters of particles connected by contacts, and the walls that each cluster touches.
 #pragma once
 
-#include <map>
+#include <string>
+#include <string>
 #include <vector>
 
 #include "macadam/contact_network.hpp"

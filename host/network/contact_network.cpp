@@ -47,7 +47,7 @@ bool is_free(const Specimen& specimen, const Facet& f) {
   return std::max(f.a, f.b) >= static_cast<std::int32_t>(specimen.size());
 }
 
-/// Returns the mean area of the facets between particles [m²], or 0 if there are none.
+/// Returns the mean area of the facets between particles [m²]; 0 without such facets.
 double mean_facet_area(const Specimen& specimen, const Tessellation& tessellation) {
   double sum = 0;
   std::int64_t count = 0;

@@ -46,7 +46,7 @@ double reference_static_modulus(const Specimen& specimen, const ContactNetwork& 
   }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(held);
 
-  const double displacement = specimen.box.size.z;  // a unit strain
+  const double displacement = gauge_length(specimen);  // a unit strain
   const Eigen::VectorXd load = stiffness.top_wall * displacement;
   // Forces and moments have different units; dividing moments by the particle's radius makes them comparable.
   const auto size_of = [&](const Eigen::VectorXd& v) {
@@ -69,7 +69,7 @@ double reference_static_modulus(const Specimen& specimen, const ContactNetwork& 
     residual = load - stiffness.K * u;
   }
   const double reaction = stiffness.top_stiffness * displacement - stiffness.top_wall.dot(u);
-  return reaction / (specimen.box.size.x * specimen.box.size.y);
+  return reaction / section_area(specimen);
 }
 
 }  // namespace macadam

@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
+#include <limits>
 
+#include "host/base/disjoint_sets.hpp"
 #include "macadam/error.hpp"
 #include "macadam/ranks.hpp"
 
@@ -16,21 +17,6 @@ using experiments::Cracks;
 using experiments::PairCracks;
 
 namespace {
-
-/// Sets of joined nodes (union-find).
-class Clusters {
- public:
-  explicit Clusters(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  void join(std::size_t i, std::size_t j) { parent_[root(i)] = root(j); }
-  bool joined(std::size_t i, std::size_t j) { return root(i) == root(j); }
-
- private:
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<std::size_t> parent_;
-};
 
 /// Returns a whole number with thousands separators: 12,345.
 std::string grouped(std::int64_t number) {
@@ -99,17 +85,15 @@ std::vector<CrackEvent> CrackWatch::look(const Stepper& stepper, double time) {
 
 bool CrackWatch::joins_walls() const {
   if (of_first_rank(static_cast<double>(found_.points())) == 0 || !joined_at_start_) return true;
-  const std::size_t particles = network_.row_begin.size() - 1, top = particles, held = particles + 1;
-  Clusters clusters(particles + 2);
+  const auto top = static_cast<std::int32_t>(network_.row_begin.size() - 1), held = top + 1;
+  DisjointSets sets(static_cast<std::size_t>(held) + 1);
   for (const Contact& c : network_.contacts) {
     bool intact = false;
     for (std::uint32_t point = c.point_begin; point < c.point_end && !intact; ++point)
       intact = !(active_ && broken_[point]);
-    if (!intact) continue;
-    const std::size_t other = c.b >= 0 ? static_cast<std::size_t>(c.b) : c.b == wall_z_hi ? top : held;
-    clusters.join(static_cast<std::size_t>(c.a), other);
+    if (intact) sets.join(c.a, c.b >= 0 ? c.b : c.b == wall_z_hi ? top : held);
   }
-  return of_first_rank(clusters.joined(top, held)) != 0;
+  return of_first_rank(sets.find(top) == sets.find(held)) != 0;
 }
 
 std::string crack_head() { return "contact,a,b,pair,x,y,z,nx,ny,nz,area_m2,mode,time_s"; }
@@ -121,6 +105,38 @@ std::string crack_line(const Preparation& prepared, const CrackEvent& event) {
                   network.point_s[event.point] * c.s + network.point_t[event.point] * c.t;
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", event.contact, c.a, c.b, to_string(c.pair), x.x, x.y,
                      x.z, c.n.x, c.n.y, c.n.z, network.point_area[event.point], to_string(event.how), event.time_s);
+}
+
+std::vector<double> to_numbers(const std::vector<CrackEvent>& events) {
+  std::vector<double> out;
+  for (const CrackEvent& e : events) {
+    out.insert(out.end(),
+               {static_cast<double>(e.contact), static_cast<double>(e.point), static_cast<double>(e.how), e.time_s});
+  }
+  return out;
+}
+
+std::vector<CrackEvent> to_cracks(const std::vector<double>& numbers) {
+  constexpr std::size_t words = 4;
+  if (numbers.size() % words != 0) {
+    throw InputError(
+        fmt::format("checkpoint: found {} numbers of broken points, expected a multiple of {}", numbers.size(), words));
+  }
+  std::vector<CrackEvent> out;
+  for (std::size_t i = 0; i < numbers.size(); i += words) {
+    const auto whole = [&](std::size_t k, double largest) {
+      const double number = numbers[i + k];
+      if (!(number >= 0 && number <= largest)) {
+        throw InputError(
+            fmt::format("checkpoint: found {} in the list of broken points, expected 0 to {}", number, largest));
+      }
+      return static_cast<std::uint32_t>(number);
+    };
+    constexpr double largest = std::numeric_limits<std::uint32_t>::max();
+    out.push_back({whole(0, largest), whole(1, largest),
+                   static_cast<Break>(whole(2, static_cast<double>(Break::shear))), numbers[i + 3]});
+  }
+  return out;
 }
 
 nlohmann::ordered_json cracks_json(const Cracks& cracks) {
@@ -137,6 +153,14 @@ nlohmann::ordered_json cracks_json(const Cracks& cracks) {
         {"first_s", pair.first_s ? nlohmann::ordered_json(*pair.first_s) : nlohmann::ordered_json()}};
   }
   return out;
+}
+
+nlohmann::ordered_json rupture_json(const experiments::Rupture& r, const Cracks& cracks) {
+  return {{"time_s", r.time_s},
+          {"strain", r.strain},
+          {"time_before_s", r.time_before_s},
+          {"strain_before", r.strain_before},
+          {"words", rupture_words(r, cracks)}};
 }
 
 std::string rupture_words(const experiments::Rupture& r, const Cracks& cracks) {

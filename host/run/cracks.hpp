@@ -54,8 +54,18 @@ std::string crack_head();
 std::string crack_line(const Preparation& prepared, const experiments::CrackEvent& event);
 /// @}
 
+/// Return events as four numbers each, for a checkpoint, and read them back. \throws InputError for numbers that are
+/// not events.
+/// @{
+std::vector<double> to_numbers(const std::vector<experiments::CrackEvent>& events);
+std::vector<experiments::CrackEvent> to_cracks(const std::vector<double>& numbers);
+/// @}
+
 /// Returns `cracks` of summary.json: counts, area [m²] and time of the first event [s] of each pair that can break.
 nlohmann::ordered_json cracks_json(const experiments::Cracks& cracks);
+
+/// Returns `rupture` of summary.json: when and why a test ended early.
+nlohmann::ordered_json rupture_json(const experiments::Rupture& rupture, const experiments::Cracks& cracks);
 
 /// Returns the sentence that says when and why a test ended early.
 std::string rupture_words(const experiments::Rupture& rupture, const experiments::Cracks& cracks);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made (kernels/contact/contact_data.hpp).
+// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made
+// (kernels/contact/contact_data.hpp).
 #include "host/run/skips.hpp"
 
 #include <fmt/format.h>
@@ -24,14 +25,38 @@ std::pair<std::string, std::int64_t> pairs_that(const Scene& scene, const Prepar
   return {names, contacts};
 }
 
+constexpr const char* same_bits = "none: same bits";
+
 }  // namespace
+
+std::vector<Skip> geometry_skips(Geometry geometry, std::optional<double> strain) {
+  if (geometry != Geometry::fixed) return {};
+  return {{"geometry update", "normals and lever arms keep their initial values",
+           strain ? fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
+                                fixed_geometry_error(std::abs(*strain)), *strain)
+                  : "grows as the square of the strain: see docs/accuracy.md"}};
+}
+
+std::vector<Skip> asked_skips(const Scene& scene) {
+  std::vector<Skip> out;
+  if (!scene.network.lateral_walls)
+    out.push_back({"lateral walls", "the sides are free", "free sides, as the scene has them"});
+  if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", same_bits});
+  const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
+  if (cyclic && scene.solver.method == SolverMethod::explicit_ && !scene.output.response) {
+    out.push_back({"observation",
+                   "response.csv is not asked for: only the fitted cycles and the cycle before them are observed",
+                   same_bits});
+  }
+  return out;
+}
 
 std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, ContactForm form, Geometry geometry,
                              std::optional<double> strain) {
-  constexpr const char* none = "none: same bits";
   const bool reference = scene.solver.backend == Backend::reference;
   const bool fixed = geometry == Geometry::fixed;
   std::vector<Skip> out;
+  const auto append = [&](const std::vector<Skip>& more) { out.insert(out.end(), more.begin(), more.end()); };
   const auto [unitless, unitless_count] = pairs_that(scene, prepared, [](const auto& law) { return law.units() == 0; });
   if (unitless_count > 0) {
     out.push_back({"Kelvin units", fmt::format("{} contacts ({}) have none", unitless_count, unitless), "rounding"});
@@ -47,18 +72,13 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   const auto [smooth, smooth_count] =
       pairs_that(scene, prepared, []<class L>(const L& law) { return law.alpha == 0 && !coupled_law<L>; });
   if (smooth_count > 0 && !reference) {
-    out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), none});
+    out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), same_bits});
   }
   if (!reference && nothing_turns(prepared.network, scene.laws)) {
     out.push_back({"rotations", "no shear, and every facet is centred: nothing turns a particle",
                    "first moments below 1e-12 are taken as 0"});
   }
-  if (fixed) {
-    out.push_back({"geometry update", "normals and lever arms are those of the start",
-                   strain ? fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
-                                        fixed_geometry_error(std::abs(*strain)), *strain)
-                          : "grows as the square of the strain: see docs/accuracy.md"});
-  }
+  append(geometry_skips(geometry, strain));
   if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
     out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});
   }
@@ -70,9 +90,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   if (const auto n = prepared.network.dropped_gap; n > 0) {
     out.push_back({"open facets", fmt::format("{} wider than gap_max", n), "another model: compare without gap_max"});
   }
-  if (!scene.network.lateral_walls)
-    out.push_back({"lateral walls", "the sides are free", "free sides, as the scene has them"});
-  if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", none});
+  append(asked_skips(scene));
   return out;
 }
 

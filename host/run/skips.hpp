@@ -9,6 +9,13 @@
 
 namespace macadam {
 
+/// Return those skips that the scene alone decides: the update of the geometry, if `geometry` is fixed, with its effect
+/// at the largest `strain` of the run, if that is known; and walls and files that the scene does not ask for.
+/// @{
+std::vector<Skip> geometry_skips(Geometry geometry, std::optional<double> strain);
+std::vector<Skip> asked_skips(const Scene& scene);
+/// @}
+
 /// Returns the skips of a planned run, which are decided before its first step. `strain`: the largest strain of the
 /// run, if it is known. bench/skips measures each skip.
 std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, ContactForm form, Geometry geometry,

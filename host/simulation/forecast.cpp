@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "host/experiments/cyclic/step_rules.hpp"
+#include "host/run/skips.hpp"
 #include "host/run/step_settings.hpp"
 #include "host/simulation/refused_combinations.hpp"
 #include "host/simulation/measured_costs.hpp"
@@ -32,10 +33,9 @@ StepCost step_cost(const Scene& scene, const Forecast& f) {
 /// Returns the names of the things that the run leaves out.
 std::vector<std::string> skips_of(const Scene& scene, bool stepped, Geometry geometry) {
   std::vector<std::string> out;
-  if (stepped && geometry == Geometry::fixed) out.push_back("geometry update");
-  if (!scene.network.lateral_walls) out.push_back("lateral walls");
-  if (!scene.output.response) out.push_back("response.csv");
-  if (!scene.output.contacts) out.push_back("contacts.csv");
+  if (stepped)
+    for (const Skip& skip : geometry_skips(geometry, {})) out.push_back(skip.what);
+  for (const Skip& skip : asked_skips(scene)) out.push_back(skip.what);
   return out;
 }
 

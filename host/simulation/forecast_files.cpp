@@ -7,6 +7,7 @@
 
 #include "host/experiments/experiment.hpp"
 #include "host/experiments/transient/transient_experiment.hpp"
+#include "host/run/cracks.hpp"
 #include "host/simulation/forecast_parts.hpp"
 
 namespace macadam {
@@ -14,8 +15,8 @@ namespace {
 
 /// Measured bytes per line of a table, or per entry.
 constexpr double particle_line = 97, aggregate_line = 75, contact_line = 175, gradation_line = 90, sample_line = 62,
-                 load_line = 110, sweep_line = 150, material_file = 2500, summary_base = 5500, summary_point = 260,
-                 summary_frequency = 1200;
+                 load_line = 110, crack_line = 190, sweep_line = 150, material_file = 2500, summary_base = 5500,
+                 summary_point = 260, summary_frequency = 1200;
 
 /// Sizes of one series of fields, in bytes per particle or contact.
 struct FieldSize {
@@ -31,24 +32,24 @@ class FileForecast {
   FileForecast(const Scene& scene, Forecast& forecast) : scene_(scene), f_(forecast) {}
 
   void make() {
-    const double particles = static_cast<double>(f_.census.particles());
     const double frequencies = static_cast<double>(frequencies_of(scene_.experiment).size() *
                                                    std::max<std::size_t>(1, temperatures_of(scene_.experiment).size()));
     const double points = static_cast<double>(load_test_of(scene_).history.times.size());
-    add("summary.json", summary_base + summary_frequency * frequencies + summary_point * points);
-    add("specimen.csv", particle_line * particles);
-    if (!scene_.specimen.file && f_.census.aggregates > 0)
-      add("aggregates.csv", 300 + aggregate_line * static_cast<double>(f_.census.aggregates));
-    if (scene_.recipe) add("gradation.csv", 10 * gradation_line);
-    for (const std::string& name : files_written(scene_)) add(name, result_bytes(name, frequencies, points));
-    if (scene_.output.contacts) add("contacts.csv", contact_line * f_.contacts);
+    const bool aggregates = !scene_.specimen.file && f_.census.aggregates > 0;
+    for (const std::string& name : files_of_run(scene_, aggregates)) add(name, bytes_of(name, frequencies, points));
     if (scene_.output.fields.any()) add_fields();
   }
 
  private:
   void add(const std::string& name, double bytes) { f_.files.push_back(name), f_.file_bytes.push_back(bytes); }
 
-  double result_bytes(const std::string& name, double frequencies, double points) const {
+  double bytes_of(const std::string& name, double frequencies, double points) const {
+    if (name == "summary.json") return summary_base + summary_frequency * frequencies + summary_point * points;
+    if (name == "specimen.csv") return particle_line * static_cast<double>(f_.census.particles());
+    if (name == "aggregates.csv") return 300 + aggregate_line * static_cast<double>(f_.census.aggregates);
+    if (name == "gradation.csv") return 10 * gradation_line;
+    if (name == "contacts.csv") return contact_line * f_.contacts;
+    if (name == cracks_file) return crack_line * broken_points();
     if (name == "response.csv") {
       double samples = 0;
       for (const StepForecast& s : f_.steps) samples += s.cycles * scene_.cyclic().samples_per_cycle + 1;
@@ -56,6 +57,17 @@ class FileForecast {
     }
     if (name == "sweep.csv") return 200 + sweep_line * frequencies;
     return name == words_of(load_test_of(scene_).kind).file ? 200 + load_line * points : material_file;
+  }
+
+  /// Returns the number of broken points that the run lists. The load decides it, so this is the order of magnitude for
+  /// a specimen that breaks in two.
+  double broken_points() const {
+    constexpr double points_per_contact = 5.9, broken_part = 0.11;  // of t8 pulled in two
+    const auto part = mean_of_usual(scene_, [](const Law& law) {
+      return std::visit([](const auto& l) { return facts_of(l).breaks ? 1.0 : 0.0; }, law);
+    });
+    const double tests = static_cast<double>(std::max<std::size_t>(1, frequencies_of(scene_.experiment).size()));
+    return tests * broken_part * points_per_contact * part.value_or(0) * f_.contacts;
   }
 
   /// Returns the largest number of Kelvin units of a contact; each unit is an array. The chains of contact points are

@@ -105,9 +105,9 @@ StepForecast load_steps(const Scene& scene, double critical) {
 }
 
 /// Returns stiffest over softest |k*(s)|. The number of iterations grows with its cube root.
-double contrast_at(const Scene& scene, std::complex<double> s) {
+double contrast_at(const LawTable& laws, std::complex<double> s) {
   double softest = INFINITY, stiffest = 0;
-  for (const auto& law : scene.laws) {
+  for (const auto& law : laws) {
     if (!law) continue;
     const double k = std::visit(
         [&]<class L>(const L& l) {
@@ -137,11 +137,13 @@ std::vector<double> forecast_contrasts(const Scene& scene, bool stepped) {
   std::vector<double> out;
   if (first_without_stiffness(scene.laws)) return out;
   if (!frequencies.empty()) {
-    const bool planned = scene.solver.tolerance || (stepped && asked_start(scene) == Start::steady);
-    if (stepped && !planned) return out;
-    const auto temperatures = stepped ? 1 : std::max<std::size_t>(1, temperatures_of(scene.experiment).size());
+    if (stepped && !plans_with_solutions(scene)) return out;
+    std::vector<LawTable> tables;  // one per temperature
+    if (!stepped)
+      for (const double t : temperatures_of(scene.experiment)) tables.push_back(laws_at(scene, t));
+    if (tables.empty()) tables.push_back(scene.laws);
     for (const double f : frequencies)
-      out.insert(out.end(), temperatures, contrast_at(scene, {0, 2 * std::numbers::pi * f}));
+      for (const LawTable& laws : tables) out.push_back(contrast_at(laws, {0, 2 * std::numbers::pi * f}));
     return out;
   }
   // number of solutions for a spectrum, at real s from a decade below to a decade above the inverse times
@@ -149,7 +151,7 @@ std::vector<double> forecast_contrasts(const Scene& scene, bool stepped) {
   const std::vector<double> times = load_test_of(scene).history.times;
   const double low = std::log(0.1 / times.back()), high = std::log(10 / times.front());
   for (int i = 0; i < of_spectrum; ++i)
-    out.push_back(contrast_at(scene, std::exp(low + (high - low) * i / (of_spectrum - 1))));
+    out.push_back(contrast_at(scene.laws, std::exp(low + (high - low) * i / (of_spectrum - 1))));
   return out;
 }
 

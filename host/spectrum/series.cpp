@@ -131,7 +131,7 @@ PronySeries prony_series(const Law& law) {
   PronySeries out;
   double sum = 0;
   for (std::size_t i = 0; i <= apart.size(); ++i) {
-    if (i == 0 && !flows) continue;  // without a dashpot there is no pole at 0 and no zero before the first pole
+    if (i == 0 && !flows) continue;  // without a dashpot the first pole is not at 0, and no zero lies before it
     const bool last = i == apart.size();
     const double fastest = apart.empty() ? chain.E_m / chain.C_m : apart.back().rate;
     const double low =

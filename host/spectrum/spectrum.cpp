@@ -47,8 +47,7 @@ class Finder {
         options_(options),
         model_(specimen, network, {}),
         weights_(make_inertia(specimen, 1, 1)) {
-    const Vec3d& box = specimen.box.size;
-    to_modulus_ = box.z / (box.x * box.y);
+    to_modulus_ = gauge_length(specimen) / section_area(specimen);
   }
 
   Spectrum find() {

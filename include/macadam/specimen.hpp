@@ -61,6 +61,20 @@ struct Specimen {
   int line_of(std::int64_t cell) const { return first_line > 0 ? first_line + static_cast<int>(cell) : 0; }
 };
 
+/// Returns the area of the initial cross-section perpendicular to the load [m²]. The stress of a test is the force on a
+/// loaded wall over this area.
+/// @{
+inline double section_area(const Box& box) { return box.size.x * box.size.y; }
+inline double section_area(const Specimen& specimen) { return section_area(specimen.box); }
+/// @}
+
+/// Returns the initial distance of the two loaded walls [m]. The strain of a test is the displacement of the top wall
+/// over this length.
+/// @{
+inline double gauge_length(const Box& box) { return box.size.z; }
+inline double gauge_length(const Specimen& specimen) { return gauge_length(specimen.box); }
+/// @}
+
 /// Returns a copy in which the voids have become particles, after all other particles.
 Specimen with_voids_as_cells(const Specimen& specimen);
 

@@ -39,8 +39,8 @@ class StepView {
  private:
   const Stepper* stepper_;
   const Preparation* made_;
-  double height_ = made_->specimen.box.size.z;
-  double area_ = made_->specimen.box.size.x * made_->specimen.box.size.y;
+  double height_ = gauge_length(made_->specimen);
+  double area_ = section_area(made_->specimen);
 
  public:
   double frequency_hz;

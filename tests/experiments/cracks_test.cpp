@@ -3,11 +3,13 @@
 // specimen breaks in two.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "host/files/checkpoint_file.hpp"
+#include "host/simulation/forecast.hpp"
 #include "tests/support/stepper_cases.hpp"
 #include "tests/support/test_folder.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -55,8 +57,13 @@ class CracksOfATest : public TestFolder {
                     0.01 * spheres, loading, more));
     return read_scene(folder_ / "column.toml");
   }
+  /// Returns the loading of a test at a constant rate until the specimen breaks.
+  static std::string pulled(int points) {
+    return fmt::format("kind = \"monotonic\"\nrate = 0.1\nstrain = 2e-3\npoints = {}\n", points);
+  }
+  Scene bonded(const std::string& more = "", int points = 40) const { return bonded_scene(pulled(points), more); }
   /// Returns a scene of the specimen t8 with brittle bonds between all particles; it breaks gradually.
-  Scene bonded(const std::string& more = "", int points = 40) const {
+  Scene bonded_scene(const std::string& loading, const std::string& more) const {
     std::string text =
         "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[materials.aggregate]\n"
         "density = 2630.0\n[materials.mastic]\ndensity = 2110.0\n";
@@ -68,9 +75,9 @@ class CracksOfATest : public TestFolder {
     }
     for (const char* pair : {"A-W", "M-W"})
       text += fmt::format("[[contacts]]\npair = \"{}\"\nlaw = \"elastic\"\nE = 1e10\nalpha = 0.1\n", pair);
-    text += fmt::format("[loading]\nkind = \"monotonic\"\nrate = 0.1\nstrain = 2e-3\npoints = {}\n", points);
-    write(folder_ / "bonds.toml",
-          text + "[solver]\nmethod = \"explicit\"\nbackend = \"cpu\"\ndensity_scaling = 1e4\n" + more);
+    write(folder_ / "bonds.toml", text + "[loading]\n" + loading +
+                                      "[solver]\nmethod = \"explicit\"\nbackend = \"cpu\"\ndensity_scaling = 1e4\n" +
+                                      more);
     return read_scene(folder_ / "bonds.toml");
   }
   nlohmann::json summary(const std::string& name) const {
@@ -146,6 +153,83 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
     EXPECT_HAS(read(entry.path()), "Name=\"broken\"");
   }
   EXPECT_EQ(frames, 4);
+}
+
+// The wall pulls in the second half of a cycle with 1.5 times the strain at which the bonds break. It reaches this
+// strain at sin(2πft) = −2/3, which is at 0.6161 of the first cycle. Waves of the abrupt start change the strain of the
+// bonds by up to 2πfAH/c = 8 % of the amplitude at the higher frequency.
+TEST_F(CracksOfATest, ACyclicTestThatBreaksTheSpecimenEndsTheFrequency) {
+  const RunResult result =
+      run(column(4, "kind = \"cyclic\"\nfrequencies = [100.0, 200.0]\nstrain_amplitude = 1.5e-4\n"), out("out"));
+  ASSERT_EQ(result.stepped().frequencies.size(), 2u) << "each frequency begins with an intact specimen";
+  const nlohmann::json all = summary("out");
+  const auto events = rows_of(read(out("out") / "cracks.csv"), std::string("frequency_hz,") + crack_head);
+  ASSERT_EQ(events.size(), 10u);
+  ASSERT_EQ(all.at("warnings").size(), 3u) << all.at("warnings");  // the first: the law has no complex stiffness
+  for (std::size_t i = 0; i < 2; ++i) {
+    const experiments::SteppedFrequency& f = result.stepped().frequencies[i];
+    ASSERT_TRUE(f.rupture);
+    ASSERT_TRUE(f.cracks);
+    EXPECT_EQ(f.cracks->points(), 5);
+    EXPECT_EQ(f.cracks->breakable(), 15);
+    const double looks = 0.02;  // of a cycle, between two counts of broken points
+    const double wave = 0.04;   // of a cycle, in which the strain changes by more than the waves do
+    EXPECT_NEAR(f.rupture->time_s * f.frequency_hz, 0.6161 + 0.5 * looks, wave + 0.5 * looks);
+    EXPECT_NEAR((f.rupture->time_s - f.rupture->time_before_s) * f.frequency_hz, looks, 1e-9);
+    EXPECT_NEAR(f.steps * f.dt_s, f.rupture->time_s, 1e-3 * f.dt_s);
+    EXPECT_TRUE(std::isnan(f.stiffness.e_star_pa));
+
+    const nlohmann::json& test = all.at("results").at(i);
+    EXPECT_TRUE(test.at("e_star_pa").is_null());
+    EXPECT_TRUE(test.at("phase_deg").is_null());
+    EXPECT_EQ(test.at("cracks").at("M-M").at("tension"), 5);
+    EXPECT_EQ(test.at("cracks").at("M-M").at("first_s"), f.rupture->time_s);
+    EXPECT_HAS(test.at("rupture").at("words").get<std::string>(), "no intact contact path joins bottom and top wall");
+    const std::string warning = all.at("warnings").at(i + 1);
+    EXPECT_EQ(warning.rfind(fmt::format("{} Hz: The specimen broke between t = ", f.frequency_hz), 0), 0u) << warning;
+    EXPECT_HAS(warning, "|E*| and phi could not be measured");
+    EXPECT_HAS(results_table(result), fmt::format("{} Hz: The specimen broke between t = ", f.frequency_hz));
+    for (std::size_t k = 5 * i; k < 5 * i + 5; ++k) {
+      EXPECT_EQ(std::stod(events[k].at(0)), f.frequency_hz);
+      EXPECT_EQ(std::stod(events[k].at(13)), f.rupture->time_s);
+    }
+  }
+}
+
+/// A cyclic test below the strength breaks nothing and measures the modulus of the bonds. The inertia of the column
+/// changes it by less than (2πfH/c)² = 0.13 %.
+TEST_F(CracksOfATest, ACyclicTestBelowTheStrengthBreaksNoBond) {
+  const RunResult result =
+      run(column(4, "kind = \"cyclic\"\nfrequencies = [100.0]\nstrain_amplitude = 5e-5\n"), out("out"));
+  const experiments::SteppedFrequency& f = result.stepped().frequencies.at(0);
+  EXPECT_FALSE(f.rupture);
+  EXPECT_EQ(f.cracks.value().points(), 0);
+  EXPECT_NEAR(f.stiffness.e_star_pa / modulus, 1, 5e-3);
+  EXPECT_TRUE(rows_of(read(out("out") / "cracks.csv"), std::string("frequency_hz,") + crack_head).empty());
+  EXPECT_EQ(summary("out").at("results").at(0).at("cracks").at("M-M").at("points"), 0);
+  EXPECT_HAS(results_table(result), "0 of 15 contact points that can break are broken");
+}
+
+/// Interruptions change neither the files nor the counts of a cyclic test that breaks some bonds.
+TEST_F(CracksOfATest, ACyclicTestInPiecesBreaksTheSamePoints) {
+  const Scene asked = bonded_scene(
+      "kind = \"cyclic\"\nfrequencies = [10.0, 40.0]\nstrain_amplitude = 2.5e-4\ncycles = 2\n"
+      "samples_per_cycle = 100\n",
+      "");
+  const RunResult whole = run(asked, out("whole"));
+  for (const experiments::SteppedFrequency& f : whole.stepped().frequencies) {
+    EXPECT_GT(f.cracks.value().points(), 0) << f.frequency_hz;
+    EXPECT_FALSE(f.rupture) << f.frequency_hz;
+    EXPECT_GT(f.stiffness.e_star_pa, 0);
+  }
+  int interrupted = 0;
+  for (const int stop : {2, 9, 20, 15, 0}) interrupted += run_until(asked, "pieces", stop, interrupted > 0);
+  EXPECT_EQ(interrupted, 4);
+  EXPECT_EQ(read(out("pieces") / "response.csv"), read(out("whole") / "response.csv"));
+  EXPECT_EQ(read(out("pieces") / "cracks.csv"), read(out("whole") / "cracks.csv"));
+  for (const std::size_t i : {0, 1}) {
+    EXPECT_EQ(summary("pieces").at("results").at(i).at("cracks"), summary("whole").at("results").at(i).at("cracks"));
+  }
 }
 
 /// Compression does not break bonds, so there is no rupture and no strength.
@@ -237,6 +321,21 @@ TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   expect_same("pieces");
   run(bonded("threads = 2\n", 200), out("two"));
   expect_same("two");
+}
+
+/// The forecast of the size of cracks.csv follows from the number of contacts that can break.
+TEST_F(CracksOfATest, TheForecastOfTheListFollowsFromTheContacts) {
+  const Scene asked = bonded();
+  const auto bytes = [](const Scene& scene) {
+    const Forecast found = forecast(scene);
+    const auto at = std::ranges::find(found.files, "cracks.csv") - found.files.begin();
+    return found.file_bytes.at(static_cast<std::size_t>(at));
+  };
+  run(asked, out("out"));
+  EXPECT_NEAR(std::log(bytes(asked) / static_cast<double>(fs::file_size(out("out") / "cracks.csv"))), 0, std::log(2));
+  // the column has 4 spheres, t8 has 175
+  const Scene small = column(4, "kind = \"monotonic\"\nrate = 0.002\nstrain = 1.5e-4\npoints = 200\n");
+  EXPECT_LT(bytes(small), 0.05 * bytes(asked));
 }
 
 /// Break events in a checkpoint that refer to wrong points, times or kinds are refused.

@@ -64,7 +64,8 @@ class LoadError : public TestFolder {
     return read_scene(folder_ / "pair.toml");
   }
 
-  /// Returns J(t) in closed form: half of the chain's compliance and half of that of the walls' springs.
+  /// Returns J(t) in closed form: half of the compliance of the chain plus half of the compliance of the walls'
+  /// springs.
   static CreepSeries exact_creep() {
     CreepSeries out;
     out.instantaneous = 0.5 / 1e9 + 0.5 / 1e10;
@@ -123,6 +124,22 @@ TEST_F(LoadError, IsTheTrueDifference) {
   EXPECT_GT(large, 4);
 }
 
+/// Returns the largest error that the estimate may state for a row whose true difference is `truth`. The estimate adds
+/// up the largest values of the waves and of the drag, because it does not know their phases.
+///   - Constant rate: the drag makes up nearly all of the difference, and the estimate contains it. Measured: at most
+///     1.36 of the truth.
+///   - A wave that is as large as the load itself gives about 1 (with a load at once up to 1.51), whatever is left of
+///   it.
+///   - Later rows of a specimen whose waves die out quickly: the wave has gone, and so must the estimate. Measured: at
+///     most 4.8 of the truth after a load at once, and 4.7e-4 after a ramp that hardly makes a wave.
+double largest_estimate(const Case& c, std::size_t row, double truth) {
+  const std::string name = c.name;
+  if (name.starts_with("rate")) return 1.5 * truth;
+  if (name == "at once, scaling 1e4" && row > 0) return 5.5 * truth;
+  if (name == "ramp, hardly a wave" && row > 0) return 6e-4;
+  return 1.55 + 0.15 * truth;
+}
+
 // With a law that is not linear, there is no solution without steps, and the error is estimated. Here bonds at the
 // walls could break but do not, so the true difference is known. The estimate must not be below it, and must not be
 // useless.
@@ -137,7 +154,7 @@ TEST_F(LoadError, IsEstimatedWhereALawIsNotLinear) {
     ASSERT_EQ(truth.size(), 4u);
     for (std::size_t i = 0; i < truth.size(); ++i) {
       EXPECT_LE(truth[i], 1.1 * found.points[i].error) << c.name << ", row " << i;
-      EXPECT_LE(found.points[i].error, 3 + 3 * truth[i]) << c.name << ", row " << i;
+      EXPECT_LE(found.points[i].error, largest_estimate(c, i, truth[i])) << c.name << ", row " << i;
     }
     EXPECT_HAS(read(out("out") / (found.kind + ".csv")), "error: estimate for the ");
     bool said = false;

@@ -112,7 +112,7 @@ TEST_F(SteppedLoad, CreepAndRecoveryAreThoseOfTheSpectrum) {
     EXPECT_EQ(std::isnan(p.ratio), !held);
   }
   EXPECT_GT(found.points[3].strain, 1e-3 * largest) << "what has flowed stays";
-  EXPECT_LT(found.points[3].strain, 0.5 * largest) << "what is elastic comes back";
+  EXPECT_LT(found.points[3].strain, 0.5 * largest) << "elastic strain returns";
   EXPECT_LT(found.points[4].strain, found.points[3].strain) << "and goes on to";
   EXPECT_TRUE(summary("out").at("results").at(0).at("points").at(3).at("compliance_1_pa").is_null());
 }

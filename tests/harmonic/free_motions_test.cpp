@@ -82,8 +82,8 @@ std::size_t number_of_free_motions(const TestScene& scene) {
   return found.motions.size();
 }
 
-// A single sphere can rotate about the vertical through its centre. The modulus is that of the wall contacts, for any
-// size and height.
+// A single sphere can rotate about the vertical through its centre. The modulus equals that of the wall contacts, for
+// any size and height.
 TEST_P(FreeMotions, OneSphere) {
   Specimen s = lattice(1, 1, none);
   expect_by_both(make_scene(s, {}, laws_of(0.1, 0.1, 0.1)), of_wall);
@@ -92,7 +92,7 @@ TEST_P(FreeMotions, OneSphere) {
   expect_by_both(make_scene(s, {}, laws_of(0.1, 0.1, 0.1)), of_wall);
 }
 
-/// A column has three free motions. The modulus is that of its contacts in series.
+/// A column has three free motions. The modulus follows from its contacts in series.
 TEST_P(FreeMotions, ColumnsTurnAboutTheirAxis) {
   for (const int n : {2, 3, 7}) {
     const TestScene scene = make_scene(lattice(1, n, every_other), {}, laws_of(0.1, 0.1, 0.1));

@@ -81,8 +81,8 @@ TEST_F(SteppedSpectrum, IsTheCreepAndTheRecovery) {
     const bool rings = now.time < 3 * rise || (now.time > held_until && now.time < held_until + 3 * rise);
     EXPECT_NEAR(last, expected, (rings ? 1e-2 : 1e-4) * largest) << now.time << " s";
   });
-  EXPECT_GT(last, 0.2 * largest) << "what has flowed stays";
-  EXPECT_LT(last, 0.9 * largest) << "what is elastic comes back";
+  EXPECT_GT(last, 0.2 * largest) << "viscous strain remains";
+  EXPECT_LT(last, 0.9 * largest) << "elastic strain returns";
 }
 
 }  // namespace

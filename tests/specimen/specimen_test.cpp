@@ -51,6 +51,16 @@ Specimen two_spheres() {
   return {box, {{0.01, 0.02, 0.03}, {0.04, 0.02, 0.03}}, {0.004, 0.001}, {Phase::aggregate, Phase::mastic}, {0, -1}};
 }
 
+// Stress is force over the cross-section, strain is displacement over the height.
+TEST(LoadedSpecimen, SectionIsWidthTimesDepthAndGaugeLengthIsTheHeight) {
+  Specimen s;
+  s.box.size = {2, 3, 5};
+  EXPECT_EQ(section_area(s), 6);
+  EXPECT_EQ(gauge_length(s), 5);
+  EXPECT_EQ(section_area(s.box), section_area(s));
+  EXPECT_EQ(gauge_length(s.box), gauge_length(s));
+}
+
 TEST_F(SpecimenCsv, RoundTripIsExact) {
   Specimen s = two_spheres();
   // these need 17 digits, 17 digits, and a subnormal number

@@ -10,6 +10,7 @@
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/scene_commands/run_scenes.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
+#include "host/experiments/experiment.hpp"
 #include "macadam/macadam.hpp"
 #include "macadam/overrides.hpp"
 
@@ -63,15 +64,11 @@ void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   line.clear();
   say("{}", results_table(result));
   for (const std::string& warning : result.warnings) say("warning: {}\n", warning);
-  std::string files = "summary.json specimen.csv";
-  const auto add = [&](const std::string& name) {
-    if (std::filesystem::exists(std::filesystem::path(arguments.job.out) / name)) files += " " + name;
-  };
-  if (!scene.specimen.file) add("aggregates.csv");
-  if (scene.recipe) add("gradation.csv");
-  for (const std::string& name : files_of(scene.experiment)) add(name);
-  add("cracks.csv");
-  if (scene.output.contacts) files += " contacts.csv";
+  std::string files;
+  for (const std::string& name : files_of_run(scene, !scene.specimen.file)) {
+    if (!std::filesystem::exists(std::filesystem::path(arguments.job.out) / name)) continue;
+    files += (files.empty() ? "" : " ") + name;
+  }
   if (scene.output.fields.any()) files += " fields/";
   say("\n{} | files in {}: {}\n", result.solver, arguments.job.out, files);
 }

@@ -41,9 +41,8 @@ void choose_precision(const Scene& scene, const Preparation& prepared, Plan& pla
                    : mixed <= share && beyond_mixed.empty() ? Precision::mixed
                                                             : Precision::double_;
   decide(
-      "precision {}: estimated differences from double: single {:.1e}, mixed {:.1e}; no bounds: what was measured is "
-      "at "
-      "most {:.1e} (up to {:.1e} steps) and {:.1e} (up to {:.1e})",
+      "precision {}: estimated differences from double: single {:.1e}, mixed {:.1e}; these are estimates, not bounds: "
+      "the largest measured differences are {:.1e} (up to {:.1e} steps) and {:.1e} (up to {:.1e} steps)",
       to_string(plan.precision), single, mixed, single_measured.largest,
       static_cast<double>(single_measured.up_to.steps), mixed_measured.largest,
       static_cast<double>(mixed_measured.up_to.steps));

@@ -2,6 +2,7 @@
 // cyclic.cpp  Implements the cyclic test for both methods.
 #include "host/experiments/cyclic/methods.hpp"
 #include "host/experiments/experiment.hpp"
+#include "host/run/cracks.hpp"
 
 namespace macadam {
 
@@ -20,8 +21,10 @@ std::unique_ptr<Solution> ExperimentOf<Cyclic>::plan(const Cyclic&, const Scene&
 
 template <>
 std::vector<std::string> ExperimentOf<Cyclic>::files(const Cyclic&, const Scene& scene) {
-  if (scene.solver.method == SolverMethod::harmonic || !scene.output.response) return {};
-  return {"response.csv"};
+  std::vector<std::string> out;
+  if (scene.solver.method == SolverMethod::explicit_ && scene.output.response) out.push_back("response.csv");
+  if (counts_cracks(scene)) out.push_back(cracks_file);
+  return out;
 }
 
 experiments::Frequency frequency_of(const Scene& scene, double frequency_hz, std::optional<double> temperature_c,

@@ -14,7 +14,7 @@ namespace macadam {
 /// Returns the entry of a steady state in `results`.
 nlohmann::ordered_json frequency_json(const experiments::HarmonicFrequency& f, const Scene& scene);
 
-/// Returns a line of titles and one line per steady state.
+/// Returns a table: a line of titles, and a line for each steady state.
 std::string frequency_table(const std::vector<experiments::HarmonicFrequency>& frequencies);
 
 /// Returns the wall time of all frequencies [s].

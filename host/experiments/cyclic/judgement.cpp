@@ -82,7 +82,7 @@ void judge(HarmonicFrequency& f, double stiffest, std::vector<std::string>& warn
   if (largest(walls) > wall_difference) {
     warn(f,
          fmt::format("the bottom wall's reaction differs from the top's by {:.1e} of |E*| and {:.1e} rad: the "
-                     "solution is no better than that (stiffnesses too far apart?)",
+                     "solution is not more accurate than this (stiffnesses too far apart?)",
                      walls.e_star, walls.phase_rad),
          warnings);
   }
@@ -94,7 +94,8 @@ void judge(SteppedFrequency& f, std::optional<double> stiffest, std::optional<do
   if (!stiffest) return;
   std::vector<std::string> faults = faults_of(f, *stiffest);
   if (f.residual() > largest_residual) {
-    faults.push_back(fmt::format("a stress that is no sine: the fit leaves {:.2g} of the amplitude", f.residual()));
+    faults.push_back(
+        fmt::format("a stress that is not a sine: the residual of the fit is {:.2g} of the amplitude", f.residual()));
   }
   f.fault = fmt::format("{}", fmt::join(faults, " and "));
   if (!f.fault.empty()) {
@@ -107,11 +108,12 @@ void judge(SteppedFrequency& f, std::optional<double> stiffest, std::optional<do
         compared ? std::max(std::abs(f.cyclic.change_e_star), std::abs(radians(f.cyclic.change_phase_deg))) : 0;
     if (!f.fault.empty() || change > *tolerance) f.kept = false;
     warn(f,
-         fmt::format(
-             "the tolerance could not be verified, there is no harmonic solution to compare with{}: {}, the fit "
-             "leaves {:.1e} of the amplitude",
-             f.kept ? ", and cannot have been kept" : "",
-             compared ? fmt::format("the last two cycles differ by {:.1e}", change) : "it ran one cycle", f.residual()),
+         fmt::format("the tolerance could not be verified without a harmonic solution{}: {}, the residual of the fit "
+                     "is {:.1e} of "
+                     "the amplitude",
+                     f.kept ? ", and cannot have been kept" : "",
+                     compared ? fmt::format("the last two cycles differ by {:.1e}", change) : "it ran one cycle",
+                     f.residual()),
          warnings);
   } else if (!*f.kept) {
     warn(f, "the tolerance was not kept", warnings);

@@ -42,7 +42,7 @@ class Planner {
     plan_.critical = critical_step(prepared_.network, scene_.laws, inertia_, options);
     choose_start();
     if (scene_.solver.time_step && scene_.solver.safety && (!automatic() || scene_.solver.density_scaling)) {
-      decide("safety has no part in it: time_step is given");
+      decide("safety is not used, because time_step is given");
     }
     plan_frequencies();
     choose_precision(scene_, prepared_, plan_);
@@ -98,9 +98,9 @@ class Planner {
     const bool fixed = plan_.geometry == Geometry::fixed;
     if (automatic()) {
       // carried frames turn while the points move with them, so the two forms differ by the square of the strain
-      decide("form {}: the other gives the same to {}", to_string(plan_.form),
+      decide("form {}: the other form gives the same result to {}", to_string(plan_.form),
              fixed ? "rounding" : fmt::format("about {:.0e}, the square of the strain", strain * strain));
-      decide("geometry {}: at a strain of {:g}, that of the start changes |E*| by at most about {:.1e}",
+      decide("geometry {}: at a strain of {:g}, keeping the initial geometry changes |E*| by at most about {:.1e}",
              to_string(plan_.geometry), strain, error);
     }
     if (fixed) plan_.geometry_error = error;
@@ -129,20 +129,21 @@ class Planner {
   void choose_start() {
     const bool asked = scene_.cyclic().start == Start::steady;
     start_ = asked_start(scene_);
-    if (!automatic() && start_ == Start::rest) return;
+    if (!plans_with_solutions(scene_)) return;
     make_harmonic();
     if (!harmonic_) decide("no harmonic solution: {}", no_harmonic_);
     const bool local = scene_.solver.damping_kind == Damping::local;
     if (local) decide("not linear: local damping, whose own effect is not predicted");
     if (is_strain_large(scene_, plan_.geometry)) {
-      decide("not linear at this strain: the harmonic solution, that of the start's geometry, differs by up to {:.1e}",
-             nonlinear_);
+      decide(
+          "not linear at this strain: the harmonic solution, which has the initial geometry, differs by up to {:.1e}",
+          nonlinear_);
     }
     start_ = harmonic_ ? cyclic_start(scene_, plan_.geometry) : Start::rest;
     if (start_ == Start::steady) {
       decide("steady start from the harmonic solution: the first cycle is periodic");
     } else {
-      decide("start from rest{}", asked ? ", not steady as asked" : "");
+      decide("start from rest{}", asked ? ", not the steady start that the scene asks for" : "");
     }
   }
 
@@ -160,7 +161,8 @@ class Planner {
         out[i] = solution(loads[i]);  // one by one, so that a failed load does not cost the others their solutions
     }
     for (const auto& r : out) {
-      if (r && !r->why_factors.empty()) decide("{} Hz: solved with factors: {}", r->frequency_hz, r->why_factors);
+      if (r && !r->why_factors.empty())
+        decide("{} Hz: solved by the direct solver: {}", r->frequency_hz, r->why_factors);
     }
     return out;
   }
@@ -254,20 +256,23 @@ class Planner {
         error =
             fmt::format("predicted error |E*| {:+.1e}, phi {:+.1e} rad", f.predicted->e_star, f.predicted->phase_rad);
       } else {
-        error = fmt::format("inertia costs about {:.1e} by the height and the slowest wave",
+        error = fmt::format("the error by inertia is about {:.1e}, estimated from the height and the slowest wave",
                             f.density_scaling * inertia_estimate(scene_, prepared_, frequency));
       }
-      if (f.predicted && largest(*f.predicted) + plan_.geometry_error > tolerance()) error += ", more than is asked";
+      if (f.predicted && largest(*f.predicted) + plan_.geometry_error > tolerance())
+        error += ", more than the tolerance";
       decide("{} Hz: density scaling {:.4g}, {} cycle{} of {} steps of {:.3g} s: {}", frequency, f.density_scaling,
              f.cycles, f.cycles == 1 ? "" : "s", f.loading.steps_per_period, f.loading.dt(), error);
     }
     if (f.start == Start::rest && usual_ramp(scene_) > 0) {
       decide("{} Hz: {}", frequency,
-             ramp > 0 ? fmt::format("a ramp of {:g} cycle{}, so that the start rings less", ramp, ramp == 1 ? "" : "s")
-                      : "no ramp: waves of the start stay, which leave 1e-5 to 1e-3 at random");
+             ramp > 0 ? fmt::format("a ramp of {:g} cycle{}, which makes the waves of the start smaller", ramp,
+                                    ramp == 1 ? "" : "s")
+                      : "no ramp: waves of the start remain and change the result by 1e-5 to 1e-3");
     }
     const double share = f.loading.dt() / (plan_.critical.dt * std::sqrt(f.density_scaling));
-    if (share > 1) decide("{} Hz: the given step is {:.2f} of the largest that is surely stable", frequency, share);
+    if (share > 1)
+      decide("{} Hz: the given time step is {:.2f} times the largest step that is surely stable", frequency, share);
   }
 
   /// Returns a loading with a whole number of samples per period and a whole number of steps per sample.

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/run/cracks.hpp"
 #include "macadam/error.hpp"
 
 /// Stores an optional value as the value or as null.
@@ -26,11 +27,16 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorEstimate, e_star, phase_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrequencyPlan, loading, density_scaling, start, cycles, fit_cycles, known, predicted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Plan, form, geometry, precision, geometry_error, critical, frequencies, decisions)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, plan, seconds_planning, seconds, seconds_running, warnings)
+namespace experiments {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Rupture, time_s, strain, time_before_s, strain_before)
+}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrequencyCracks, rupture, time_s, strain)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, plan, seconds_planning, seconds, seconds_running, warnings, cracks)
 
 namespace {
 
-constexpr const char *plan_text = "plan", *samples_array = "samples", *motion_prefix = "motion of frequency ";
+constexpr const char *plan_text = "plan", *samples_array = "samples", *motion_prefix = "motion of frequency ",
+                     *cracks_prefix = "cracks of frequency ";
 constexpr std::size_t sample_words = 4;
 
 }  // namespace
@@ -53,6 +59,12 @@ RunState to_run_state(Checkpoint checkpoint, const std::filesystem::path& file) 
         out.samples.push_back({word[0], word[1], word[2], word[3]});
       }
     }
+    for (std::size_t i = 0; i < out.cracks.size(); ++i) {
+      if (array.name != cracks_prefix + std::to_string(i)) continue;
+      try {
+        out.cracks[i].events = to_cracks(*values);
+      } catch (const InputError& error) { damaged(error.what()); }
+    }
     for (std::size_t i = 0; i < out.plan.frequencies.size(); ++i) {
       if (array.name != motion_prefix + std::to_string(i)) continue;
       for (std::size_t k = 0; k + 1 < values->size(); k += 2) {
@@ -61,6 +73,7 @@ RunState to_run_state(Checkpoint checkpoint, const std::filesystem::path& file) 
     }
   }
   if (out.seconds.size() >= out.plan.frequencies.size()) damaged("no frequency that is still to be run");
+  if (out.cracks.size() != out.plan.frequencies.size()) damaged("another number of frequencies in the list of cracks");
   if (out.state.empty()) damaged("no state");
   return out;
 }
@@ -74,6 +87,10 @@ void add_to(Checkpoint& out, const RunState& at, double seconds_running) {
     samples.insert(samples.end(), {s.frequency_hz, s.time_s, s.strain, s.stress_pa});
   }
   out.arrays.push_back({samples_array, "Hz, s, 1, Pa", std::move(samples)});
+  for (std::size_t i = 0; i < at.cracks.size(); ++i) {
+    if (at.cracks[i].events.empty()) continue;
+    out.arrays.push_back({cracks_prefix + std::to_string(i), "1, 1, 1, s", to_numbers(at.cracks[i].events)});
+  }
   // frequencies that have not been started
   for (std::size_t i = at.seconds.size() + 1; i < at.plan.frequencies.size(); ++i) {
     std::vector<double> motion;

@@ -10,6 +10,13 @@
 
 namespace macadam {
 
+/// Broken contact points of one frequency.
+struct FrequencyCracks {
+  std::vector<experiments::CrackEvent> events;
+  std::optional<experiments::Rupture> rupture;  ///< why the steps of this frequency ended early, if they did
+  double time_s = 0, strain = 0;                ///< at the sample at which the points were looked at last
+};
+
 /// Everything that a stepped run needs to continue with the same bits. The results of finished frequencies follow from
 /// plan and samples.
 struct RunState {
@@ -19,6 +26,7 @@ struct RunState {
   double seconds_running = 0;           ///< of the running frequency, until now
   std::vector<std::string> warnings;    ///< about checkpoints that could not be written
   std::vector<ResponseSample> samples;  ///< of all frequencies until now
+  std::vector<FrequencyCracks> cracks;  ///< of each frequency of the plan; empty for those that have not begun
   std::vector<StateArray> state;  ///< Stepper::state() of the running frequency; set only when read from a checkpoint
 };
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <future>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "host/run/skips.hpp"
 #include "host/harmonic/law_stiffness.hpp"
 #include "host/files/result_files.hpp"
+#include "host/experiments/cyclic/finished_frequency.hpp"
 #include "host/experiments/cyclic/run_state.hpp"
 #include "host/run/error_model.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
@@ -35,35 +35,8 @@ namespace {
 
 /// The part of the tolerance that stepping in blocks may take.
 constexpr double block_share = 0.02;
-
-/// Returns the samples of one frequency, which are contiguous and begin at number `first`.
-std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
-                                           double frequency) {
-  std::size_t end = first;
-  while (end < samples.size() && samples[end].frequency_hz == frequency) ++end;
-  return std::span(samples).subspan(first, end - first);
-}
-
-/// Returns the result of a finished frequency.
-SteppedFrequency finished(const Scene& scene, const Plan& whole, std::size_t number,
-                          std::span<const ResponseSample> samples, double seconds) {
-  const FrequencyPlan& plan = whole.frequencies[number];
-  const double frequency = plan.loading.frequency;
-  const CyclicResult cyclic = evaluate_cyclic(samples, frequency, plan.fit_cycles);
-  SteppedFrequency f;
-  static_cast<experiments::Frequency&>(f) =
-      frequency_of(scene, frequency, scene.materials.temperature, plan.density_scaling, cyclic.fit, seconds);
-  f.cyclic = cyclic;
-  f.dt_s = plan.loading.dt();
-  f.cycles = plan.cycles;
-  f.start = plan.start;
-  f.steps = plan.loading.steps_per_period * plan.cycles;
-  f.predicted = plan.predicted;
-  const std::optional<double>& tolerance = scene.solver.tolerance;
-  if (plan.known) f.achieved = difference(f.stiffness, *plan.known);
-  if (plan.known && tolerance) f.kept = largest(*f.achieved) + whole.geometry_error <= *tolerance;
-  return f;
-}
+/// Number of times per cycle at which broken contact points are counted. Reading them takes longer than a step.
+constexpr std::int64_t looks_per_cycle = 50;
 
 /// Returns the options that the steppers of all frequencies have in common.
 StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
@@ -80,9 +53,9 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
                    !kernels::blocks_are_exact(plan.geometry, facts_of(scene.laws));
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
-  plan.decisions.push_back(
-      fmt::format("laws settled {:.0f} times in the shortest time of load and laws: that costs at most {:.1e}",
-                  std::ceil(blocks), block_error(blocks)));
+  plan.decisions.push_back(fmt::format(
+      "viscoelastic states are updated {:.0f} times in the shortest time of load and laws: the error is at most {:.1e}",
+      std::ceil(blocks), block_error(blocks)));
 }
 
 /// Returns the stepper of one frequency. It continues from `from`, a checkpoint's state, unless that is empty;
@@ -144,11 +117,6 @@ class Steps : public Solution {
     found.critical_dt_s = at_.plan.critical.dt;
     found.seconds_planning = at_.seconds_planning;
     result.skips = find_skips(scene_, prepared_, at_.plan.form, at_.plan.geometry, scene_.cyclic().strain_amplitude);
-    if (!scene_.output.response) {
-      result.skips.push_back({"observation",
-                              "response.csv is not asked for: only the fitted cycles and the one before are observed",
-                              "none: same bits"});
-    }
     result.warnings = at_.warnings;
     for (std::size_t i = 0; i < at_.seconds.size(); ++i) finish(i, result);
   }
@@ -161,12 +129,14 @@ class Steps : public Solution {
       writer.emplace(out / "response.csv", "frequency_hz,time_s,strain,stress_pa");
       for (const ResponseSample& s : at_.samples) writer->add(line_of(s));  // no sample is lost or written twice
     }
+    begin_cracks(out);
     for (std::size_t i = at_.seconds.size(); i < at_.plan.frequencies.size(); ++i) {
       step(i, writer ? &*writer : nullptr, courses, save, result);
       finish(i, result);
       owns_checkpoint_ = courses.own_checkpoint();
     }
     if (writer) writer->close();
+    if (cracks_writer_) cracks_writer_->close();
     require_sense(scene_, result.stepped());
   }
 
@@ -231,25 +201,53 @@ class Steps : public Solution {
     result.solver = stepper_->description();
     std::get<SteppedCyclic>(result.found).bytes = stepper_->bytes();
     save("running");
-    const Course course = course_of(i, writer, [&](Checkpoint& to) { add_to(to, at_, before + seconds_since(start)); });
+    CrackWatch cracks(scene_, prepared_, at_.cracks[i].events);
+    const Course course =
+        course_of(i, writer, cracks, [&](Checkpoint& to) { add_to(to, at_, before + seconds_since(start)); });
     courses.begin_fields(fmt::format("{}Hz", p.loading.frequency), scene_.cyclic().samples_per_cycle,
                          stepper_->observe().time);
     courses.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
-    warn_of_cracks(course, result);
+    warn_of_cracks(i, cracks.found(), result);
     at_.seconds.push_back(before + seconds_since(start));
   }
 
+  /// Creates cracks.csv if a law of the scene can break, and writes the events of a checkpoint into it.
+  void begin_cracks(const std::filesystem::path& out) {
+    if (!counts_cracks(scene_)) return;
+    cracks_writer_.emplace(out / cracks_file, "frequency_hz," + crack_head());
+    for (std::size_t i = 0; i < at_.cracks.size(); ++i) write_cracks(i, at_.cracks[i].events);
+  }
+  void write_cracks(std::size_t i, const std::vector<experiments::CrackEvent>& events) {
+    for (const experiments::CrackEvent& event : events) {
+      cracks_writer_->add(
+          fmt::format("{},{}", at_.plan.frequencies[i].loading.frequency, crack_line(prepared_, event)));
+    }
+  }
+
+  /// Counts the points that are broken at a sample of frequency i. When the top wall pulls and no intact path joins the
+  /// walls, the steps of this frequency end. In compression broken points still bear load.
+  void look_for_cracks(std::size_t i, CrackWatch& watch, const Observation& now) {
+    FrequencyCracks& cracks = at_.cracks[i];
+    write_cracks(i, watch.look(*stepper_, now.time));
+    cracks.events = watch.found().events;
+    const double strain = now.top_displacement() / gauge_length(prepared_.specimen);
+    if (strain > 0 && !watch.joins_walls()) cracks.rupture = {now.time, strain, cracks.time_s, cracks.strain};
+    cracks.time_s = now.time, cracks.strain = strain;
+  }
+
   /// Warns of points that broke during a frequency: the specimen changed while its |E*| was measured.
-  void warn_of_cracks(const Course& course, RunResult& result) {
-    CrackWatch cracks(scene_, prepared_);
-    if (!cracks.active()) return;
-    cracks.look(*stepper_, static_cast<double>(stepper_->observe().step) * course.dt);
-    if (cracks.found().points() > 0) warn(fmt::format("{}: {}", course.name, cracks_words(cracks.found())), result);
+  void warn_of_cracks(std::size_t i, const experiments::Cracks& found, RunResult& result) {
+    const std::string name = fmt::format("{} Hz", at_.plan.frequencies[i].loading.frequency);
+    if (const auto& rupture = at_.cracks[i].rupture) {
+      warn(fmt::format("{}: {} |E*| and phi could not be measured.", name, rupture_words(*rupture, found)), result);
+    } else if (found.points() > 0) {
+      warn(fmt::format("{}: {}", name, cracks_words(found)), result);
+    }
   }
 
   /// Returns the course of a frequency. Every sample is stored in `at_` and written at once. Without a writer, only the
-  /// fitted cycles and the one before them, which shows the change from cycle to cycle, are kept.
-  Course course_of(std::size_t i, LineWriter* writer, const Content& content) {
+  /// fitted cycles and the cycle before them are kept; this cycle shows the change from cycle to cycle.
+  Course course_of(std::size_t i, LineWriter* writer, CrackWatch& cracks, const Content& content) {
     const FrequencyPlan& p = at_.plan.frequencies[i];
     const std::int64_t per_cycle = scene_.cyclic().samples_per_cycle, per_period = p.loading.steps_per_period;
     const std::int64_t stride = per_period / per_cycle;
@@ -261,13 +259,20 @@ class Steps : public Solution {
     course.first = (stepper_->observe().step + stride - 1) / stride;
     course.last = p.cycles * per_cycle;
     course.step_of = [stride](std::int64_t k) { return k * stride; };
-    course.taken = [=](std::int64_t k) { return k >= kept || k % per_cycle == 0; };
-    course.take = [=, this, &p](std::int64_t k, const Observation& now) {
+    const std::int64_t between_looks = std::max<std::int64_t>(1, per_cycle / looks_per_cycle);
+    const auto looks = [=, active = cracks.active()](std::int64_t k) {
+      return active && (k % between_looks == 0 || k % per_cycle == 0);
+    };
+    course.looks_at_stepper = cracks.active();
+    course.ended = [this, i] { return at_.cracks[i].rupture.has_value(); };
+    course.taken = [=](std::int64_t k) { return k >= kept || k % per_cycle == 0 || looks(k); };
+    course.take = [=, this, &p, &cracks](std::int64_t k, const Observation& now) {
+      if (looks(k)) look_for_cracks(i, cracks, now);
       if (k < kept) return;
-      const Vec3d& box = prepared_.specimen.box.size;
+      const Specimen& specimen = prepared_.specimen;
       // particles pull a wall that moves away from them
-      at_.samples.push_back(
-          {p.loading.frequency, now.time, now.top_displacement() / box.z, -now.top_force() / (box.x * box.y)});
+      at_.samples.push_back({p.loading.frequency, now.time, now.top_displacement() / gauge_length(specimen),
+                             -now.top_force() / section_area(specimen)});
       if (writer) writer->add(line_of(at_.samples.back()));
     };
     course.shown = [=, this, &p](std::int64_t step, double steps_a_second) {
@@ -283,7 +288,11 @@ class Steps : public Solution {
     const auto samples = samples_of(at_.samples, samples_read_, at_.plan.frequencies[i].loading.frequency);
     samples_read_ += samples.size();
     auto& frequencies = std::get<SteppedCyclic>(result.found).frequencies;
-    SteppedFrequency& f = frequencies.emplace_back(finished(scene_, at_.plan, i, samples, at_.seconds[i]));
+    const FrequencyCracks& cracks = at_.cracks[i];
+    SteppedFrequency& f =
+        frequencies.emplace_back(finished_frequency(scene_, at_.plan, i, samples, at_.seconds[i], cracks.rupture));
+    if (counts_cracks(scene_)) f.cracks = CrackWatch(scene_, prepared_, cracks.events).found();
+    if (f.rupture) return;
     const bool linear = !first_without_stiffness(scene_.laws);
     judge(f, linear ? std::optional(stiffest_contact(scene_, prepared_.network, f.frequency_hz)) : std::nullopt,
           scene_.solver.tolerance, result.warnings);
@@ -298,7 +307,8 @@ class Steps : public Solution {
   bool may_move_ = true;              ///< whether the run may move to other devices
   std::unique_ptr<Stepper> stepper_;  ///< of the running frequency, or of the first to run
   bool used_ = false;                 ///< whether the stepper has run a frequency
-  std::size_t samples_read_ = 0;      ///< number of samples of finished frequencies
+  std::optional<LineWriter> cracks_writer_;
+  std::size_t samples_read_ = 0;  ///< number of samples of finished frequencies
   bool owns_checkpoint_;
   std::future<StartState> next_start_;  ///< of the next frequency; the last member, because its thread uses the others
 };
@@ -315,11 +325,12 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
     at = to_run_state(std::move(resumed->checkpoint), resumed->file);
   } else {
     at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
+    at.cracks.resize(at.plan.frequencies.size());
     decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
       at.warnings.push_back(fmt::format(
-          "law {} of {} has no complex stiffness: |E*| and phi are those of the fundamental of the measured "
-          "loops, at this amplitude and after these cycles, and no frequency domain judges them",
+          "law {} of {} has no complex stiffness: |E*| and phi are computed from the fundamental of the "
+          "measured loops, at this amplitude and after these cycles, and are not compared with a harmonic solution",
           without->law, to_string(without->pair)));
     }
     at.seconds_planning = seconds_since(start);

@@ -40,7 +40,9 @@ Start cyclic_start(const Scene& scene, Geometry geometry) {
   return possible ? asked_start(scene) : Start::rest;
 }
 
-double usual_ramp(const Scene& scene) { return scene.solver.tolerance || asked_start(scene) == Start::steady ? 1 : 0; }
+bool plans_with_solutions(const Scene& scene) { return scene.solver.tolerance || asked_start(scene) == Start::steady; }
+
+double usual_ramp(const Scene& scene) { return plans_with_solutions(scene) ? 1 : 0; }
 
 CycleCount count_cycles(const Scene& scene, Start start) {
   const experiments::Cyclic& test = scene.cyclic();

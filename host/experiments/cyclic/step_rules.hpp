@@ -28,9 +28,13 @@ bool is_strain_large(const Scene& scene, Geometry geometry);
 /// Returns the start of the scene. If it gives none, returns the steady start if there is a tolerance and no ramp,
 /// otherwise the start from rest.
 Start asked_start(const Scene& scene);
-/// Returns the start, as far as the scene alone decides it. It is also from rest if there is no periodic solution
-/// because of damping, strain or a law.
+/// Returns the start, as far as the scene alone decides it. It is also from rest if damping, strain or a law
+/// excludes a periodic solution.
 Start cyclic_start(const Scene& scene, Geometry geometry);
+
+/// Returns whether the plan of a stepped test solves its frequencies without time steps: to predict errors, if there is
+/// a tolerance, and for a steady start.
+bool plans_with_solutions(const Scene& scene);
 
 /// Cycles of one frequency: all, those that are fitted, and those in which the amplitude grows.
 struct CycleCount {

@@ -5,6 +5,7 @@
 
 #include "host/experiments/cyclic/frequency_summary.hpp"
 #include "host/experiments/experiment.hpp"
+#include "host/run/cracks.hpp"
 #include "host/run/step_settings.hpp"
 
 namespace macadam {
@@ -66,6 +67,8 @@ Json stepped_json(const SteppedFrequency& f, const Scene& scene) {
   out["start"] = to_string(f.start);
   if (f.predicted) out["predicted_error"] = error_json(*f.predicted);
   if (f.achieved) out["difference_from_harmonic"] = error_json(*f.achieved);
+  if (f.cracks) out["cracks"] = cracks_json(*f.cracks);
+  if (f.rupture) out["rupture"] = rupture_json(*f.rupture, *f.cracks);
   if (scene.solver.tolerance) out["tolerance_kept"] = f.kept ? Json(*f.kept) : Json();
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include "host/experiments/cyclic/frequency_summary.hpp"
 #include "host/experiments/experiment.hpp"
+#include "host/run/cracks.hpp"
 
 namespace macadam {
 
@@ -72,6 +73,11 @@ std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
     const double phase = f.achieved ? f.achieved->phase_rad : f.cyclic.change_phase_deg;
     out += begun(f, warm(found.frequencies)) + fmt::format(" {:>11.1e} {:>9.1e} {:>9.5g} {:>10} {:>9.1f}\n", e_star,
                                                            phase, f.density_scaling, f.steps, f.seconds);
+  }
+  for (const SteppedFrequency& f : found.frequencies) {
+    if (!f.cracks) continue;
+    const std::string words = f.rupture ? rupture_words(*f.rupture, *f.cracks) : cracks_words(*f.cracks);
+    out += fmt::format("{} Hz: {}\n", f.frequency_hz, words);
   }
   if (known)
     out += fmt::format("err: against the harmonic solution at true mass, {} relative, phi in radians\n", modulus);

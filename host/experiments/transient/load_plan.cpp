@@ -138,9 +138,9 @@ LoadPlan make_load_plan(const TransientExperiment& test, const Scene& scene, con
 Boundary boundary_of(const TransientExperiment& test, const LoadPlan& plan, const Box& box) {
   Boundary out;
   if (test.by_stress) {
-    out.load(wall_z_hi, 2, test.drive(box.size.x * box.size.y, plan.dt, plan.ramp), plan.platen_mass);
+    out.load(wall_z_hi, 2, test.drive(section_area(box), plan.dt, plan.ramp), plan.platen_mass);
   } else {
-    out.move(wall_z_hi, 2, test.drive(box.size.z, plan.dt, plan.ramp));
+    out.move(wall_z_hi, 2, test.drive(gauge_length(box), plan.dt, plan.ramp));
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/run/checkpoints.hpp"
+#include "host/run/cracks.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -26,7 +27,7 @@ namespace {
 
 constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks",
                      *unstepped_array = "unstepped";
-constexpr std::size_t point_words = 9, crack_words = 4;
+constexpr std::size_t point_words = 9;
 
 /// Returns the error and the long-term modulus, then modulus and time of each unit.
 std::vector<double> to_numbers(const UnsteppedAnswer& answer) {
@@ -58,22 +59,19 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
       if (!values || values->size() < 2 || values->size() % 2 != 0) damaged("array " + array.name + " of another kind");
       out.unstepped = from_numbers(*values);
     }
-    if (array.name != points_array && array.name != cracks_array) continue;
-    const bool points = array.name == points_array;
-    const std::size_t words = points ? point_words : crack_words;
-    if (!values || values->size() % words != 0) damaged("array " + array.name + " of another kind");
-    for (std::size_t i = 0; i < values->size(); i += words) {
+    if (array.name == cracks_array) {
+      if (!values) damaged("array " + array.name + " of another kind");
+      try {
+        out.cracks = to_cracks(*values);
+      } catch (const InputError& error) { damaged(error.what()); }
+    }
+    if (array.name != points_array) continue;
+    if (!values || values->size() % point_words != 0) damaged("array " + array.name + " of another kind");
+    for (std::size_t i = 0; i < values->size(); i += point_words) {
       const double* w = &(*values)[i];
-      const auto number = [&](std::size_t k) {
-        if (!(w[k] >= 0 && w[k] <= std::numeric_limits<std::uint32_t>::max()))
-          damaged(fmt::format("{} in array {}", w[k], array.name));
-        return static_cast<std::uint32_t>(w[k]);
-      };
-      if (points) {
-        out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7], number(8)});
-      } else {
-        out.cracks.push_back({number(0), number(1), static_cast<Break>(number(2)), w[3]});
-      }
+      if (!(w[8] >= 0 && w[8] <= std::numeric_limits<std::uint32_t>::max()))
+        damaged(fmt::format("{} in array {}", w[8], array.name));
+      out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7], static_cast<std::int64_t>(w[8])});
     }
   }
   if (out.state.empty()) damaged("no state");
@@ -88,12 +86,7 @@ void add_to(Checkpoint& out, const LoadState& at) {
                                  static_cast<double>(p.broken_points)});
   }
   out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1", std::move(points)});
-  std::vector<double> cracks;
-  for (const experiments::CrackEvent& c : at.cracks) {
-    cracks.insert(cracks.end(),
-                  {static_cast<double>(c.contact), static_cast<double>(c.point), static_cast<double>(c.how), c.time_s});
-  }
-  out.arrays.push_back({cracks_array, "1, 1, 1, s", std::move(cracks)});
+  out.arrays.push_back({cracks_array, "1, 1, 1, s", to_numbers(at.cracks)});
   if (at.unstepped) out.arrays.push_back({unstepped_array, "1, Pa, then Pa, s", to_numbers(*at.unstepped)});
 }
 

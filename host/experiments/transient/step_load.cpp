@@ -190,8 +190,8 @@ class SteppedLoad : public Solution {
   bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
   /// Keeps the largest stress so far, with its time and strain.
   void follow_peak(const Observation& now) {
-    const Vec3d& box = prepared_.specimen.box.size;
-    const double strain = now.top_displacement() / box.z, stress = -now.top_force() / (box.x * box.y);
+    const Box& box = prepared_.specimen.box;
+    const double strain = now.top_displacement() / gauge_length(box), stress = -now.top_force() / section_area(box);
     const double sign = std::copysign(1.0, strain);
     if (sign * stress > sign * at_.peak.stress_pa) at_.peak = {now.time, strain, stress};
   }
@@ -246,11 +246,11 @@ class SteppedLoad : public Solution {
 
   /// Returns the point at the stepper's present step.
   SteppedPoint point(const Observation& now) const {
-    const Vec3d& box = prepared_.specimen.box.size;
-    const double area = box.x * box.y, load = drive_->value(now.step) / area + 0.0;  // + 0.0 turns −0 into 0
+    const double area = section_area(prepared_.specimen),
+                 load = drive_->value(now.step) / area + 0.0;  // + 0.0 turns −0 into 0
     SteppedPoint out{};
     out.time_s = now.time;
-    out.strain = now.top_displacement() / box.z;
+    out.strain = now.top_displacement() / gauge_length(prepared_.specimen);
     out.top_pa = -now.top_force() / area;  // particles pull a wall that moves away from them
     out.bottom_pa = now.wall_force[wall_index(wall_z_lo)].z / area;
     out.kinetic_j = at_.plan.density_scaling * kinetic_energy(stepper_->particles(), inertia_);

@@ -48,16 +48,6 @@ void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
   out["strain_at_peak"] = passed ? nlohmann::ordered_json(found.peak->strain) : nlohmann::ordered_json();
 }
 
-void add_rupture(const SteppedResponse& found, nlohmann::ordered_json& out) {
-  if (!found.rupture) return;
-  const experiments::Rupture& r = *found.rupture;
-  out["rupture"] = {{"time_s", r.time_s},
-                    {"strain", r.strain},
-                    {"time_before_s", r.time_before_s},
-                    {"strain_before", r.strain_before},
-                    {"words", rupture_words(r, *found.cracks)}};
-}
-
 }  // namespace
 
 template <>
@@ -79,7 +69,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     add_load(load_test_of(scene), out);
     out["ramp_s"] = found.ramp_s;
     if (measures_strength(found)) add_strength(found, out);
-    add_rupture(found, out);
+    if (found.rupture) out["rupture"] = rupture_json(*found.rupture, *found.cracks);
     if (found.platen_mass_kg > 0) out["platen_mass_kg"] = found.platen_mass_kg;
     for (const SteppedPoint& p : found.points) {
       Json point = point_json(words, p);

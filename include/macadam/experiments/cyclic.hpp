@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "macadam/experiments/cracks.hpp"
 #include "macadam/experiments/frequency.hpp"
 #include "macadam/experiments/stepped.hpp"
 
@@ -52,6 +53,10 @@ struct SteppedFrequency : Frequency {
   std::optional<bool> kept;
   /// Relative to the harmonic solution at true mass, if there is one.
   std::optional<ErrorEstimate> predicted, achieved;
+  /// Contact points that broke; empty if no law of the scene can break. Each frequency begins with an intact specimen.
+  std::optional<Cracks> cracks = {};
+  /// Why the steps of this frequency ended early, if they did. |E*| and φ are then NaN.
+  std::optional<Rupture> rupture = {};
 
   double residual() const { return cyclic.fit_rms; }  ///< rms of the stress that the fit leaves, over its amplitude
 };

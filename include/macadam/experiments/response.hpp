@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "macadam/experiments/cracks.hpp"
 #include "macadam/experiments/material.hpp"
 #include "macadam/experiments/stepped.hpp"
 
@@ -56,6 +57,7 @@ struct SteppedResponse : Stepped {
   double kinetic_share = 0;  ///< largest kinetic energy / (largest stress · largest strain · volume / 2)
   double seconds = 0;        ///< wall time of the stepping; for a resumed run, of all its processes
 
+  std::optional<Cracks> cracks = {};    ///< empty if no law of the scene can break
   std::optional<Rupture> rupture = {};  ///< why the test ended early, if it did
   std::optional<Peak> peak = {};        ///< constant rate only, and only if a law of the scene can break
 

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "macadam/backend.hpp"
-#include "macadam/experiments/cracks.hpp"
 
 namespace macadam::experiments {
 
@@ -24,7 +23,6 @@ struct Stepped {
   std::int64_t bytes = 0;               ///< Stepper::bytes()
   std::int32_t critical_particle = -1;  ///< the particle that determines the critical step; −1: the platen
   double critical_dt_s = 0;             ///< the critical step at true mass
-  std::optional<Cracks> cracks = {};    ///< empty if no law of the scene can break
 };
 
 }  // namespace macadam::experiments

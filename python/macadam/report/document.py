@@ -170,10 +170,11 @@ def _strength(f: Folder) -> str:
     return f"strength of {look.modulus(stress)} at a strain of {look.number(1e6 * strain, 3)} µm/m"
 
 
-def _broken(f: Folder) -> str:
-    """Returns how many contact points broke, by pair, in a sentence; empty if no law can break."""
-    pairs = {pair: c for pair, c in (f.summary.get("cracks") or {}).items() if c["points"]}
-    if "cracks" not in f.summary:
+def _broken(result: dict[str, Any]) -> str:
+    """Returns how many contact points broke, by pair, in a sentence; empty if no law can break. `result` has the
+    `cracks` of a test or of one frequency."""
+    pairs = {pair: c for pair, c in (result.get("cracks") or {}).items() if c["points"]}
+    if "cracks" not in result:
         return ""
     if not pairs:
         return "No contact point is broken."
@@ -207,11 +208,15 @@ def _summary_sentences(f: Folder) -> list[str]:
         rupture = (f.in_time.get("rupture") or {}).get("words")
         if rupture and rupture not in (s.get("warnings") or []):  # a warning is shown already
             words.append(rupture)
-        words += [w for w in [_broken(f)] if w]
-    elif f.kind == "run":
+        words += [w for w in [_broken(f.summary)] if w]
+    elif f.kind == "run" and not f.results:
         words.append("The folder holds the specimen and its contacts; no test was run in it.")
+    elif f.kind == "run":
+        words.append("The specimen broke at every frequency, so no modulus was measured.")
     elif fits.main_result(f):
         words.append(f"Found: {fits.main_result(f)}.")
     else:
         words.append(f"The folder holds a {_KINDS[f.kind]}.")
+    by_frequency = [r for r in f.results if "frequency_hz" in r and "cracks" in r]
+    words += [f"At {look.hertz(r['frequency_hz'])}: {_broken(r)}" for r in by_frequency]
     return words

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file finished_frequency.hpp  Computes the result of a stepped frequency from its samples.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "host/experiments/cyclic/plan.hpp"
+
+namespace macadam {
+
+/// Returns the samples of one frequency, which are contiguous and begin at number `first`.
+std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
+                                           double frequency);
+
+/// Returns the result of frequency `number` of a plan. `samples`: of this frequency. `seconds`: wall time [s].
+/// `rupture`: why its steps ended early, if they did; its numbers are then NaN.
+experiments::SteppedFrequency finished_frequency(const Scene& scene, const Plan& whole, std::size_t number,
+                                                 std::span<const ResponseSample> samples, double seconds,
+                                                 const std::optional<experiments::Rupture>& rupture);
+
+}  // namespace macadam
