@@ -13,7 +13,7 @@
 #include "kernels/cuda/device/part_clock.hpp"
 #include "kernels/cuda/common/load_record_order.hpp"
 #include "kernels/cuda/multi_gpu/device_team.hpp"
-#include "kernels/cuda/multi_gpu/device_limits.hpp"
+#include "kernels/cuda/device/device_store.hpp"
 #include "kernels/cuda/common/wall_table.hpp"
 #include "kernels/step/executor.hpp"
 

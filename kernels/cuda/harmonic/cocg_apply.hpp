@@ -10,10 +10,6 @@
 
 namespace macadam::kernels {
 
-/// A body with at least this many contacts is computed by all warps of a block. A large aggregate has hundreds of
-/// contacts; one warp would take longer for it than all others take for the rest of the specimen.
-inline constexpr unsigned many_contacts = 64;
-
 /// Buffer for contact ends in shared memory. One part more per end makes threads that read one end each access
 /// different banks.
 template <unsigned N>

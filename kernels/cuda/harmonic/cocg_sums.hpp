@@ -2,11 +2,10 @@
 /// \file cocg_sums.hpp  Sums over the threads of a block and over the blocks of a launch, always in the same order.
 #pragma once
 
+#include "kernels/cuda/device/tuning.hpp"
 #include "kernels/cuda/harmonic/cocg_lanes.hpp"
 
 namespace macadam::kernels {
-
-inline constexpr unsigned cocg_threads = 256;
 
 /// Sums v over the threads of a block that share a lane, into out[N][W] (global or shared memory).
 template <int N, int W>

@@ -58,10 +58,9 @@ class Solver : public DeviceSolver {
     loose.upload(&none);
     DeviceArray<std::uint8_t> own_motions(system.own_motions.size());
     own_motions.upload(system.own_motions.data());
-    constexpr unsigned threads = 128;
-    launch("particle blocks", invert_blocks, (system_.bodies + threads - 1) / threads, threads, 0, team_.stream(),
-           system_.bodies, system_.row_begin.data(), system_.ends.data(), system.typical, own_motions.data(),
-           system_.inverse.data(), loose.data());
+    launch("particle blocks", invert_blocks, (system_.bodies + short_kernel_threads - 1) / short_kernel_threads,
+           short_kernel_threads, 0, team_.stream(), system_.bodies, system_.row_begin.data(), system_.ends.data(),
+           system.typical, own_motions.data(), system_.inverse.data(), loose.data());
     team_.wait("particle blocks");
     const unsigned long long found = loose.download().front();
     return found == none ? -1 : static_cast<std::int64_t>(found);
@@ -206,7 +205,7 @@ class Solver : public DeviceSolver {
   template <int F>
   CocgScalars<F> iterate(Vectors<F>& v, const std::function<void()>& look) {
     const auto queue_batch = [&] {
-      for (int k = 0; k < batch_length; ++k) {
+      for (int k = 0; k < iterations_per_batch; ++k) {
         over_segments(v, "turn", cocg_turn<F>);
         team_.meet();
         improve(v, v.p.data(), false);
@@ -229,7 +228,6 @@ class Solver : public DeviceSolver {
     }
   }
 
-  static constexpr int batch_length = 8;
   static constexpr std::size_t worth_pinning = std::size_t{32} << 20;  ///< bytes; pinning memory takes milliseconds
 
   DeviceList devices_;

@@ -3,8 +3,8 @@
 ///
 /// A contact has one slot in its group (layout.hpp), and one or two places in TilePlan::contact: a contact between
 /// particles of two tiles is in both. TileRunner fills the map in add_contacts() and uploads it in prepare(). The
-/// kernels between two blocks of steps use it to find the words of a slot's contact (settle_kernels.hpp), and checkpoints
-/// use it to write the tiles' words in the order of the network.
+/// kernels between two blocks of steps use it to find the words of a slot's contact (settle_kernels.hpp), and
+/// checkpoints use it to write the tiles' words in the order of the network.
 ///
 /// Words: a slot is numbered over all groups, one group after the other; a place is packet · 32 + lane.
 #pragma once
@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/cuda/multi_gpu/device_limits.hpp"
+#include "kernels/cuda/device/device_store.hpp"
+#include "kernels/cuda/multi_gpu/device_team.hpp"
 #include "kernels/cuda/tiles/tile_step.hpp"
 
 namespace macadam::kernels {

@@ -45,13 +45,12 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
       // specimens. Three full specimens side by side took 44 µs per step each (H200); if they take turns on the whole
       // chip, they take 20 µs.
       const std::size_t part = std::max<std::size_t>(1, chips / static_cast<std::size_t>(options.side_by_side));
-      // Each contact is computed 1.3 times on average, because contacts between tiles are computed by both
-      constexpr double computed = 1.3;
-      if (computed * static_cast<double>(contacts) <= static_cast<double>(part * contacts_in_registers)) chips = part;
+      if (computed_per_contact * static_cast<double>(contacts) <= static_cast<double>(part * contacts_in_registers))
+        chips = part;
     }
     if (team.ranks() || expected_resident_bytes<P>(network, chips) > shared)
-      return {std::min<std::size_t>(1500, shared / 115)};
-    return {std::max<std::size_t>(128, contacts / (chips + 1) + 1), true};
+      return {std::min(streamed_contacts, shared / shared_bytes_per_contact)};
+    return {std::max(least_resident_contacts, contacts / (chips + 1) + 1), true};
   }
 
   /// Thrown if the devices cannot run the specimen in tiles; ExecCuda can run it.
@@ -118,7 +117,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   std::size_t max_samples(const std::vector<double>& radius) {
     if (this->team_.ranks() || this->team_.size() > 1) return 0;
     this->require_divergence_search(radius);
-    return DeviceSamples<R>::most;
+    return samples_per_read;
   }
   /// Enqueues sample number `k` behind the enqueued steps.
   void take_sample(std::size_t k) {

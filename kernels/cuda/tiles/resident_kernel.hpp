@@ -78,7 +78,7 @@ class ResidentTile {
   };
   /// Returns the packets of this thread's warp.
   __device__ __forceinline__ Share share() const {
-    constexpr std::uint32_t run = TilePlan::run, room = groups_in_registers * warps;
+    constexpr std::uint32_t run = TilePlan::run, room = double_packets_in_registers * warps;
     const std::uint32_t warp = threadIdx.x / 32, groups = min(tile.groups, room), free = room - groups;
     const std::uint32_t ahead = min(inner(), warps);
     const std::uint32_t first_one = run * tile.groups, ones = tile.packets - first_one;
@@ -99,7 +99,8 @@ class ResidentTile {
   /// Position of constants that are in global memory.
   static constexpr std::uint32_t in_memory = UINT32_MAX;
   /// First of a warp's packets with states in registers whose constants are in registers, too.
-  static constexpr std::uint32_t first_kept = groups_in_registers * TilePlan::run - packets_with_constants(memory);
+  static constexpr std::uint32_t first_kept =
+      double_packets_in_registers * TilePlan::run - packets_with_constants(memory);
   /// Returns the address of the state of this thread's contact in a packet.
   __device__ __forceinline__ float4* state(std::uint32_t packet) const {
     return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
@@ -279,8 +280,8 @@ __global__ void __launch_bounds__(Threads, 1)
   if (threadIdx.x % 32 == 0) others = share.others;
   tile.load();
   constexpr std::uint32_t run = TilePlan::run;
-  float change[groups_in_registers * run][6], sum[groups_in_registers * run][6];
-  static_assert(run == 2 && groups_in_registers == 2);
+  float change[double_packets_in_registers * run][6], sum[double_packets_in_registers * run][6];
+  static_assert(run == 2 && double_packets_in_registers == 2);
   // f(index of the state, packet); the indices are compile-time constants, so that the arrays stay in registers
   const auto each_of = [](const auto& packets, auto begin, auto&& f) {
     const auto one = [&](auto j) {
@@ -295,7 +296,7 @@ __global__ void __launch_bounds__(Threads, 1)
     each_of(share.early, early, f);
     each_of(share.late, late, f);
   };
-  typename OfTile::Constants constants[groups_in_registers * run];  // used from first_kept on
+  typename OfTile::Constants constants[double_packets_in_registers * run];  // used from first_kept on
   each_resident([&](auto k, std::uint32_t packet) {
     state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
     if constexpr (k() >= OfTile::first_kept) constants[k] = tile.constants_of(packet, OfTile::in_memory);

@@ -182,4 +182,22 @@ __global__ void __launch_bounds__(body_threads)
   if (row_end - row <= long_row) keep(body, sum_words<R>(records, row, row_end, 1, w));
 }
 
+/// Writes the load on each wall: its base load plus the sum of its rows of `wall_load`, added in fixed order. One
+/// thread block per wall; all arguments except `wall_load` are arrays of the walls alone.
+template <class R>
+__global__ void __launch_bounds__(body_threads)
+    add_wall_loads(const float* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {
+  __shared__ R part[body_threads];
+  const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
+  R sum = 0;
+  for (std::uint32_t r = wall_begin[blockIdx.x] + lane; r < wall_begin[blockIdx.x + 1]; r += bodies_a_block)
+    sum += wall_load[r * std::size_t{velocity_words} + w];
+  part[threadIdx.x] = sum;
+  __syncthreads();
+  if (lane > 0) return;
+  sum = base[blockIdx.x * velocity_words + w];
+  for (unsigned k = 0; k < bodies_a_block; ++k) sum += part[k * velocity_words + w];
+  force[blockIdx.x * velocity_words + w] = sum;
+}
+
 }  // namespace macadam::kernels

@@ -11,21 +11,14 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/cuda/device/tuning.hpp"
 #include "kernels/cuda/tiles/tile_step.hpp"
 
 namespace macadam::kernels {
 
-/// Uses all registers of a multiprocessor; a contact's state takes twelve registers.
-inline constexpr std::uint32_t resident_threads = 512;
-/// Number of groups (double packets) whose states a warp keeps in registers: one that it steps before the velocities of
-/// other tiles have arrived, and one that it steps after that.
-inline constexpr std::uint32_t groups_in_registers = 2;
 /// Largest number of contacts of one tile whose states fit in registers.
-inline constexpr std::uint32_t contacts_in_registers = groups_in_registers * TilePlan::run * resident_threads;
+inline constexpr std::uint32_t contacts_in_registers = double_packets_in_registers * TilePlan::run * resident_threads;
 inline constexpr std::uint32_t packets_with_states = contacts_in_registers / 32;
-/// Number of packets per warp whose constants stay in registers too. They are the last of the packets with states in
-/// registers. `memory`: some law has a memory; its sums then leave no registers for constants.
-__host__ __device__ constexpr std::uint32_t packets_with_constants(bool memory) { return memory ? 0 : 2; }
 
 /// Six or two numbers of a body, aligned so that threads with neighbouring bodies access different banks of shared
 /// memory.
@@ -91,15 +84,14 @@ std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t t
   for (const Contact& c : network.contacts) {
     slots += (of_end_a[static_cast<std::size_t>(c.a)]++ % TilePlan::run == 0) + (c.b >= 0);
   }
-  const double fullest = 1.06;  // some tiles have a few per cent more than the mean
-  const double bodies = fullest * static_cast<double>(of_end_a.size()) / static_cast<double>(tiles);
+  const double bodies = fullest_tile * static_cast<double>(of_end_a.size()) / static_cast<double>(tiles);
   // Particles in a layer of 0.9 particle diameters around a cube of `bodies` particles
   const double halo = std::pow(std::cbrt(bodies) + 1.8, 3) - bodies;
   const auto whole = [](double x) { return static_cast<std::uint32_t>(x); };
   Tile tile{};
   tile.bodies = whole(bodies);
   tile.halo = whole(halo);
-  tile.slots = whole(fullest * static_cast<double>(slots) / static_cast<double>(tiles));
+  tile.slots = whole(fullest_tile * static_cast<double>(slots) / static_cast<double>(tiles));
   return ResidentMemory<P>(tile, tile_constants(false), BodyStorage::all_away, 0).total;
 }
 

@@ -125,8 +125,9 @@ class TileRunner {
     clear(base_, loads);
     clear(scene_.force, loads);
     if (motion.body.weight) {
-      launch("weights", begin_with_weight<R>, (bodies_ + 127) / 128, 128, 0, team_.stream(), motion.body.weight,
-             static_cast<std::uint32_t>(bodies_), scene_.force);
+      launch("weights", begin_with_weight<R>, (bodies_ + short_kernel_threads - 1) / short_kernel_threads,
+             short_kernel_threads, 0, team_.stream(), motion.body.weight, static_cast<std::uint32_t>(bodies_),
+             scene_.force);
     }
     clear(scene_.wall_load, wall_load_count_);
     clear(before_, (bodies_ + walls) * displacement_words);
@@ -350,30 +351,30 @@ class TileRunner {
   /// Sets up the streamed kernel; sets nothing if a tile needs too much shared memory.
   template <bool carried>
   void use_streamed() {
-    constexpr int threads = 256, per_multiprocessor = 2;
-    const auto usual = run_streamed<P, threads, per_multiprocessor, carried, true>;
-    const auto without_memory = run_streamed<P, threads, per_multiprocessor, carried, carried>;
+    const auto usual = run_streamed<P, streamed_threads, streamed_blocks, carried, true>;
+    const auto without_memory = run_streamed<P, streamed_threads, streamed_blocks, carried, carried>;
     const std::uint32_t shared = StreamedMemory(plan_.most_locals, plan_.most_slots).total;
     if (shared > static_cast<std::uint32_t>(limits_.shared)) return;
     team_.each([&](std::size_t) {
       for (const auto kernel : {usual, without_memory}) allow_all_shared_memory(limits_, kernel);
     });
-    use_ = kernel_use("tiles streamed", usual, threads, shared);
-    use_without_memory_ = kernel_use("tiles streamed", without_memory, threads, shared);
+    use_ = kernel_use("tiles streamed", usual, streamed_threads, shared);
+    use_without_memory_ = kernel_use("tiles streamed", without_memory, streamed_threads, shared);
     run_ = [this, usual, without_memory, shared](std::uint32_t steps) {
       const auto kernel = memory_ ? usual : without_memory;
       team_.each([&](std::size_t m) {
         const auto first = static_cast<std::uint32_t>(owners_.first_place(m));
         const auto end =
             first + static_cast<std::uint32_t>(layout_.tile_body[cuts_.tile(m + 1)] - layout_.tile_body[cuts_.tile(m)]);
-        launch("time steps", begin_streamed<P>, (end - first + 127) / 128, 128, 0, team_.stream(m), scene_of(m), 0u,
-               first, end);
+        launch("time steps", begin_streamed<P>, (end - first + short_kernel_threads - 1) / short_kernel_threads,
+               short_kernel_threads, 0, team_.stream(m), scene_of(m), 0u, first, end);
       });
       for (std::uint32_t k = 0; k < steps; ++k) {
         team_.meet();
         messages_.velocities(team_, k);
         team_.each([&](std::size_t m) {
-          launch("time steps", kernel, tiles(m), threads, shared, team_.stream(m), scene_of(m), k, k + 1 == steps);
+          launch("time steps", kernel, tiles(m), streamed_threads, shared, team_.stream(m), scene_of(m), k,
+                 k + 1 == steps);
         });
       }
     };

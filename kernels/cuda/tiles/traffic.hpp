@@ -15,7 +15,7 @@ namespace macadam::kernels {
 
 /// Returns the number of packets whose states stay in registers; must agree with ResidentTile::share().
 inline std::int64_t packets_in_registers(const Tile& tile) {
-  constexpr std::uint32_t most = groups_in_registers * resident_threads / 32, run = TilePlan::run;
+  constexpr std::uint32_t most = double_packets_in_registers * resident_threads / 32, run = TilePlan::run;
   const std::uint32_t groups = std::min(tile.groups, most), ones = tile.packets - run * tile.groups;
   return run * groups + std::min(ones, run * (most - groups));
 }

@@ -2,13 +2,14 @@
 /// \file exec_cuda.hpp  Defines the executor for CUDA devices with two kernels per step, for any contact form, law and
 /// precision. Many steps are enqueued as one graph.
 ///
-/// step_bodies (load_sums.hpp) sums the loads of each body and moves it; step_contacts (step_contacts.hpp) steps each
+/// step_bodies (step_bodies.hpp) sums the loads of each body and moves it; step_contacts (step_contacts.hpp) steps each
 /// contact. A contact writes the loads on its two bodies to records of its own. The records of a body are consecutive,
 /// and the body sums them in fixed order. There are no floating-point atomics, so the same device gives the same bits
 /// in every run.
 #pragma once
 
 #include "kernels/cuda/common/body_arrays.hpp"
+#include "kernels/cuda/two_kernels/step_bodies.hpp"
 #include "kernels/cuda/two_kernels/step_contacts.hpp"
 
 namespace macadam::kernels {
@@ -95,7 +96,7 @@ class ExecCuda : public CudaBodyArrays<P> {
       check_cuda(cudaGraphLaunch(graph, this->team_.stream()), "time steps");
       steps -= n;
     };
-    while (steps >= steps_a_graph) queue(many_, steps_a_graph);
+    while (steps >= steps_per_graph) queue(many_, steps_per_graph);
     while (steps > 0) queue(one_, 1);
   }
 
@@ -129,8 +130,6 @@ class ExecCuda : public CudaBodyArrays<P> {
   std::int64_t bytes() const { return this->held_bytes() + static_cast<std::int64_t>(records_.bytes()); }
 
  private:
-  static constexpr std::int64_t steps_a_graph = 64;
-
   /// Takes one step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void step() {
     const bool pushed = motion_.wall.by_force || motion_.body.weight;
