@@ -58,15 +58,18 @@ class TilePlaces {
   }
   const uint2* on_device() const { return on_device_; }
 
-  /// Returns the order in which a checkpoint stores the words of an array [packet][count][lane] of the tiles: contacts
-  /// in the order of the network. `words`: offsets of the numbers of one contact.
-  StateOrder order(int count, std::vector<std::uint64_t> words) const {
+  /// Returns the order in which a checkpoint stores an array of the tiles: contacts in the order of the network.
+  /// `count`: words per contact in the array; `fields`: the numbers of a contact that are stored.
+  StateOrder order(int count, const std::vector<TileContactWords::Field>& fields) const {
     const std::vector<uint2> places = copied(0, slots_);
     const auto at = [&](std::uint32_t place) {
-      return place == UINT32_MAX ? StateOrder::none
-                                 : (std::uint64_t{place / 32} * static_cast<unsigned>(count) * 32 + place % 32) * 4;
+      return place == UINT32_MAX ? StateOrder::none : std::uint64_t{TileContactWords::first(place, count)} * 4;
     };
-    StateOrder out{{}, std::move(words), {}};
+    StateOrder out;
+    for (const auto& field : fields) {
+      for (int k = 0; k < field.components; ++k)
+        out.word.push_back(static_cast<std::uint64_t>(field.word) * 32 * 4 + static_cast<std::uint64_t>(k));
+    }
     for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
       for (const std::uint32_t slot : slots_in_order(layout_.groups[g])) {
         const uint2 place = places[first_slot_[g] + slot];
@@ -74,23 +77,6 @@ class TilePlaces {
         out.twin.push_back(at(place.y));
       }
     }
-    return out;
-  }
-  /// Returns the words of a contact's constants that change between blocks.
-  static std::vector<std::uint64_t> words_of_block(bool carried) {
-    std::vector<std::uint64_t> out;
-    add_words(out, tile_drift_a, 4);
-    add_words(out, tile_drift_b, 2);
-    if (!carried) return out;
-    add_words(out, tile_normal, 4);
-    add_words(out, tile_moment_a, 1);
-    add_words(out, tile_tangent, 3);
-    return out;
-  }
-  /// Returns the words of a contact's state.
-  static std::vector<std::uint64_t> words_of_states() {
-    std::vector<std::uint64_t> out;
-    for (const int w : {tile_change, tile_both, tile_sum}) add_words(out, w, 4);
     return out;
   }
 
@@ -103,9 +89,9 @@ class TilePlaces {
     for (std::size_t slot = 0; slot < places.size(); ++slot) {
       const std::uint32_t place = places[slot].x;
       if (place == UINT32_MAX) continue;
-      const float4* words = &all[place / 32 * std::size_t{tile_states} * 32 + place % 32];
-      const float4 a = words[tile_change * 32], b = words[tile_both * 32];
-      const float change[6] = {a.x, a.y, a.z, a.w, b.x, b.y};
+      float change[6], sum[6];
+      TileContactWords::read_state<false>(TileContactWords::at(all.data(), place, TileContactWords::states), change,
+                                          sum);
       std::copy(change, change + 6, &out[6 * slot]);
     }
     return out;
@@ -127,11 +113,6 @@ class TilePlaces {
     std::vector<uint2> out(count);
     if (count > 0) copy_now(out.data(), on_device_ + first, count * sizeof(uint2), "places");
     return out;
-  }
-  /// Adds the offsets of the first `count` components of the 16-byte word w.
-  static void add_words(std::vector<std::uint64_t>& to, int w, int count) {
-    for (int k = 0; k < count; ++k)
-      to.push_back(static_cast<std::uint64_t>(w) * 32 * 4 + static_cast<std::uint64_t>(k));
   }
 
   const Layout& layout_;

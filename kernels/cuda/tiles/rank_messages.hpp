@@ -66,10 +66,9 @@ class TileMessages {
       for (const std::uint32_t p : {place.x, place.y}) {
         if (p == UINT32_MAX) continue;
         const std::size_t reader = owners.of_contact(p);
-        const auto add = [&](RankItems& to, int w, int words) {
-          to.add((p / 32 * static_cast<std::size_t>(words) + static_cast<std::size_t>(w)) * 32 + p % 32, m, reader);
-        };
-        for (const int w : settled_constants(carried)) add(constants, w, tile_constants(carried));
+        const std::size_t first = TileContactWords::first(p, TileContactWords::constants(carried));
+        for (const auto& field : TileContactWords::settled_fields(carried))
+          constants.add(first + 32 * static_cast<std::size_t>(field.word), m, reader);
       }
     });
     for (std::size_t i = 0; i < plan.contact.size(); ++i) {
@@ -100,12 +99,6 @@ class TileMessages {
   void wall_loads(const DeviceTeam& team) const { walls_.queue(team); }
 
  private:
-  /// Returns the words of a contact's constants that the update between blocks writes.
-  static std::vector<int> settled_constants(bool carried) {
-    if (!carried) return {tile_drift_a, tile_drift_b};
-    return {tile_drift_a, tile_drift_b, tile_normal, tile_moment_a, tile_tangent};
-  }
-
   RankExchange even_, odd_, now_, settled_, before_, walls_;
 };
 

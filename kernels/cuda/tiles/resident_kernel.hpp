@@ -36,7 +36,7 @@ class ResidentTile {
   using Constants = ContactConstants<carried, memory>;
   using Contact = ContactInBlock<carried, memory>;
   /// Constant words of a packet: number in memory, and number of those that a step reads and the cache holds.
-  static constexpr std::uint32_t words = tile_constants(carried), kept = Constants::words;
+  static constexpr std::uint32_t words = TileContactWords::constants(carried), kept = Constants::words;
 
   __device__ __forceinline__ ResidentTile(const TileArrays<P>& scene, const Tile& own_tile, unsigned char* shared,
                                           const ResidentMemory<P>& m)
@@ -47,7 +47,7 @@ class ResidentTile {
         law(reinterpret_cast<float4*>(shared + m.law)),
         cache(reinterpret_cast<float4*>(shared + m.cache)),
         constants(s.constant + std::size_t{tile.first_packet} * words * 32),
-        states(s.state + std::size_t{tile.first_packet} * tile_states * 32),
+        states(s.state + std::size_t{tile.first_packet} * TileContactWords::states * 32),
         slots{SixTable::at(shared + m.slots, tile.slots)},
         displacement(reinterpret_cast<Six<double>*>(rest(shared, m))),
         base(reinterpret_cast<Six<R>*>(displacement + tile.bodies)),
@@ -103,7 +103,7 @@ class ResidentTile {
       double_packets_in_registers * TilePlan::run - packets_with_constants(memory);
   /// Returns the address of the state of this thread's contact in a packet.
   __device__ __forceinline__ float4* state(std::uint32_t packet) const {
-    return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
+    return states + std::size_t{packet} * TileContactWords::states * 32 + threadIdx.x % 32;
   }
 
   /// Loads the tile from global memory, except for the states of the contacts.
@@ -298,7 +298,7 @@ __global__ void __launch_bounds__(Threads, 1)
   };
   typename OfTile::Constants constants[double_packets_in_registers * run];  // used from first_kept on
   each_resident([&](auto k, std::uint32_t packet) {
-    state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
+    TileContactWords::state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
     if constexpr (k() >= OfTile::first_kept) constants[k] = tile.constants_of(packet, OfTile::in_memory);
   });
 
@@ -341,20 +341,20 @@ __global__ void __launch_bounds__(Threads, 1)
     for (std::uint32_t k = 0; k < others.count(); ++k) {
       const std::uint32_t packet = others[k];
       float df[6], both[6];
-      state_before<memory>(s.begins_block && tag == first_tag, tile.state(packet), df, both);
+      TileContactWords::state_before<memory>(s.begins_block && tag == first_tag, tile.state(packet), df, both);
       tile.template step<false>(tile.constants_of(packet, OfTile::in_memory), df, both, contacts);
-      store_state<memory>(tile.state(packet), df, both);
+      TileContactWords::write_state<memory>(tile.state(packet), df, both);
     }
     __syncthreads();
   }
 
   each_resident([&](auto k, std::uint32_t packet) {
-    store_state<memory>(tile.state(packet), change[k], sum[k]);
+    TileContactWords::write_state<memory>(tile.state(packet), change[k], sum[k]);
     tile.store_wall_loads(packet, change[k]);
   });
   for (std::uint32_t k = 0; k < others.count(); ++k) {
     float df[6], both[6];
-    load_state<memory>(tile.state(others[k]), df, both);
+    TileContactWords::read_state<memory>(tile.state(others[k]), df, both);
     tile.store_wall_loads(others[k], df);
   }
   tile.store();

@@ -42,30 +42,18 @@ struct SettleContact {
       return;
     }
     float change[6], sum[6];
-    load_state(at(state, place.x, tile_states), change, sum);
+    TileContactWords::read_state(TileContactWords::at(state, place.x, TileContactWords::states), change, sum);
     const auto [frame, drift, load] = settling(LaneItem{slot % 32}, slot / 32, change, sum, now, before, steps);
     records.store(record, load);
 
     for (const std::uint32_t p : {place.x, place.y}) {
-      if (p == UINT32_MAX) continue;
-      float4* out = at(constant, p, tile_constants(carried));
-      out[tile_drift_a * 32] = {drift[0], drift[1], drift[2], drift[3]};
-      *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {drift[4], drift[5]};
-      if constexpr (carried) {
-        out[tile_normal * 32] = {float(frame.n.x), float(frame.n.y), float(frame.n.z), float(frame.arm_a)};
-        out[tile_moment_a * 32].x = float(frame.arm_b);
-        out[tile_tangent * 32] = {float(frame.s.x), float(frame.s.y), float(frame.s.z), 0};
-      }
+      if (p != UINT32_MAX)
+        TileContactWords::settle<carried>(TileContactWords::at(constant, p, TileContactWords::constants(carried)),
+                                          frame, drift);
     }
   }
 
  private:
-  /// Returns the address of the words of a contact at `place`, with `count` words per contact.
-  template <class Word>
-  __device__ __forceinline__ static Word* at(Word* words, std::uint32_t place, int count) {
-    return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
-  }
-
   /// Writes constants without drift, with the frame of the undeformed contact.
   __device__ void begin(std::uint32_t slot, uint2 place, float4* constant) const {
     const ContactView<P>& view = settling.view;
@@ -73,15 +61,8 @@ struct SettleContact {
     const auto word = [&](int k) { return static_cast<float>(g[k * 32]); };
     constexpr bool carried = geometry == Geometry::updated;
     for (const std::uint32_t p : {place.x, place.y}) {
-      if (p == UINT32_MAX) continue;
-      float4* out = at(constant, p, tile_constants(carried));
-      out[tile_drift_a * 32] = {0, 0, 0, 0};
-      *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {0, 0};
-      if constexpr (carried) {
-        out[tile_normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
-        out[tile_moment_a * 32].x = word(arm_b);
-        out[tile_tangent * 32] = {0, 0, 0, 0};
-      }
+      if (p != UINT32_MAX)
+        TileContactWords::begin<carried>(TileContactWords::at(constant, p, TileContactWords::constants(carried)), word);
     }
   }
 };

@@ -92,7 +92,7 @@ std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t t
   tile.bodies = whole(bodies);
   tile.halo = whole(halo);
   tile.slots = whole(fullest_tile * static_cast<double>(slots) / static_cast<double>(tiles));
-  return ResidentMemory<P>(tile, tile_constants(false), BodyStorage::all_away, 0).total;
+  return ResidentMemory<P>(tile, TileContactWords::constants(false), BodyStorage::all_away, 0).total;
 }
 
 }  // namespace macadam::kernels

@@ -80,7 +80,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   const TileSlots slots{SixTable::at(shared + m.slots, s.most_slots)};
   const unsigned tid = threadIdx.x, lane = tid % 32, warp = tid / 32;
   constexpr unsigned warps = Threads / 32;
-  constexpr std::uint32_t words = tile_constants(carried);
+  constexpr std::uint32_t words = TileContactWords::constants(carried);
   const Tile tile = s.tile[s.own_tile()];
   const float4* from = velocities_of(s, k);
   // the last warps of the first tile move the walls; with several ranks, the first tile of each
@@ -107,14 +107,14 @@ __global__ void __launch_bounds__(Threads, Blocks)
 #pragma unroll 4
   for (std::uint32_t packet = 0; packet < mine.count(); ++packet) {
     const std::size_t at = tile.first_packet + mine[packet];
-    float4* state = s.state + at * tile_states * 32 + lane;
+    float4* state = s.state + at * TileContactWords::states * 32 + lane;
     float change[6], sum[6];
-    state_before<memory>(s.begins_block && k == 0, state, change, sum);
+    TileContactWords::state_before<memory>(s.begins_block && k == 0, state, change, sum);
     ContactConstants<carried, memory> constant;
     constant.load(s.constant + at * words * 32 + lane);
     const ContactInBlock<carried, memory> contact(constant);
     const auto load = step_in_block<false>(contact, s.law, velocity, change, sum, run);
-    store_state<memory>(state, change, sum);
+    TileContactWords::write_state<memory>(state, change, sum);
     slots.put(contact.slots, load, run);
     if (last) store_wall_load(s.wall_load, contact.of, load);
   }

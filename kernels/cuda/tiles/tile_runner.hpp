@@ -56,7 +56,7 @@ class TileRunner {
         carried_(options.geometry == Geometry::updated),
         layout_(layout),
         bodies_(layout.particles()),
-        constants_(plan_.contact.size() * static_cast<std::size_t>(tile_constants(carried_))),
+        constants_(plan_.contact.size() * static_cast<std::size_t>(TileContactWords::constants(carried_))),
         places_(layout),
         tables_(team.size()),
         settling_(team, cuts, layout) {
@@ -85,14 +85,7 @@ class TileRunner {
       places_.add(g, c.group_slot, static_cast<std::uint32_t>(i));
       const auto words = static_cast<std::size_t>(view.geometry_words);
       const auto* geo = &arrays.geometry[c.group_slot / 32 * words * 32 + c.group_slot % 32];
-      const auto word = [&](int w) { return static_cast<float>(geo[w * 32]); };
-      float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
-      out[tile_normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
-      out[tile_moment_a * 32] = {word(arm_b), word(moment_0), word(moment_0 + 1), word(moment_0 + 2)};
-      out[tile_moment_b * 32] = {word(moment_0 + 3), word(moment_0 + 4), word(moment_0 + 5),
-                                 bits(EndPair::of(c.local_a, c.local_b).word)};
-      out[tile_drift_b * 32] = {0, 0, bits(EndPair::of(c.slot_a, c.slot_b).word),
-                                bits(GroupAndRow::of(g, c.wall_row).word)};
+      TileContactWords::pack(constant_of(i), c, [&](int w) { return static_cast<float>(geo[w * 32]); });
     }
   }
 
@@ -146,7 +139,7 @@ class TileRunner {
   /// records.
   std::size_t bytes_to_come(std::size_t records) const {
     const std::size_t loads = 2 * velocity_words * sizeof(R) + displacement_words * sizeof(double);
-    return constants_.size() * sizeof(float4) + plan_.contact.size() * tile_states * sizeof(float4) +
+    return constants_.size() * sizeof(float4) + plan_.contact.size() * TileContactWords::states * sizeof(float4) +
            (bodies_ + walls) * loads + records * record_words * sizeof(R) + (bodies_ + walls) * 4 * sizeof(ulonglong2) +
            places_.slots() * sizeof(uint2) +
            (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4 * (team_.ranks() ? 1 : team_.size());
@@ -158,8 +151,8 @@ class TileRunner {
       queue_whole(team_, data, static_cast<std::size_t>(words) * 32,
                   [this](std::size_t m) { return owners_.first_packet(m); });
     };
-    of_packets(constant_.data(), tile_constants(carried_));
-    of_packets(scene_.state, tile_states);
+    of_packets(constant_.data(), TileContactWords::constants(carried_));
+    of_packets(scene_.state, TileContactWords::states);
     const auto of_bodies = [&](auto* data) {
       queue_whole(team_, data, velocity_words, [this](std::size_t m) { return cuts_.body(m); });
     };
@@ -175,10 +168,11 @@ class TileRunner {
     const auto words = [](auto* data) { return reinterpret_cast<float*>(data); };
     const std::size_t loads = (bodies_ + walls) * velocity_words;
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
-    add_device_state(states, "tile_drifts", "Pa m, 1, m", words(constant_.data()), 4 * constant_.size(),
-                     [this] { return places_.order(tile_constants(carried_), TilePlaces::words_of_block(carried_)); });
+    add_device_state(states, "tile_drifts", "Pa m, 1, m", words(constant_.data()), 4 * constant_.size(), [this] {
+      return places_.order(TileContactWords::constants(carried_), TileContactWords::settled_fields(carried_));
+    });
     add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_,
-                     [this] { return places_.order(tile_states, TilePlaces::words_of_states()); });
+                     [this] { return places_.order(TileContactWords::states, TileContactWords::state_fields()); });
     add_device_state(states, "base_loads", "N, N m", base_, loads, by_body);
     // The loads on walls are left out: forces() sums them
     add_device_state(states, "forces", "N, N m", scene_.force, bodies_ * velocity_words,
@@ -253,7 +247,7 @@ class TileRunner {
   /// Returns the bytes of contacts and particles that a step must move at least: states read and written, constants and
   /// base loads read.
   std::int64_t traffic() const {
-    const int words = tile_constants_read(carried_, memory_) + 2 * tile_states_moved(memory_);
+    const int words = TileContactWords::constants_read(carried_, memory_) + 2 * TileContactWords::states_moved(memory_);
     const auto of_packet = static_cast<std::size_t>(words) * 32 * sizeof(float4);
     std::size_t packets = 0;
     for (const Tile& tile : plan_.tile) packets += tile.packets;
@@ -268,11 +262,9 @@ class TileRunner {
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
  private:
-  /// Returns a float with the bit pattern x, to store integers in words of floats.
-  static float bits(std::uint32_t x) {
-    float out = 0;
-    std::memcpy(&out, &x, sizeof out);
-    return out;
+  /// Returns the address of the constants of contact `i` of the plan, on the host.
+  float4* constant_of(std::size_t i) {
+    return &constants_[TileContactWords::first(i, TileContactWords::constants(carried_))];
   }
   /// Chooses the kernel by the limits of the devices.
   void choose(int multiprocessors) {
@@ -303,7 +295,7 @@ class TileRunner {
     const auto most = [&](BodyStorage where, std::uint32_t room) {
       std::uint32_t bytes = 0;
       for (const Tile& tile : plan_.tile)
-        bytes = std::max(bytes, ResidentMemory<P>(tile, tile_constants(carried), where, room).total);
+        bytes = std::max(bytes, ResidentMemory<P>(tile, TileContactWords::constants(carried), where, room).total);
       return bytes;
     };
     scene_.where = BodyStorage::all_away;
@@ -421,9 +413,8 @@ class TileRunner {
   /// Uploads the arrays that no start changes, and allocates the others.
   void keep_arrays(const RecordRows& rows) {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
-      if (plan_.contact[i].group_slot != UINT32_MAX) continue;  // inert: its loads go to no slot and no wall row
-      float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
-      out[tile_drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndRow::of(0, GroupAndRow::no_row).word)};
+      if (plan_.contact[i].group_slot != UINT32_MAX) continue;
+      TileContactWords::pack_inert(constant_of(i));
     }
     team_.each([&](std::size_t m) {  // each thread block reads these first, so every device has its own copy
       tables_[m].tile = store_.keep(plan_.tile);
@@ -437,8 +428,8 @@ class TileRunner {
         cuts_.of([&](std::size_t m) { return owners_.first_place(m) + (m == team_.size() ? walls : 0); });
     constant_ = DeviceArray<float4>::of(constants_, packets);
     scene_.constant = constant_.data();
-    state_count_ = plan_.contact.size() * tile_states;
-    scene_.state = store_.template zeros<float4>(packets, tile_states * 32);
+    state_count_ = plan_.contact.size() * TileContactWords::states;
+    scene_.state = store_.template zeros<float4>(packets, TileContactWords::states * 32);
     scene_.base = base_ = store_.template zeros<R>(by_body, velocity_words);
     scene_.force = store_.template zeros<R>(by_body, velocity_words);
     wall_load_count_ = 2 * (plan_.wall_begin.back() + 1);

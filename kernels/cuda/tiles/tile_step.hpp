@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_step.hpp  Defines what the resident and the streamed kernel of the tile path have in common: packed
-/// data of a contact, the arguments of a launch, one step of one contact, and the sums of loads in shared memory.
+/// \file tile_step.hpp  Defines what the resident and the streamed kernel of the tile path have in common: the
+/// arguments of a launch, one step of one contact, and the sums of loads in shared memory.
 ///
 /// Callers are run_resident (resident_kernel.hpp) and run_streamed (streamed_kernel.hpp); tile_plan.hpp
 /// explains the words. In every step a thread block takes the velocities of its particles, its halo and the walls from
@@ -12,8 +12,8 @@
 /// steps. The loads of the f at the beginning of the block are part of the particles' `base` loads. The state of a
 /// contact is therefore in three places. The chain (ContactView::chain) holds the viscoelastic state at the beginning
 /// of the block, in full precision (there is none where f follows from the displacements); settle_kernels.hpp updates
-/// it after the block. The words of TileState in memory hold δf and the sum; they are valid between launches. During a
-/// launch of the resident kernel, registers hold δf and the sum of most contacts.
+/// it after the block. The words of states in memory (contact_words.hpp) hold δf and the sum; they are valid between
+/// launches. During a launch of the resident kernel, registers hold δf and the sum of most contacts.
 #pragma once
 
 #include <type_traits>
@@ -23,55 +23,10 @@
 #include "kernels/cuda/device/launch.hpp"
 #include "kernels/step/particle_motion.hpp"
 #include "kernels/contact/precision.hpp"
+#include "kernels/cuda/tiles/contact_words.hpp"
 #include "kernels/layout/tile_plan.hpp"
 
 namespace macadam::kernels {
-
-/// Constants of a contact, as words of 16 bytes in the order [packet][word][lane].
-enum TileConstant {
-  tile_normal,    ///< normal n, lever arm of end A
-  tile_moment_a,  ///< lever arm of end B, area moments 0…2
-  tile_moment_b,  ///< area moments 3…5, EndPair of the local numbers of the bodies
-  tile_drift_b,   ///< drift of components 4 and 5, EndPair of the slots of loads, GroupAndRow
-  tile_drift_a,   ///< drift of components 0…3
-  tile_tangent,   ///< first tangent s, unused word; with updated geometry only
-};
-/// State of a contact, as words of 16 bytes [packet][word][lane]: δf 0…3; δf 4, 5 and sum 0, 1; sum 2…5.
-enum TileState { tile_change, tile_both, tile_sum, tile_states };
-
-/// Returns the number of words of TileState that a step reads and writes. `memory`: some law has a memory.
-__host__ __device__ constexpr int tile_states_moved(bool memory) { return memory ? tile_states : tile_sum; }
-
-/// Two 16-bit numbers in one word, for the ends A and B of a contact.
-struct EndPair {
-  std::uint32_t word;
-  __host__ __device__ static constexpr EndPair of(std::uint16_t a, std::uint16_t b) {
-    return {a | static_cast<std::uint32_t>(b) << 16};
-  }
-  __host__ __device__ constexpr std::uint32_t a() const { return word & 0xffff; }
-  __host__ __device__ constexpr std::uint32_t b() const { return word >> 16; }
-};
-
-/// Two numbers of a contact in one word: its group (pair type) and its wall row, or no_row.
-struct GroupAndRow {
-  static constexpr std::uint32_t group_bits = 4, no_row = (1u << (32 - group_bits)) - 1;
-  static_assert(pair_types <= 1 << group_bits);
-  std::uint32_t word;
-  __host__ __device__ static constexpr GroupAndRow of(std::uint32_t group, std::uint32_t row) {
-    return {group | (row < no_row ? row : no_row) << group_bits};
-  }
-  __host__ __device__ constexpr std::uint32_t group() const { return word & ((1u << group_bits) - 1); }
-  __host__ __device__ constexpr std::uint32_t row() const { return word >> group_bits; }
-};
-
-/// Returns the number of 16-byte words of constants per contact (see TileConstant). `carried`: the contact frame is
-/// updated during the run, so the tangent is stored too.
-__host__ __device__ constexpr int tile_constants(bool carried) { return carried ? tile_tangent + 1 : tile_tangent; }
-/// Returns the number of these words that a step reads, which are the first ones. `memory`: some law has a memory.
-/// Without one, and with fixed geometry, a step does not read tile_drift_a.
-__host__ __device__ constexpr int tile_constants_read(bool carried, bool memory) {
-  return memory || carried ? tile_constants(carried) : tile_drift_a;
-}
 
 /// The memory in which a resident tile keeps the data of its particles. The velocities that contacts see are always in
 /// shared memory.
@@ -119,8 +74,8 @@ struct TileArrays {
   const uint2* row;               ///< [place] number of slots; first slot of a long row
   const std::uint32_t* diagonal;  ///< [tile][longest_short_row]
   const std::int32_t* halo;       ///< [first_halo + …] place
-  const float4* constant;         ///< [packet][word][lane] see TileConstant
-  float4* state;                  ///< [packet][word][lane] see TileState
+  const float4* constant;         ///< [packet][word][lane] constants, see TileContactWords
+  float4* state;                  ///< [packet][word][lane] states, see TileContactWords
   const R* base;                  ///< [body][8] loads at the beginning of the block, with body forces [N, N·m]
   R* force;                       ///< [body][8] loads after the last step of a launch [N, N·m]
   float4* wall_load;  ///< [wall row][2] change of the loads on the walls since the beginning of the block [N, N·m]
@@ -142,17 +97,6 @@ struct TileArrays {
   __device__ __forceinline__ std::uint32_t own_tile() const { return first_tile + blockIdx.x; }
   /// Returns the array of velocities of step k.
   __device__ __forceinline__ ulonglong2* exchange(std::uint32_t k) const { return k & 1 ? odd : even; }
-};
-
-/// The constants of one contact that a step reads, in registers.
-template <bool carried, bool memory>
-struct ContactConstants {
-  static constexpr int words = tile_constants_read(carried, memory);
-  float4 word[words];
-  __device__ __forceinline__ void load(const float4* from) {
-#pragma unroll
-    for (int k = 0; k < words; ++k) word[k] = from[k * 32];
-  }
 };
 
 /// A table in shared memory with six floats (24 bytes) per row, as one word of 16 and one of 8 bytes: with threads
@@ -198,36 +142,6 @@ struct ContactRun {
   bool goes_on = false;  ///< whether the next contact belongs to the same run
 };
 
-/// One contact without its state: its constants unpacked, with its frame.
-template <bool carried, bool memory>
-struct ContactInBlock {
-  const float4 (&word)[tile_constants_read(carried, memory)];
-  Placement<float> frame;
-  GroupAndRow of;
-  EndPair slots;
-
-  __device__ __forceinline__ explicit ContactInBlock(const ContactConstants<carried, memory>& constant)
-      : word(constant.word), of{__float_as_uint(word[tile_drift_b].w)}, slots{__float_as_uint(word[tile_drift_b].z)} {
-    const float4 c0 = word[tile_normal];
-    const Vec3<float> n{c0.x, c0.y, c0.z};
-    if constexpr (carried) {
-      const float4 c5 = word[tile_tangent];
-      const Vec3<float> tangent{c5.x, c5.y, c5.z};
-      frame = {n, tangent, cross(n, tangent), c0.w, word[tile_moment_a].x};
-    } else {
-      frame = canonical_placement(n, copysignf(1.0f, n.z), c0.w, word[tile_moment_a].x);
-    }
-  }
-  __device__ __forceinline__ EndPair ends() const { return {__float_as_uint(word[tile_moment_b].w)}; }
-
-  /// Returns the change of the contact's loads for the change `change` of its f.
-  __device__ __forceinline__ ContactLoad<float> load(const float (&change)[6], float alpha) const {
-    const float4 c1 = word[tile_moment_a], c2 = word[tile_moment_b];
-    const float moments[6] = {c1.y, c1.z, c1.w, c2.x, c2.y, c2.z};
-    return to_centres(frame, condensed_load(change, alpha, moments));
-  }
-};
-
 /// Steps one contact by model (6.8), and returns the change of its loads since the beginning of the block. `change` is
 /// δf, `sum` the sum of δf' + δf over the steps. Template arguments: `first`, whether a run begins here; `memory`,
 /// whether some law has a memory.
@@ -247,8 +161,8 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
   relative_rates(contact.frame, Twist<float>{run.linear, run.angular}, velocity[end.b()], u);
   const float4 l = law[contact.of.group()];
   if constexpr (memory) {
-    const float4 c3 = contact.word[tile_drift_a], c4 = contact.word[tile_drift_b];
-    const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
+    float drift[6];
+    contact.read_drift(drift);
 #pragma unroll
     for (int c = 0; c < 6; ++c) {
       const float before = change[c];
@@ -375,34 +289,6 @@ struct WallAxisMotion {
 
 /// Returns the index of component c (0…5) in the eight words v, –, ω, – of a body.
 __host__ __device__ constexpr int moving_word(int c) { return c < 3 ? c : c + 1; }
-
-/// Loads the state of a contact from memory. Only laws with a memory have sums; without one, `sum` is left unchanged.
-template <bool memory = true>
-__device__ __forceinline__ void load_state(const float4* state, float (&change)[6], float (&sum)[6]) {
-  const float4 a = state[tile_change * 32], b = state[tile_both * 32];
-  change[0] = a.x, change[1] = a.y, change[2] = a.z, change[3] = a.w, change[4] = b.x, change[5] = b.y;
-  if constexpr (memory) {
-    const float4 c = state[tile_sum * 32];
-    sum[0] = b.z, sum[1] = b.w, sum[2] = c.x, sum[3] = c.y, sum[4] = c.z, sum[5] = c.w;
-  }
-}
-/// Sets the state before a step: zero if the step begins a block, else the state in memory.
-template <bool memory>
-__device__ __forceinline__ void state_before(bool begins, const float4* state, float (&change)[6], float (&sum)[6]) {
-  if (!begins) return load_state<memory>(state, change, sum);
-  for (int c = 0; c < 6; ++c) change[c] = sum[c] = 0;
-}
-/// Stores the state of a contact to memory.
-template <bool memory>
-__device__ __forceinline__ void store_state(float4* state, const float (&change)[6], const float (&sum)[6]) {
-  state[tile_change * 32] = {change[0], change[1], change[2], change[3]};
-  if constexpr (memory) {
-    state[tile_both * 32] = {change[4], change[5], sum[0], sum[1]};
-    state[tile_sum * 32] = {sum[2], sum[3], sum[4], sum[5]};
-  } else {
-    state[tile_both * 32] = {change[4], change[5], 0, 0};
-  }
-}
 
 /// Stores a contact's load on a wall into its wall row; does nothing for a contact between particles.
 __device__ __forceinline__ void store_wall_load(float4* wall_load, GroupAndRow of, const ContactLoad<float>& load) {

@@ -38,8 +38,9 @@ inline Traffic traffic_streamed(const std::vector<Tile>& tiles, std::int64_t all
 template <class P>
 Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileArrays<P>& scene, bool carried, bool memory) {
   constexpr std::int64_t of_packet = 32 * sizeof(float4), of_velocity = 32;
-  const int words = tile_constants_read(carried, memory);
-  const std::int64_t of_constants = of_packet * words, of_states = 2 * of_packet * tile_states_moved(memory);
+  const int words = TileContactWords::constants_read(carried, memory);
+  const std::int64_t of_constants = of_packet * words,
+                     of_states = 2 * of_packet * TileContactWords::states_moved(memory);
   // packets before `first` have their constants in shared memory, as far as they fit; the following ones have them in
   // registers
   const std::int64_t first = packets_with_states - packets_with_constants(memory) * resident_threads / 32;
