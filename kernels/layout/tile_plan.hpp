@@ -5,14 +5,14 @@
 /// The tile path is the fast way to step condensed contacts on a GPU. A tile is a set of neighbouring particles (a tile
 /// of the layout) that one thread block owns. The block computes every contact that touches one of its particles. A
 /// contact between particles of two tiles is computed by both, from the same numbers in the same order of operations,
-/// so only velocities must be exchanged between tiles. TileRunner (tile_runner.hpp) calls plan_tiles() once per
+/// so only velocities must be exchanged between tiles. ExecCudaTiles::plan() calls plan_tiles() once per
 /// network, before the first step; the kernels read the plan through TileArrays (tile_step.hpp).
 ///
 /// Reading order of the tile path: this file; tile_step.hpp (one step of one contact, and the arrays);
 /// shared_memory_map.hpp and resident_kernel.hpp (the kernel that keeps tiles in registers and shared memory);
 /// halo_exchange.hpp (velocities between tiles); streamed_kernel.hpp (the kernel for larger scenes);
-/// settle_kernels.hpp (updating viscoelastic states between blocks of steps); tile_runner.hpp and exec_cuda_tiles.hpp
-/// (the host side).
+/// settle_kernels.hpp (updating viscoelastic states between blocks of steps); tile_blocks.hpp, tile_launch.hpp,
+/// tile_data.hpp and exec_cuda_tiles.hpp (the host side).
 ///
 /// Words of the tile path, as the identifiers use them:
 /// - body: a particle or a wall, in the order of the layout.

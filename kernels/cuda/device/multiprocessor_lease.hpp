@@ -4,7 +4,7 @@
 ///
 /// The thread blocks of a launch of resident tiles wait for one another, and each occupies one multiprocessor. If two
 /// such launches each had only some of the multiprocessors that they need, neither would end. So a specimen takes as
-/// many multiprocessors as it has tiles before it launches (TileRunner::run() calls take()), and gives them back when
+/// many multiprocessors as it has tiles before it launches (TileLaunch::lease() calls take()), and gives them back when
 /// its steps have finished (give()). Room in the identifiers means these multiprocessors; a Share is the number of them
 /// on each device.
 ///

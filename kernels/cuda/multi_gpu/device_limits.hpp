@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file device_limits.hpp  Determines the limits of the devices, and whether a kernel of the tile path fits them.
 ///
-/// TileRunner decides by these limits, never by a device's name, whether tiles stay on the chip (resident) or are
-/// streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made.
+/// fit_tiles() (tiles/tile_fit.hpp) decides by these limits, never by a device's name, whether tiles stay on the chip
+/// (resident) or are streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made.
 #pragma once
 
 #include <algorithm>

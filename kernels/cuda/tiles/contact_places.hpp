@@ -2,7 +2,7 @@
 /// \file contact_places.hpp  Maps the contacts of the layout's groups to their places in the tiles.
 ///
 /// A contact has one slot in its group (layout.hpp), and one or two places in TilePlan::contact: a contact between
-/// particles of two tiles is in both. TileRunner fills the map in add_contacts() and uploads it in prepare(). The
+/// particles of two tiles is in both. TileData fills the map in add_contacts() and uploads it in start(). The
 /// kernels between two blocks of steps use it to find the words of a slot's contact (settle_kernels.hpp), and
 /// checkpoints use it to write the tiles' words in the order of the network.
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file rank_messages.hpp  Sends the messages between tiles of several processes (ranks).
 ///
-/// With ranks every device has whole arrays, and each rank computes its own tiles. TileRunner sends velocities of halo
+/// With ranks every device has whole arrays, and each rank computes its own tiles. TileLaunch sends velocities of halo
 /// particles in every step, and between two blocks of steps the displacements, load records and constants that the next
 /// kernels read (RankExchange in rank_exchange.hpp). Within one process nothing is sent, because the devices read
 /// each other's memory.

@@ -2,7 +2,7 @@
 /// \file resident_kernel.hpp  Defines the resident kernel, which takes many steps in one launch, with one tile per
 /// multiprocessor.
 ///
-/// run_resident is launched by TileRunner with one thread block per tile; all blocks run at the same time (a
+/// run_resident is launched by TileLaunch with one thread block per tile; all blocks run at the same time (a
 /// cooperative launch). A block loads its tile into shared memory, takes the steps, and writes the tile back.
 /// Particles, slots of loads and velocities stay in shared memory as far as they fit; each warp keeps the states of its
 /// first packets in registers.

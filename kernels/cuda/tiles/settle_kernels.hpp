@@ -2,7 +2,7 @@
 /// \file settle_kernels.hpp  Defines the kernels that run between two blocks of steps on the tile path. They update the
 /// viscoelastic states in full precision and prepare the next block.
 ///
-/// TileRunner launches two kernels in this order. settle_contacts (through Settling in settle_launch.hpp) takes each
+/// TileBlocks launches two kernels in this order. settle_contacts (through Settling in settle_launch.hpp) takes each
 /// contact's δf and sum from the tiles' states, updates the contact's chain by model (6.9), writes the drift (and with
 /// updated geometry the frame) for the next block into the tiles' constants, and stores the loads of the current f as
 /// records. sum_base sums the records of each body to its new base loads and stores its displacement as that at the

@@ -2,7 +2,7 @@
 /// \file settle_launch.hpp  Launches the kernel that updates contacts between two blocks of steps (settle_contacts in
 /// settle_kernels.hpp).
 ///
-/// TileRunner owns one Settling. set_group() stores the law of each group; run() computes the coefficients for the
+/// TileBlocks owns one Settling. set_group() stores the law of each group; run() computes the coefficients for the
 /// lengths of the block that ends and of the block that begins (only if they changed) and launches the kernel on every
 /// device.
 #pragma once

@@ -2,7 +2,7 @@
 /// \file shared_memory_map.hpp  Divides the shared memory and the registers of a multiprocessor for the resident
 /// kernel (resident_kernel.hpp).
 ///
-/// ResidentMemory computes the position of each array in a tile's shared memory. The host (TileRunner) uses it to
+/// ResidentMemory computes the position of each array in a tile's shared memory. The host (fit_tiles()) uses it to
 /// decide whether tiles fit, and the kernel uses it to find the arrays. The remaining shared memory holds constants of
 /// packets (the cache). expected_resident_bytes() estimates the need before the tiles exist, so that ExecCudaTiles can
 /// choose their size.

@@ -2,7 +2,7 @@
 /// \file streamed_kernel.hpp  Defines the streamed kernel, which takes one step per launch, for any number of
 /// tiles.
 ///
-/// TileRunner uses it if the tiles do not fit on the chip, and with several ranks. Two tiles share a multiprocessor;
+/// TileLaunch uses it if the tiles do not fit on the chip, and with several ranks. Two tiles share a multiprocessor;
 /// the constants and states of contacts are read from global memory in every step. begin_streamed moves the bodies
 /// before the first step of a sequence. Then each launch of run_streamed reads the velocities of its step, steps all
 /// contacts of each tile, sums the loads, and moves the particles. The new velocities go to the other one of two arrays

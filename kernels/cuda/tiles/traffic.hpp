@@ -3,7 +3,7 @@
 /// global memory.
 ///
 /// The counts follow from the plan (packets, slots and particles of each tile) and from where the kernels keep the
-/// data; nothing is measured. TileRunner::traffic_by_place() calls these functions for the report of a run.
+/// data; nothing is measured. TileLaunch::traffic_by_place() calls these functions for the report of a run.
 #pragma once
 
 #include <algorithm>

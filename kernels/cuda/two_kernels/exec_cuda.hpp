@@ -16,7 +16,7 @@ namespace macadam::kernels {
 
 /// Executor for CUDA devices with precision P and a list of laws; see executor.hpp for its functions.
 template <class P, class Laws>
-class ExecCuda : public CudaBodyArrays<P> {
+class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle> {
   using Base = CudaBodyArrays<P>;
 
  public:
@@ -26,11 +26,17 @@ class ExecCuda : public CudaBodyArrays<P> {
   /// ContactForces has code for up to five Kelvin units in registers, besides exactly three.
   static constexpr bool five_units_in_registers = true;
 
-  /// The size does not depend on the device, because it determines the layout, and sums are in the order of the layout.
-  static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
+  using Plan = LayoutPlan;
+  /// The size of the tiles (1024 contacts) does not depend on the device, because it determines the layout, and sums
+  /// are in the order of the layout.
+  static std::optional<Plan> plan(const Specimen& specimen, const ContactNetwork& network, const StepperOptions&) {
+    return Plan{make_layout(specimen, network, Base::lanes, {1024})};
+  }
 
-  ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
-      : Base(network, layout, options, RecordOrder::as_written), step_(1), wall_row_(walls * WallMotion<R>::words) {}
+  ExecCuda(const ContactNetwork& network, const Plan& plan, const StepperOptions& options)
+      : Base(network, plan.layout, options, RecordOrder::as_written),
+        step_(1),
+        wall_row_(walls * WallMotion<R>::words) {}
   ~ExecCuda() {
     this->end_steps();
     forget_graphs();
@@ -78,7 +84,7 @@ class ExecCuda : public CudaBodyArrays<P> {
   }
 
   /// Enqueues all steps.
-  void run(std::int64_t, std::int64_t steps) {
+  void run(std::int64_t, std::int64_t steps, std::int64_t) {
     const Range range("time steps");
     this->team_.meet();  // the start may have written to memory on other streams
     if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_);
