@@ -133,7 +133,7 @@ class GroupReading {
       const double x[3] = {u[0] + s * u[1] + t * u[2], u[3] - t * u[5], u[4] + s * u[5]};
       double f[3] = {0, 0, 0};
       for (int k = 0; k < shape_.view.components; ++k) {
-        const std::size_t row = group_.packet_row[slot / shape_.lanes] + j;
+        const std::size_t row = group_.packet_layer[slot / shape_.lanes] + j;
         f[k] = weight * chain(row, k, slot % shape_.lanes, x[k], out + (3 * j + static_cast<std::size_t>(k)) * words());
       }
       const double along_s = alpha_ * f[1], along_t = alpha_ * f[2];

@@ -164,7 +164,7 @@ struct ContactForces {
   template <class Item, class T>
   MACADAM_HD FacetLoad<T> points_load(const Item& item, std::uint32_t packet, const T (&u)[6]) const {
     FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
-    for (std::uint32_t row = view.packet_row[packet]; row < view.packet_row[packet + 1]; ++row) {
+    for (std::uint32_t row = view.packet_layer[packet]; row < view.packet_layer[packet + 1]; ++row) {
       const auto* point = view.points + static_cast<std::size_t>(row) * point_words * item.lanes();
       const auto of = [&](std::size_t w) { return item.template convert<Work>(item.load(point + w * item.lanes())); };
       const T s = of(point_s), t = of(point_t), weight = of(point_weight);
@@ -188,7 +188,7 @@ struct ContactForces {
     using S = typename Item::template Value<typename P::State>;
     const auto of = [&](const T& x) { return item.template convert<typename P::State>(x); };
     FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
-    for (std::uint32_t row = view.packet_row[packet]; row < view.packet_row[packet + 1]; ++row) {
+    for (std::uint32_t row = view.packet_layer[packet]; row < view.packet_layer[packet + 1]; ++row) {
       const auto* point = view.points + static_cast<std::size_t>(row) * point_words * item.lanes();
       const auto word = [&](std::size_t w) { return item.template convert<Work>(item.load(point + w * item.lanes())); };
       const T s = word(point_s), t = word(point_t), weight = word(point_weight);

@@ -143,7 +143,7 @@ struct CpuGroup {
     return static_cast<std::int64_t>(((array.size() * sizeof(array[0])) + ...));
   }
   std::int64_t fixed_bytes() const {
-    return bytes_of(arrays.body_a, arrays.body_b, arrays.geometry, arrays.points, arrays.packet_row);
+    return bytes_of(arrays.body_a, arrays.body_b, arrays.geometry, arrays.points, arrays.packet_layer);
   }
   std::int64_t chain_bytes() const { return bytes_of(arrays.chain, arrays.frame); }
   std::int64_t block_bytes() const { return bytes_of(state, placed); }

@@ -182,11 +182,11 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
   }
   group.tile_packet.push_back(static_cast<std::uint32_t>(group.contact.size() / lanes));
   for (std::size_t packet = 0; packet < group.packets(); ++packet) {
-    group.packet_row.push_back(row);
+    group.packet_layer.push_back(row);
     const auto first = group.points.begin() + static_cast<std::ptrdiff_t>(packet * lanes);
     row += *std::max_element(first, first + layout.lanes);
   }
-  group.packet_row.push_back(row);
+  group.packet_layer.push_back(row);
   return group;
 }
 

@@ -45,7 +45,7 @@ struct LayoutPlan {
   Layout layout;
 };
 
-/// What the walls do at one step, as an executor samples it while it runs. R: precision of the particles.
+/// Forces and motion of the walls at one step, sampled by an executor while it runs. R: precision of the particles.
 template <class R>
 struct WallSample {
   std::vector<Twist<R>> force;       ///< [wall] exerted by the particles [N, N·m]

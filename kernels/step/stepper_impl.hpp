@@ -327,7 +327,8 @@ class StepperImpl final : public Stepper {
   void start_from(const StartState& start) {
     std::vector<Vec3d> velocity = start.velocity, spin = start.spin;
     for (auto* list : {&velocity, &spin}) {
-      for (Vec3d& v : *list) v = (1 / static_cast<double>(motion_.keep)) * v;  // the step will apply damping again
+      for (Vec3d& v : *list)
+        v = (1 / static_cast<double>(motion_.damping_factor)) * v;  // the step will apply damping again
     }
     if (options_.skip_rotations) spin.assign(spin.size(), {});  // spins in the solution are only rounding errors
     set_velocities(velocity, spin);

@@ -18,9 +18,9 @@ inline constexpr unsigned record_words = 6;
 /// consecutive.
 template <class T>
 struct LoadRecords {
-  T* words;                        ///< [record][6] force, moment [N, N·m]
-  const std::uint32_t* row_begin;  ///< [body + 1]
-  const std::uint32_t* place;      ///< [slot][2] records of the A and the B end; UINT32_MAX in an inert slot
+  T* words;                         ///< [record][6] force, moment [N, N·m]
+  const std::uint32_t* list_begin;  ///< [body + 1]
+  const std::uint32_t* place;       ///< [slot][2] records of the A and the B end; UINT32_MAX in an inert slot
 
   using Two = std::conditional_t<sizeof(T) == 8, double2, float2>;
   static constexpr unsigned parts = record_words / 2;  ///< number of parts in which a record is written

@@ -40,7 +40,7 @@ __device__ R sum_by_block(const LoadRecords<T>& records, std::uint32_t body) {
   __shared__ R part[body_threads];
   const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
   part[threadIdx.x] =
-      sum_words<R>(records, records.row_begin[body] + lane, records.row_begin[body + 1], bodies_a_block, w);
+      sum_words<R>(records, records.list_begin[body] + lane, records.list_begin[body + 1], bodies_a_block, w);
   __syncthreads();
   R sum = 0;
   if (lane == 0) {

@@ -6,7 +6,7 @@
 /// particles, 220,166 contacts) on one H200, unless another device is named. They come from
 /// bench/results/tried-gpu-step.csv ("tried" below). "Not recorded" means that the number was chosen by trial and that
 /// no measurement of alternatives was kept. Two numbers of the tile path are in layout/tile_plan.hpp, because the plan
-/// is made without CUDA: TilePlan::run and TilePlan::longest_short_row.
+/// is made without CUDA: TilePlan::couple and TilePlan::longest_short_list.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ inline constexpr unsigned body_blocks = 4;
 inline constexpr unsigned records_requested = 8;
 /// A body with more load records than this gets a thread block of its own. A large aggregate has hundreds. Not
 /// recorded.
-inline constexpr std::uint32_t long_row = 64;
+inline constexpr std::uint32_t long_list = 64;
 /// Steps that ExecCuda records in one graph. Not recorded; a graph of one step takes the remaining steps.
 inline constexpr std::int64_t steps_per_graph = 64;
 

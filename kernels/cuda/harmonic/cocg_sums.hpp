@@ -49,7 +49,7 @@ __device__ inline bool comes_last(unsigned* counter, unsigned blocks, bool sever
 
 /// Sums `rows` rows of N·W numbers each, by the whole thread block, into out[N][W] in shared memory.
 template <int N, int W>
-__device__ void sum_rows(const double* rows_of, unsigned rows, unsigned stride, double* out) {
+__device__ void sum_lists(const double* rows_of, unsigned rows, unsigned stride, double* out) {
   double own[N] = {};
 #pragma unroll 5  // there are few rows; unrolling loads several before the first has arrived
   for (unsigned r = threadIdx.x / W; r < rows; r += cocg_threads / W) {

@@ -29,16 +29,16 @@ struct EndPair {
   __host__ __device__ constexpr std::uint32_t b() const { return word >> 16; }
 };
 
-/// Two numbers of a contact in one word: its group (pair type) and its wall row, or no_row.
-struct GroupAndRow {
-  static constexpr std::uint32_t group_bits = 4, no_row = (1u << (32 - group_bits)) - 1;
+/// Two numbers of a contact in one word: its group (pair type) and its wall contact number, or no_wall.
+struct GroupAndWallContact {
+  static constexpr std::uint32_t group_bits = 4, no_wall = (1u << (32 - group_bits)) - 1;
   static_assert(pair_types <= 1 << group_bits);
   std::uint32_t word;
-  __host__ __device__ static constexpr GroupAndRow of(std::uint32_t group, std::uint32_t row) {
-    return {group | (row < no_row ? row : no_row) << group_bits};
+  __host__ __device__ static constexpr GroupAndWallContact of(std::uint32_t group, std::uint32_t wall_contact) {
+    return {group | (wall_contact < no_wall ? wall_contact : no_wall) << group_bits};
   }
   __host__ __device__ constexpr std::uint32_t group() const { return word & ((1u << group_bits) - 1); }
-  __host__ __device__ constexpr std::uint32_t row() const { return word >> group_bits; }
+  __host__ __device__ constexpr std::uint32_t wall_contact() const { return word >> group_bits; }
 };
 
 template <bool carried, bool memory>
@@ -51,7 +51,7 @@ class TileContactWords {
     normal,    ///< normal n, lever arm of end A
     moment_a,  ///< lever arm of end B, area moments 0…2
     moment_b,  ///< area moments 3…5, EndPair of the local numbers of the bodies
-    drift_b,   ///< drift of components 4 and 5, EndPair of the slots of loads, GroupAndRow
+    drift_b,   ///< drift of components 4 and 5, EndPair of the cells of loads, GroupAndWallContact
     drift_a,   ///< drift of components 0…3
     tangent,   ///< first tangent s, unused component; with updated geometry only
   };
@@ -72,15 +72,15 @@ class TileContactWords {
   static constexpr int states = sum_b + 1;
   __host__ __device__ static constexpr int states_moved(bool memory) { return memory ? states : sum_b; }
 
-  /// Returns the address of the first word of the contact at `place`, in an array with `count` words per contact. The
-  /// following words are 32 words apart.
+  /// Returns the address of the first word of the contact at `position`, in an array with `count` words per contact.
+  /// The following words are 32 words apart.
   template <class Word>
-  __host__ __device__ __forceinline__ static Word* at(Word* words, std::uint32_t place, int count) {
-    return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
+  __host__ __device__ __forceinline__ static Word* at(Word* words, std::uint32_t position, int count) {
+    return words + static_cast<std::size_t>(position / 32) * count * 32 + position % 32;
   }
   /// Returns the index of that word in the array.
-  static std::size_t first(std::size_t place, int count) {
-    return place / 32 * static_cast<std::size_t>(count) * 32 + place % 32;
+  static std::size_t first(std::size_t position, int count) {
+    return position / 32 * static_cast<std::size_t>(count) * 32 + position % 32;
   }
 
   /// Packs the constants of a contact. `word`(k): its geometry word k (GeometryWord).
@@ -90,12 +90,12 @@ class TileContactWords {
     out[moment_a * 32] = {word(arm_b), word(moment_0), word(moment_0 + 1), word(moment_0 + 2)};
     out[moment_b * 32] = {word(moment_0 + 3), word(moment_0 + 4), word(moment_0 + 5),
                           bits(EndPair::of(c.local_a, c.local_b).word)};
-    out[drift_b * 32] = {0, 0, bits(EndPair::of(c.slot_a, c.slot_b).word),
-                         bits(GroupAndRow::of(c.group, c.wall_row).word)};
+    out[drift_b * 32] = {0, 0, bits(EndPair::of(c.cell_a, c.cell_b).word),
+                         bits(GroupAndWallContact::of(c.group, c.wall_contact).word)};
   }
-  /// Packs an inert contact: its loads go to no slot and no wall row.
+  /// Packs an inert contact: its loads go to no cell and no wall contact number.
   static void pack_inert(float4* out) {
-    out[drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndRow::of(0, GroupAndRow::no_row).word)};
+    out[drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndWallContact::of(0, GroupAndWallContact::no_wall).word)};
   }
 
   /// Sets the constants that change between blocks to those of the undeformed contact. `word` as in pack().
@@ -189,11 +189,11 @@ struct ContactInBlock {
   using W = TileContactWords;
   const float4 (&word)[W::constants_read(carried, memory)];
   Placement<float> frame;
-  GroupAndRow of;
-  EndPair slots;
+  GroupAndWallContact of;
+  EndPair cells;
 
   __device__ __forceinline__ explicit ContactInBlock(const ContactConstants<carried, memory>& constant)
-      : word(constant.word), of{__float_as_uint(word[W::drift_b].w)}, slots{__float_as_uint(word[W::drift_b].z)} {
+      : word(constant.word), of{__float_as_uint(word[W::drift_b].w)}, cells{__float_as_uint(word[W::drift_b].z)} {
     const float4 c0 = word[W::normal];
     const Vec3<float> n{c0.x, c0.y, c0.z};
     if constexpr (carried) {

@@ -75,7 +75,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     dt_ = start.options.dt;
     launch_.set_memory(!blocks_are_exact(start.options.geometry, start.laws));
     blocks_.begin(block_of(start.options, start.laws, start.size), start.options.observed_every > 0);
-    if (start.first) this->require_memory(start.group_bytes + data_.bytes_to_come(this->rows_.records));
+    if (start.first) this->require_memory(start.group_bytes + data_.bytes_to_come(this->lists_.records));
   }
 
   template <class L, class Forces>
@@ -88,7 +88,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   }
 
   void prepare(const ParticleMotion<P>& motion) {
-    data_.start(motion, this->rows_);
+    data_.start(motion, this->lists_);
     launch_.start();
     blocks_.start();
     this->add_body_states();

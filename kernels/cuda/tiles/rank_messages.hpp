@@ -11,7 +11,7 @@
 
 #include "kernels/cuda/common/crossing_contacts.hpp"
 #include "kernels/cuda/tiles/settle_launch.hpp"
-#include "kernels/cuda/tiles/contact_places.hpp"
+#include "kernels/cuda/tiles/contact_positions.hpp"
 #include "kernels/cuda/tiles/tile_step.hpp"
 
 namespace macadam::kernels {
@@ -51,7 +51,7 @@ class TileMessages {
 
   /// Prepares the messages. Called once; the arrays must keep their addresses. `places` must still be on the host.
   void make_ready(const DeviceTeam& team, const Layout& layout, const TeamCuts& cuts, const TilePlan& plan,
-                  const TileOwners& owners, const TilePlaces& places, const Crossing& crossing,
+                  const TileOwners& owners, const TilePositions& positions, const Crossing& crossing,
                   const TileArrays<P>& scene, const SettledArrays<P>& settled, double* before, R* base, bool carried) {
     RankItems halo(team), constants(team), wall_rows(team), wall_bodies(team);
     for (std::size_t m = 0; m < team.size(); ++m) {
@@ -62,7 +62,7 @@ class TileMessages {
         }
       }
     }
-    places.for_each_slot(cuts, [&](std::size_t m, const uint2& place) {
+    positions.for_each_slot(cuts, [&](std::size_t m, const uint2& place) {
       for (const std::uint32_t p : {place.x, place.y}) {
         if (p == UINT32_MAX) continue;
         const std::size_t reader = owners.of_contact(p);
@@ -72,7 +72,8 @@ class TileMessages {
       }
     });
     for (std::size_t i = 0; i < plan.contact.size(); ++i) {
-      if (plan.contact[i].wall_row != UINT32_MAX) wall_rows.add_for_all(plan.contact[i].wall_row, owners.of_contact(i));
+      if (plan.contact[i].wall_contact != UINT32_MAX)
+        wall_rows.add_for_all(plan.contact[i].wall_contact, owners.of_contact(i));
     }
     for (std::size_t w = 0; w < walls; ++w) wall_bodies.add_for_all(layout.particles() + w, team.size() - 1);
 

@@ -4,17 +4,17 @@
 ///
 /// run_resident is launched by TileLaunch with one thread block per tile; all blocks run at the same time (a
 /// cooperative launch). A block loads its tile into shared memory, takes the steps, and writes the tile back.
-/// Particles, slots of loads and velocities stay in shared memory as far as they fit; each warp keeps the states of its
+/// Particles, cells of loads and velocities stay in shared memory as far as they fit; each warp keeps the states of its
 /// first packets in registers.
 ///
-/// The order of one step is: sum the slots of each particle and move it; publish its velocity for other tiles
+/// The order of one step is: sum the cells of each particle and move it; publish its velocity for other tiles
 /// (halo_exchange.hpp); step the contacts that touch no halo particle while velocities are in transit; receive the
-/// halo's velocities; step the other contacts, which store their loads into slots.
+/// halo's velocities; step the other contacts, which store their loads into cells.
 ///
-/// Words: a tile, group, packet, run, slot, row and halo are explained in tile_plan.hpp. A share is here the part of a
-/// tile's packets that one warp steps: `early` and `late` are its packets with states in registers, `others` are those
-/// with states in memory. The cache is the part of shared memory that holds constants of packets; `cached` is the
-/// number of packets in it.
+/// Words: tile, packet, couple, double packet, load cell, load list and halo are explained in tile_plan.hpp and in
+/// docs/gpu-step.md. Of the packets that a warp steps, `early` and `late` have their states in registers, and `spilled`
+/// have them in memory. The cache is the part of shared memory that holds constants of packets; `cached` is the number
+/// of packets in it.
 #pragma once
 
 #include <cuda_pipeline_primitives.h>
@@ -28,7 +28,7 @@ namespace macadam::kernels {
 /// written. Otherwise each read would wait for the write before it, because both might have the same address. `memory`:
 /// some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in shared
 /// memory.
-template <class P, int Threads, bool carried, bool memory, BodyStorage where>
+template <class P, int Threads, bool carried, bool memory, BodyStorage storage>
 class ResidentTile {
  public:
   using R = typename P::Particle;
@@ -36,7 +36,7 @@ class ResidentTile {
   using Constants = ContactConstants<carried, memory>;
   using Contact = ContactInBlock<carried, memory>;
   /// Constant words of a packet: number in memory, and number of those that a step reads and the cache holds.
-  static constexpr std::uint32_t words = TileContactWords::constants(carried), kept = Constants::words;
+  static constexpr std::uint32_t words = TileContactWords::constants(carried), words_read = Constants::words;
 
   __device__ __forceinline__ ResidentTile(const TileArrays<P>& scene, const Tile& own_tile, unsigned char* shared,
                                           const ResidentMemory<P>& m)
@@ -48,18 +48,18 @@ class ResidentTile {
         cache(reinterpret_cast<float4*>(shared + m.cache)),
         constants(s.constant + std::size_t{tile.first_packet} * words * 32),
         states(s.state + std::size_t{tile.first_packet} * TileContactWords::states * 32),
-        slots{SixTable::at(shared + m.slots, tile.slots)},
-        displacement(reinterpret_cast<Six<double>*>(rest(shared, m))),
+        cells{SixTable::at(shared + m.cells, tile.cells)},
+        displacement(reinterpret_cast<Six<double>*>(body_data_place(shared, m))),
         base(reinterpret_cast<Six<R>*>(displacement + tile.bodies)),
         inverse(reinterpret_cast<Two<R>*>(base + tile.bodies)),
-        own(own_place(shared, m)),
+        full_velocity(full_velocity_place(shared, m)),
         halo(reinterpret_cast<std::int32_t*>(shared + m.halo)),
         diagonal(reinterpret_cast<std::uint32_t*>(shared + m.diagonal)),
-        row(reinterpret_cast<uint2*>(shared + m.row)),
+        list(reinterpret_cast<uint2*>(shared + m.list)),
         cached(m.cached),
         first_wall(tile.bodies + tile.halo) {}
 
-  /// Returns how many groups are stepped before the halo's velocities have arrived. Zero if there are few, because an
+  /// Returns how many doubles are stepped before the halo's velocities have arrived. Zero if there are few, because an
   /// early part of the step needs one more barrier.
   __device__ __forceinline__ std::uint32_t inner() const { return 2 * tile.inner < warps ? 0 : tile.inner; }
   /// Some consecutive packets: first and count. They are packed into one word, because registers are scarce.
@@ -69,27 +69,28 @@ class ResidentTile {
     __device__ __forceinline__ std::uint32_t first() const { return word >> 4; }
     __device__ __forceinline__ std::uint32_t count() const { return word & 15; }
   };
-  /// The packets that one warp steps. The states of `early` and `late` stay in registers; the states of `others` are in
-  /// memory.
-  struct Share {
+  /// The packets that one warp steps. The states of `early` and `late` stay in registers; the states of `spilled` are
+  /// in memory.
+  struct PacketsOfWarp {
     Packets early, late;
     bool ahead;  ///< whether `early` needs no velocities of other tiles
-    WarpPackets others;
+    WarpPackets spilled;
   };
   /// Returns the packets of this thread's warp.
-  __device__ __forceinline__ Share share() const {
-    constexpr std::uint32_t run = TilePlan::run, room = double_packets_in_registers * warps;
-    const std::uint32_t warp = threadIdx.x / 32, groups = min(tile.groups, room), free = room - groups;
+  __device__ __forceinline__ PacketsOfWarp packets_of_warp() const {
+    constexpr std::uint32_t couple = TilePlan::couple, capacity = double_packets_in_registers * warps;
+    const std::uint32_t warp = threadIdx.x / 32, doubles = min(tile.double_packets, capacity),
+                        free = capacity - doubles;
     const std::uint32_t ahead = min(inner(), warps);
-    const std::uint32_t first_one = run * tile.groups, ones = tile.packets - first_one;
-    const std::uint32_t each = free == 0 ? 0 : min(run, (ones + free - 1) / free);
+    const std::uint32_t first_one = couple * tile.double_packets, ones = tile.packets - first_one;
+    const std::uint32_t each = free == 0 ? 0 : min(couple, (ones + free - 1) / free);
     const auto packets = [&](std::uint32_t k) -> Packets {
-      if (k < groups) return {run * k, run};
-      const std::uint32_t at = min((k - groups) * each, ones);
+      if (k < doubles) return {couple * k, couple};
+      const std::uint32_t at = min((k - doubles) * each, ones);
       return {first_one + at, min(each, ones - at)};
     };
     return {packets(warp), packets(warps + warp), warp < ahead,
-            WarpPackets::of(tile, groups, first_one + min(free * each, ones), warp, warps, ahead)};
+            WarpPackets::of(tile, doubles, first_one + min(free * each, ones), warp, warps, ahead)};
   }
   /// Returns the position in the cache of the constants of a warp's packet j; the packet is cached if this is less than
   /// `cached`. The first packets of all warps come first, so that no warp has many more uncached packets than another.
@@ -99,8 +100,8 @@ class ResidentTile {
   /// Position of constants that are in global memory.
   static constexpr std::uint32_t in_memory = UINT32_MAX;
   /// First of a warp's packets with states in registers whose constants are in registers, too.
-  static constexpr std::uint32_t first_kept =
-      double_packets_in_registers * TilePlan::run - packets_with_constants(memory);
+  static constexpr std::uint32_t first_in_registers =
+      double_packets_in_registers * TilePlan::couple - packets_with_constants(memory);
   /// Returns the address of the state of this thread's contact in a packet.
   __device__ __forceinline__ float4* state(std::uint32_t packet) const {
     return states + std::size_t{packet} * TileContactWords::states * 32 + threadIdx.x % 32;
@@ -118,26 +119,26 @@ class ResidentTile {
         moved.of[c] = s.motion.body.displacement[i * displacement_words + moving_word(c)];
       }
       const Two<R> by{s.motion.body.inverse[2 * i], s.motion.body.inverse[2 * i + 1]};
-      const uint2 of_row = s.row[tile.first_body + r];
-      own[r] = velocities, base[r] = loads, displacement[r] = moved, inverse[r] = by, row[r] = of_row;
+      const uint2 of_list = s.list[tile.first_body + r];
+      full_velocity[r] = velocities, base[r] = loads, displacement[r] = moved, inverse[r] = by, list[r] = of_list;
     }
     for (std::uint32_t h = threadIdx.x; h < tile.halo; h += Threads) halo[h] = s.halo[tile.first_halo + h];
-    for (std::uint32_t e = threadIdx.x; e < TilePlan::longest_short_row; e += Threads)
-      diagonal[e] = s.diagonal[s.own_tile() * TilePlan::longest_short_row + e];
+    for (std::uint32_t e = threadIdx.x; e < TilePlan::longest_short_list; e += Threads)
+      diagonal[e] = s.diagonal[s.own_tile() * TilePlan::longest_short_list + e];
     if (threadIdx.x < pair_types) law[threadIdx.x] = s.law[threadIdx.x];
     if (threadIdx.x < walls) velocity.set(first_wall + threadIdx.x, {0, 0, 0, 0, 0, 0});
-    const Share own_share = share();
+    const PacketsOfWarp mine = packets_of_warp();
     const auto keep = [&](const Packets& packets, std::uint32_t first) {
       for (std::uint32_t k = 0; k < packets.count(); ++k) {
         const std::uint32_t at = place_in_cache(first + k);
-        for (std::uint32_t i = threadIdx.x % 32; at < cached && i < kept * 32; i += 32) {
-          __pipeline_memcpy_async(&cache[at * kept * 32 + i],
+        for (std::uint32_t i = threadIdx.x % 32; at < cached && i < words_read * 32; i += 32) {
+          __pipeline_memcpy_async(&cache[at * words_read * 32 + i],
                                   &constants[std::size_t{packets.first() + k} * words * 32 + i], sizeof(float4));
         }
       }
     };
-    keep(own_share.early, 0);
-    keep(own_share.late, TilePlan::run);
+    keep(mine.early, 0);
+    keep(mine.late, TilePlan::couple);
     __pipeline_commit();
   }
   /// Waits until the constants that load() requested for this thread have arrived.
@@ -152,9 +153,9 @@ class ResidentTile {
       move(r, force, tag);
     }
   }
-  /// Moves all particles by the loads that the contacts of the last step left in slots, plus the base loads.
+  /// Moves all particles by the loads that the contacts of the last step left in cells, plus the base loads.
   __device__ __forceinline__ void move_by_sums(std::uint32_t tag) const {
-    sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
+    sum_lists(tile, list, diagonal, cells, [&](std::uint32_t r, const float(&extra)[6]) {
       Six<R> force = base[r];
       for (int c = 0; c < 6; ++c) force.of[c] += static_cast<R>(extra[c]);
       move(r, force.of, tag);
@@ -177,7 +178,7 @@ class ResidentTile {
   __device__ __forceinline__ void displace() const {
     for (std::uint32_t r = Threads - 1 - threadIdx.x; r < tile.bodies; r += Threads) {
       Six<double> u = displacement[r];
-      const Six<R> x = own[r];
+      const Six<R> x = full_velocity[r];
       for (int c = 0; c < 6; ++c) u.of[c] = multiply_add(s.motion.dt, double(x.of[c]), u.of[c]);
       displacement[r] = u;
     }
@@ -189,18 +190,18 @@ class ResidentTile {
     Constants out;
     // Two branches, so that the compiler knows for each load whether it is from shared or global memory
     if (at < cached)
-      out.load(cache + at * kept * 32 + lane);
+      out.load(cache + at * words_read * 32 + lane);
     else
       out.load(constants + std::size_t{packet} * words * 32 + lane);
     return out;
   }
-  /// Steps one contact and stores its load into slots. `first`: a run begins here.
+  /// Steps one contact and stores its load into cells. `first`: a couple begins here.
   template <bool first>
   __device__ __forceinline__ void step(const Constants& constant, float (&change)[6], float (&sum)[6],
-                                       ContactRun& run) const {
+                                       ContactCouple& couple) const {
     const Contact contact(constant);
-    const auto load = step_in_block<first>(contact, law, velocity, change, sum, run);
-    slots.put(contact.slots, load, run);
+    const auto load = step_in_block<first>(contact, law, velocity, change, sum, couple);
+    cells.put(contact.cells, load, couple);
   }
   /// Writes the loads on walls to global memory, after the last step.
   __device__ __forceinline__ void store_wall_loads(std::uint32_t packet, const float (&change)[6]) const {
@@ -211,11 +212,11 @@ class ResidentTile {
 
   /// Writes the particles and their current loads to global memory.
   __device__ __forceinline__ void store() const {
-    sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
+    sum_lists(tile, list, diagonal, cells, [&](std::uint32_t r, const float(&extra)[6]) {
       const auto i = static_cast<std::size_t>(body[r]);
       for (int c = 0; c < 6; ++c) {
         s.force[i * velocity_words + moving_word(c)] = base[r].of[c] + static_cast<R>(extra[c]);
-        s.motion.body.master[i * velocity_words + moving_word(c)] = own[r].of[c];
+        s.motion.body.master[i * velocity_words + moving_word(c)] = full_velocity[r].of[c];
         s.motion.body.displacement[i * displacement_words + moving_word(c)] = displacement[r].of[c];
       }
     });
@@ -223,24 +224,24 @@ class ResidentTile {
 
  private:
   // decided at compile time, so that the compiler knows which data is in shared memory
-  __device__ __forceinline__ unsigned char* rest(unsigned char* shared, const ResidentMemory<P>& m) const {
-    if constexpr (where == BodyStorage::here)
-      return shared + m.rest;
+  __device__ __forceinline__ unsigned char* body_data_place(unsigned char* shared, const ResidentMemory<P>& m) const {
+    if constexpr (storage == BodyStorage::shared)
+      return shared + m.body_data;
     else
-      return s.rest + std::size_t{blockIdx.x} * ResidentMemory<P>::rest_bytes(s.most_bodies, where);
+      return s.body_data + std::size_t{blockIdx.x} * ResidentMemory<P>::body_bytes(s.most_bodies, storage);
   }
-  __device__ __forceinline__ Six<R>* own_place(unsigned char* shared, const ResidentMemory<P>& m) const {
-    if constexpr (where == BodyStorage::all_away)
+  __device__ __forceinline__ Six<R>* full_velocity_place(unsigned char* shared, const ResidentMemory<P>& m) const {
+    if constexpr (storage == BodyStorage::global)
       return reinterpret_cast<Six<R>*>(inverse + tile.bodies);
     else
-      return reinterpret_cast<Six<R>*>(shared + m.own);
+      return reinterpret_cast<Six<R>*>(shared + m.full_velocity);
   }
   /// Moves particle r under `force`, publishes its velocity with `tag`, and enters it in the table of velocities.
   __device__ __forceinline__ void move(std::uint32_t r, const R (&force)[6], std::uint32_t tag) const {
     const Two<R> by = inverse[r];
-    Six<R> now = own[r];
+    Six<R> now = full_velocity[r];
     for (int c = 0; c < 6; ++c) now.of[c] = s.motion.moved(now.of[c], force[c], c < 3 ? by.linear : by.angular);
-    own[r] = now;
+    full_velocity[r] = now;
     const R(&x)[6] = now.of;
     const float y[6] = {float(x[0]), float(x[1]), float(x[2]), float(x[3]), float(x[4]), float(x[5])};
     put_velocity(s.exchange(tag) + 2 * (static_cast<std::size_t>(tile.first_body) + r), y, tag);
@@ -254,34 +255,34 @@ class ResidentTile {
   float4 *law, *cache;
   const float4* constants;
   float4* states;
-  const TileSlots slots;
+  const LoadCells cells;
   Six<double>* displacement;
   Six<R>* base;
   Two<R>* inverse;
-  Six<R>* own;
+  Six<R>* full_velocity;
   std::int32_t* halo;
   std::uint32_t* diagonal;
-  uint2* row;
+  uint2* list;
   const std::uint32_t cached, first_wall;
 };
 
 /// Takes `steps` steps; the first has the tag `first_tag`. The states of a warp's first packets stay in registers.
-template <class P, int Threads, bool carried, bool memory, BodyStorage where>
+template <class P, int Threads, bool carried, bool memory, BodyStorage storage>
 __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileArrays<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   extern __shared__ __align__(16) unsigned char shared[];
   const Tile own_tile = s.tile[s.own_tile()];
-  using OfTile = ResidentTile<P, Threads, carried, memory, where>;
-  const ResidentMemory<P> places(own_tile, OfTile::kept, where, s.room);
-  OfTile tile(s, own_tile, shared, places);
-  const auto share = tile.share();
-  // kept in shared memory, because registers are scarce
-  auto& others = reinterpret_cast<WarpPackets*>(shared + places.others)[threadIdx.x / 32];
-  if (threadIdx.x % 32 == 0) others = share.others;
+  using OfTile = ResidentTile<P, Threads, carried, memory, storage>;
+  const ResidentMemory<P> memory_map(own_tile, OfTile::words_read, storage, s.shared_bytes);
+  OfTile tile(s, own_tile, shared, memory_map);
+  const auto mine = tile.packets_of_warp();
+  // words_read in shared memory, because registers are scarce
+  auto& spilled = reinterpret_cast<WarpPackets*>(shared + memory_map.spilled)[threadIdx.x / 32];
+  if (threadIdx.x % 32 == 0) spilled = mine.spilled;
   tile.load();
-  constexpr std::uint32_t run = TilePlan::run;
-  float change[double_packets_in_registers * run][6], sum[double_packets_in_registers * run][6];
-  static_assert(run == 2 && double_packets_in_registers == 2);
+  constexpr std::uint32_t couple = TilePlan::couple;
+  float change[double_packets_in_registers * couple][6], sum[double_packets_in_registers * couple][6];
+  static_assert(couple == 2 && double_packets_in_registers == 2);
   // f(index of the state, packet); the indices are compile-time constants, so that the arrays stay in registers
   const auto each_of = [](const auto& packets, auto begin, auto&& f) {
     const auto one = [&](auto j) {
@@ -291,15 +292,15 @@ __global__ void __launch_bounds__(Threads, 1)
     one(std::integral_constant<std::uint32_t, 1>{});
   };
   constexpr std::integral_constant<std::uint32_t, 0> early{};
-  constexpr std::integral_constant<std::uint32_t, run> late{};
+  constexpr std::integral_constant<std::uint32_t, couple> late{};
   const auto each_resident = [&](auto&& f) {
-    each_of(share.early, early, f);
-    each_of(share.late, late, f);
+    each_of(mine.early, early, f);
+    each_of(mine.late, late, f);
   };
-  typename OfTile::Constants constants[double_packets_in_registers * run];  // used from first_kept on
+  typename OfTile::Constants constants[double_packets_in_registers * couple];  // used from first_in_registers on
   each_resident([&](auto k, std::uint32_t packet) {
     TileContactWords::state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
-    if constexpr (k() >= OfTile::first_kept) constants[k] = tile.constants_of(packet, OfTile::in_memory);
+    if constexpr (k() >= OfTile::first_in_registers) constants[k] = tile.constants_of(packet, OfTile::in_memory);
   });
 
   const bool inner = tile.inner() > 0;
@@ -316,30 +317,30 @@ __global__ void __launch_bounds__(Threads, 1)
     else
       tile.move_by_sums(tag);
     if (drives_wall) tile.set_wall(wall, of_wall);
-    ContactRun contacts;
+    ContactCouple contacts;
     const auto step = [&](auto k, std::uint32_t packet) {
-      constexpr bool begins_run = k() % run == 0;
-      if constexpr (k() >= OfTile::first_kept)
-        tile.template step<begins_run>(constants[k], change[k], sum[k], contacts);
+      constexpr bool begins_couple = k() % couple == 0;
+      if constexpr (k() >= OfTile::first_in_registers)
+        tile.template step<begins_couple>(constants[k], change[k], sum[k], contacts);
       else
-        tile.template step<begins_run>(tile.constants_of(packet, OfTile::place_in_cache(k)), change[k], sum[k],
-                                       contacts);
+        tile.template step<begins_couple>(tile.constants_of(packet, OfTile::place_in_cache(k)), change[k], sum[k],
+                                          contacts);
     };
     if (inner) __syncthreads();
 #pragma unroll 1
     for (int turn = 0; turn < 2; ++turn) {  // turn 0, while velocities are in transit: `early` packets that need no
                                             // other tile; turn 1: all other `early` packets
-      if (share.ahead == (turn == 0)) each_of(share.early, early, step);
+      if (mine.ahead == (turn == 0)) each_of(mine.early, early, step);
       if (turn > 0) break;
       if (inner) tile.displace();
       tile.receive(tag);
       __syncthreads();
       if (!inner) tile.displace();
     }
-    each_of(share.late, late, step);
+    each_of(mine.late, late, step);
 #pragma unroll 1
-    for (std::uint32_t k = 0; k < others.count(); ++k) {
-      const std::uint32_t packet = others[k];
+    for (std::uint32_t k = 0; k < spilled.count(); ++k) {
+      const std::uint32_t packet = spilled[k];
       float df[6], both[6];
       TileContactWords::state_before<memory>(s.begins_block && tag == first_tag, tile.state(packet), df, both);
       tile.template step<false>(tile.constants_of(packet, OfTile::in_memory), df, both, contacts);
@@ -352,10 +353,10 @@ __global__ void __launch_bounds__(Threads, 1)
     TileContactWords::write_state<memory>(tile.state(packet), change[k], sum[k]);
     tile.store_wall_loads(packet, change[k]);
   });
-  for (std::uint32_t k = 0; k < others.count(); ++k) {
+  for (std::uint32_t k = 0; k < spilled.count(); ++k) {
     float df[6], both[6];
-    TileContactWords::read_state<memory>(tile.state(others[k]), df, both);
-    tile.store_wall_loads(others[k], df);
+    TileContactWords::read_state<memory>(tile.state(spilled[k]), df, both);
+    tile.store_wall_loads(spilled[k], df);
   }
   tile.store();
   if (s.own_tile() == 0) {

@@ -17,7 +17,8 @@
 namespace macadam::kernels {
 
 /// Largest number of contacts of one tile whose states fit in registers.
-inline constexpr std::uint32_t contacts_in_registers = double_packets_in_registers * TilePlan::run * resident_threads;
+inline constexpr std::uint32_t contacts_in_registers =
+    double_packets_in_registers * TilePlan::couple * resident_threads;
 inline constexpr std::uint32_t packets_with_states = contacts_in_registers / 32;
 
 /// Six or two numbers of a body, aligned so that threads with neighbouring bodies access different banks of shared
@@ -36,22 +37,23 @@ struct alignas(2 * sizeof(R)) Two {
 template <class P>
 struct ResidentMemory {
   using R = typename P::Particle;
-  std::uint32_t velocity, slots, own, rest, halo, diagonal, row, law, others, cache, total;
+  std::uint32_t velocity, cells, full_velocity, body_data, halo, diagonal, list, law, spilled, cache, total;
   std::uint32_t cached;  ///< number of packets in the cache
 
   /// Returns the size of a tile's particle data: displacements, base loads, Δt/m and Δt/I and, with all_away, the
   /// velocities in full precision. It is in global memory if it does not fit in shared memory.
-  __host__ __device__ static constexpr std::uint32_t rest_bytes(std::uint32_t bodies, BodyStorage rest) {
-    const auto numbers = rest == BodyStorage::all_away ? 14u : 8u;
+  __host__ __device__ static constexpr std::uint32_t body_bytes(std::uint32_t bodies, BodyStorage storage) {
+    const auto numbers = storage == BodyStorage::global ? 14u : 8u;
     return bodies * static_cast<std::uint32_t>(6 * sizeof(double) + numbers * sizeof(R));
   }
   __host__ __device__ static constexpr std::uint32_t packet_bytes(std::uint32_t constants) {
     return constants * 32 * sizeof(float4);
   }
 
-  /// `constants`: constant words per packet. `room`: bytes of shared memory available; if they do not suffice for the
-  /// other arrays, the cache is empty.
-  __host__ __device__ ResidentMemory(const Tile& tile, std::uint32_t constants, BodyStorage where, std::uint32_t room) {
+  /// `constants`: constant words per packet. `available`: bytes of shared memory available; if they do not suffice for
+  /// the other arrays, the cache is empty.
+  __host__ __device__ ResidentMemory(const Tile& tile, std::uint32_t constants, BodyStorage storage,
+                                     std::uint32_t available) {
     std::uint32_t at = 0;
     const auto take = [&](std::uint32_t bytes) {
       const std::uint32_t here = at;
@@ -61,15 +63,15 @@ struct ResidentMemory {
     const std::uint32_t locals = tile.bodies + tile.halo + walls;
     velocity = take(SixTable::bytes(locals));
     law = take(16 * pair_types);
-    slots = take(SixTable::bytes(tile.slots));
-    own = take(where == BodyStorage::all_away ? 0 : tile.bodies * static_cast<std::uint32_t>(sizeof(Six<R>)));
-    rest = take(where == BodyStorage::here ? rest_bytes(tile.bodies, where) : 0);
+    cells = take(SixTable::bytes(tile.cells));
+    full_velocity = take(storage == BodyStorage::global ? 0 : tile.bodies * static_cast<std::uint32_t>(sizeof(Six<R>)));
+    body_data = take(storage == BodyStorage::shared ? body_bytes(tile.bodies, storage) : 0);
     halo = take(4 * tile.halo);
-    diagonal = take(4 * TilePlan::longest_short_row);
-    row = take(8 * tile.bodies);
-    others = take(static_cast<std::uint32_t>(sizeof(WarpPackets)) * resident_threads / 32);
+    diagonal = take(4 * TilePlan::longest_short_list);
+    list = take(8 * tile.bodies);
+    spilled = take(static_cast<std::uint32_t>(sizeof(WarpPackets)) * resident_threads / 32);
     cache = at;
-    cached = room < at ? 0 : (room - at) / packet_bytes(constants);
+    cached = available < at ? 0 : (available - at) / packet_bytes(constants);
     if (cached > packets_with_states) cached = packets_with_states;
     total = at + cached * packet_bytes(constants);
   }
@@ -80,9 +82,9 @@ struct ResidentMemory {
 template <class P>
 std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t tiles) {
   std::vector<std::uint32_t> of_end_a(network.row_begin.size() - 1, 0);
-  std::size_t slots = 0;  // slots of runs and of ends B
+  std::size_t cells = 0;  // load cells of couples and of ends B
   for (const Contact& c : network.contacts) {
-    slots += (of_end_a[static_cast<std::size_t>(c.a)]++ % TilePlan::run == 0) + (c.b >= 0);
+    cells += (of_end_a[static_cast<std::size_t>(c.a)]++ % TilePlan::couple == 0) + (c.b >= 0);
   }
   const double bodies = fullest_tile * static_cast<double>(of_end_a.size()) / static_cast<double>(tiles);
   // Particles in a layer of 0.9 particle diameters around a cube of `bodies` particles
@@ -91,8 +93,8 @@ std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t t
   Tile tile{};
   tile.bodies = whole(bodies);
   tile.halo = whole(halo);
-  tile.slots = whole(fullest_tile * static_cast<double>(slots) / static_cast<double>(tiles));
-  return ResidentMemory<P>(tile, TileContactWords::constants(false), BodyStorage::all_away, 0).total;
+  tile.cells = whole(fullest_tile * static_cast<double>(cells) / static_cast<double>(tiles));
+  return ResidentMemory<P>(tile, TileContactWords::constants(false), BodyStorage::global, 0).total;
 }
 
 }  // namespace macadam::kernels

@@ -48,7 +48,7 @@ class TileBlocks {
 
   /// Sets the constants of all contacts to those of the undeformed contact. Waits for the start.
   void start() {
-    team_.meet();
+    team_.join_streams();
     settling_.run(settling_starts, block_, data_.settled());
     data_.messages().after_settling(team_);
     team_.wait("start");
@@ -60,7 +60,7 @@ class TileBlocks {
   void run(std::int64_t first, std::int64_t steps, std::int64_t row) {
     const Range range("time steps");
     launch_.lease();
-    team_.meet();  // the start may have written to memory on other streams
+    team_.join_streams();  // the start may have written to memory on other streams
     data_.set_wall_row(row);
     for (std::int64_t done = 0; done < steps;) {
       if (schedule_.is_due()) settle(schedule_.next(first + done));
@@ -80,14 +80,14 @@ class TileBlocks {
   void settle(int steps) {
     const Range range("settling");
     if (!schedule_.has_begun()) data_.store_displacements();
-    team_.meet();
+    team_.join_streams();
     data_.messages().before_settling(team_);
     settling_.run(schedule_.ended(), steps, data_.settled());
-    team_.meet();
+    team_.join_streams();
     data_.messages().after_settling(team_);
     parts_.end_of("settling", team_.stream());
     data_.sum_base_loads();
-    team_.meet();
+    team_.join_streams();
     data_.messages().after_base(team_);
     parts_.end_of("base loads", team_.stream());
     schedule_.start(steps);

@@ -13,7 +13,7 @@
 #include "kernels/cuda/common/load_record_order.hpp"
 #include "kernels/cuda/device/device_store.hpp"
 #include "kernels/cuda/device/tuning.hpp"
-#include "kernels/cuda/tiles/contact_places.hpp"
+#include "kernels/cuda/tiles/contact_positions.hpp"
 #include "kernels/cuda/tiles/rank_messages.hpp"
 #include "kernels/cuda/tiles/settle_launch.hpp"
 
@@ -37,11 +37,11 @@ class TileData {
         carried_(geometry == Geometry::updated),
         bodies_(layout.particles()),
         constants_(plan_.contact.size() * static_cast<std::size_t>(TileContactWords::constants(carried_))),
-        places_(layout),
+        positions_(layout),
         tables_(team.size()) {
     arrays_.most_bodies = plan_.most_bodies;
     arrays_.most_locals = plan_.most_locals;
-    arrays_.most_slots = plan_.most_slots;
+    arrays_.most_cells = plan_.most_cells;
     arrays_.places = static_cast<std::uint32_t>(plan_.body.size());
   }
   TileData(const TileData&) = delete;
@@ -52,7 +52,7 @@ class TileData {
   bool carried() const { return carried_; }
   /// Number of particles.
   std::size_t particles() const { return bodies_; }
-  std::size_t first_slot(int group) const { return places_.first_slot(static_cast<std::size_t>(group)); }
+  std::size_t first_slot(int group) const { return positions_.first_slot(static_cast<std::size_t>(group)); }
 
   /// Packs the constants of the contacts of group `number` for the tiles. `view` points to device arrays.
   void add_contacts(int number, const ContactArrays<P>& arrays, const ContactView<P>& view) {
@@ -60,7 +60,7 @@ class TileData {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
       const TileContact& c = plan_.contact[i];
       if (c.group_slot == UINT32_MAX || c.group != g) continue;
-      places_.add(g, c.group_slot, static_cast<std::uint32_t>(i));
+      positions_.add(g, c.group_slot, static_cast<std::uint32_t>(i));
       const auto words = static_cast<std::size_t>(view.geometry_words);
       const auto* geo = &arrays.geometry[c.group_slot / 32 * words * 32 + c.group_slot % 32];
       TileContactWords::pack(constant_of(i), c, [&](int w) { return static_cast<float>(geo[w * 32]); });
@@ -70,9 +70,9 @@ class TileData {
   void set_law(int number, const float4& coefficients) { arrays_.law[number] = coefficients; }
 
   /// Uploads the arrays (the first time) and sets everything to its value before the first step.
-  void start(const ParticleMotion<P>& motion, const RecordRows& rows) {
+  void start(const ParticleMotion<P>& motion, const LoadLists& lists) {
     arrays_.motion = motion;
-    if (!std::exchange(uploaded_, true)) upload(rows);
+    if (!std::exchange(uploaded_, true)) upload(lists);
     wall_table_ = motion.wall.table;
     const std::size_t loads = (bodies_ + walls) * velocity_words;
     clear(arrays_.state, state_count_);
@@ -101,8 +101,8 @@ class TileData {
   TileArrays<P> arrays_of(std::size_t m) const {
     TileArrays<P> out = arrays_;
     const Tables& own = tables_[m];
-    out.tile = own.tile, out.body = own.body, out.row = own.row, out.diagonal = own.diagonal, out.halo = own.halo;
-    out.rest = own.body_data;
+    out.tile = own.tile, out.body = own.body, out.list = own.list, out.diagonal = own.diagonal, out.halo = own.halo;
+    out.body_data = own.body_data;
     out.first_tile = static_cast<std::uint32_t>(cuts_.tile(m));
     out.moves_walls = m == team_.first();  // with several devices of one process, the others read the walls' velocities
                                            // from the first one's memory
@@ -120,7 +120,8 @@ class TileData {
 
   /// Returns the arrays that the update between blocks reads and writes.
   SettledArrays<P> settled() const {
-    return {constant_.data(), arrays_.state, arrays_.motion.body.displacement, before_, records_, places_.on_device()};
+    return {constant_.data(), arrays_.state, arrays_.motion.body.displacement,
+            before_,          records_,      positions_.on_device()};
   }
   /// Stores the displacements of all bodies as those at the beginning of the block.
   void store_displacements() {
@@ -132,10 +133,10 @@ class TileData {
   /// Enqueues the sums of the base loads, which also store the displacements as those at the beginning of the block.
   void sum_base_loads() const {
     team_.each([&](std::size_t m) {
-      const auto [long_body, long_rows] = rows_->long_rows(m, true);
+      const auto [long_body, long_lists] = lists_->long_lists(m, true);
       const std::size_t first = cuts_.body(m), end = cuts_.body(m + 1);
-      launch("base loads", sum_base<P>, long_rows + (end - first + bodies_a_block - 1) / bodies_a_block, body_threads,
-             0, team_.stream(m), records_, long_body, long_rows, static_cast<std::uint32_t>(first),
+      launch("base loads", sum_base<P>, long_lists + (end - first + bodies_a_block - 1) / bodies_a_block, body_threads,
+             0, team_.stream(m), records_, long_body, long_lists, static_cast<std::uint32_t>(first),
              static_cast<std::uint32_t>(end), arrays_.motion.body.weight, static_cast<std::uint32_t>(bodies_), base_,
              arrays_.motion.body.displacement, before_);
     });
@@ -173,10 +174,10 @@ class TileData {
     const std::size_t loads = (bodies_ + walls) * velocity_words;
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
     add_device_state(states, "tile_drifts", "Pa m, 1, m", words(constant_.data()), 4 * constant_.size(), [this] {
-      return places_.order(TileContactWords::constants(carried_), TileContactWords::settled_fields(carried_));
+      return positions_.order(TileContactWords::constants(carried_), TileContactWords::settled_fields(carried_));
     });
     add_device_state(states, "tile_states", "Pa m", words(arrays_.state), 4 * state_count_,
-                     [this] { return places_.order(TileContactWords::states, TileContactWords::state_fields()); });
+                     [this] { return positions_.order(TileContactWords::states, TileContactWords::state_fields()); });
     add_device_state(states, "base_loads", "N, N m", base_, loads, by_body);
     // The loads on walls are left out: forces() sums them
     add_device_state(states, "forces", "N, N m", arrays_.force, bodies_ * velocity_words,
@@ -185,7 +186,9 @@ class TileData {
     if (carried_) add_device_state(states, "displacement_at_block", "m, rad", before_, loads, by_body);
   }
   /// Returns the change of f since the beginning of the block, [slot][6] of group `number`.
-  std::vector<float> changes(std::size_t number) const { return places_.changes(number, arrays_.state, state_count_); }
+  std::vector<float> changes(std::size_t number) const {
+    return positions_.changes(number, arrays_.state, state_count_);
+  }
 
   /// Bytes on the devices.
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
@@ -195,8 +198,8 @@ class TileData {
     const std::size_t loads = 2 * velocity_words * sizeof(R) + displacement_words * sizeof(double);
     return constants_.size() * sizeof(float4) + plan_.contact.size() * TileContactWords::states * sizeof(float4) +
            (bodies_ + walls) * loads + records * record_words * sizeof(R) + (bodies_ + walls) * 4 * sizeof(ulonglong2) +
-           places_.slots() * sizeof(uint2) +
-           (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4 * (team_.ranks() ? 1 : team_.size());
+           positions_.slots() * sizeof(uint2) +
+           (plan_.body.size() + plan_.list.size() + plan_.halo.size()) * 4 * (team_.ranks() ? 1 : team_.size());
   }
 
  private:
@@ -210,14 +213,14 @@ class TileData {
   }
 
   /// Uploads the arrays that no start changes, and allocates the others.
-  void upload(const RecordRows& rows) {
+  void upload(const LoadLists& lists) {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
       if (plan_.contact[i].group_slot == UINT32_MAX) TileContactWords::pack_inert(constant_of(i));
     }
     team_.each([&](std::size_t m) {  // each thread block reads these first, so every device has its own copy
       tables_[m].tile = store_.keep(plan_.tile);
       tables_[m].body = store_.keep(plan_.body);
-      tables_[m].row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
+      tables_[m].list = reinterpret_cast<const uint2*>(store_.keep(plan_.list));
       tables_[m].diagonal = store_.keep(plan_.diagonal);
       tables_[m].halo = store_.keep(plan_.halo);
     });
@@ -236,14 +239,14 @@ class TileData {
     arrays_.odd = store_.template zeros<ulonglong2>(places, 2);
     before_ = store_.template zeros<double>(by_body, displacement_words);
     wall_begin_ = store_.keep(plan_.wall_begin);
-    rows_ = &rows;
-    records_ = {store_.template zeros<R>(rows.shares, record_words), rows.begin.data(), rows.place.data()};
-    places_.own_first(cuts_, [&](std::size_t contact) { return owners_.of_contact(contact); });
+    lists_ = &lists;
+    records_ = {store_.template zeros<R>(lists.shares, record_words), lists.begin.data(), lists.place.data()};
+    positions_.own_first(cuts_, [&](std::size_t contact) { return owners_.of_contact(contact); });
     if (crossing_) {
-      messages_.make_ready(team_, layout_, cuts_, plan_, owners_, places_, *crossing_, arrays_, settled(), before_,
+      messages_.make_ready(team_, layout_, cuts_, plan_, owners_, positions_, *crossing_, arrays_, settled(), before_,
                            base_, carried_);
     }
-    places_.keep(store_, cuts_.all_slots());
+    positions_.keep(store_, cuts_.all_slots());
     constants_ = {};
     plan_.contact = {};
   }
@@ -252,7 +255,7 @@ class TileData {
   struct Tables {
     const Tile* tile = nullptr;
     const std::int32_t *body = nullptr, *halo = nullptr;
-    const uint2* row = nullptr;
+    const uint2* list = nullptr;
     const std::uint32_t* diagonal = nullptr;
     unsigned char* body_data = nullptr;
   };
@@ -266,14 +269,14 @@ class TileData {
   bool carried_, uploaded_ = false;
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
   std::vector<float4> constants_;  // empty after the upload
-  TilePlaces places_;
+  TilePositions positions_;
   TileArrays<P> arrays_{};
   DeviceArray<float4> constant_;
   R* base_ = nullptr;              ///< [body][8] base loads, as arrays_.base
   double* before_ = nullptr;       ///< [body][8] displacements at the beginning of the block
   const R* wall_table_ = nullptr;  ///< first row of the walls' table
   const std::uint32_t* wall_begin_ = nullptr;
-  const RecordRows* rows_ = nullptr;
+  const LoadLists* lists_ = nullptr;
   std::vector<Tables> tables_;  // [member]
   LoadRecords<R> records_{};
   TileMessages<P> messages_;  // with several ranks

@@ -25,9 +25,9 @@ ResidentKernel<P> resident_kernel(bool carried, BodyStorage storage, bool memory
   constexpr int threads = resident_threads;
   const auto of = [&](auto is_carried, auto has_memory) -> ResidentKernel<P> {
     constexpr bool c = decltype(is_carried)::value, m = decltype(has_memory)::value;
-    return storage == BodyStorage::here   ? run_resident<P, threads, c, m, BodyStorage::here>
-           : storage == BodyStorage::away ? run_resident<P, threads, c, m, BodyStorage::away>
-                                          : run_resident<P, threads, c, m, BodyStorage::all_away>;
+    return storage == BodyStorage::shared  ? run_resident<P, threads, c, m, BodyStorage::shared>
+           : storage == BodyStorage::split ? run_resident<P, threads, c, m, BodyStorage::split>
+                                           : run_resident<P, threads, c, m, BodyStorage::global>;
   };
   if (carried) return of(std::true_type{}, std::true_type{});
   return memory ? of(std::false_type{}, std::true_type{}) : of(std::false_type{}, std::false_type{});
@@ -43,9 +43,9 @@ StreamedKernel<P> streamed_kernel(bool carried, bool memory) {
 /// How the tiles of a plan run.
 struct TileFit {
   enum class Way { none, resident, streamed };
-  Way way = Way::none;                          ///< none: no kernel fits these devices
-  BodyStorage storage = BodyStorage::all_away;  ///< resident tiles only
-  std::uint32_t shared = 0;                     ///< shared memory of a thread block [byte]
+  Way way = Way::none;                        ///< none: no kernel fits these devices
+  BodyStorage storage = BodyStorage::global;  ///< resident tiles only
+  std::uint32_t shared = 0;                   ///< shared memory of a thread block [byte]
 };
 
 /// Returns the fit of resident tiles. Chooses the storage of bodies with the most data in shared memory among those
@@ -60,8 +60,8 @@ TileFit fit_resident(const TilePlan& plan, const DeviceTeam& team, const TeamCut
       bytes = std::max(bytes, ResidentMemory<P>(tile, TileContactWords::constants(carried), storage, available).total);
     return bytes;
   };
-  TileFit out{TileFit::Way::resident, BodyStorage::all_away, 0};
-  for (const BodyStorage storage : {BodyStorage::away, BodyStorage::here}) {
+  TileFit out{TileFit::Way::resident, BodyStorage::global, 0};
+  for (const BodyStorage storage : {BodyStorage::split, BodyStorage::shared}) {
     if (largest(storage, 0) <= limit) out.storage = storage;
   }
   out.shared = largest(out.storage, limit);
@@ -85,12 +85,12 @@ TileFit fit_tiles(const TilePlan& plan, const DeviceTeam& team, const TeamCuts& 
     const TileFit resident = fit_resident<P>(plan, team, cuts, limits, carried);
     if (resident.way == TileFit::Way::resident) return resident;
   }
-  const std::uint32_t shared = StreamedMemory(plan.most_locals, plan.most_slots).total;
+  const std::uint32_t shared = StreamedMemory(plan.most_locals, plan.most_cells).total;
   if (shared > static_cast<std::uint32_t>(limits.shared)) return {};
   team.each([&](std::size_t) {
     for (const bool memory : {true, false}) allow_all_shared_memory(limits, streamed_kernel<P>(carried, memory));
   });
-  return {TileFit::Way::streamed, BodyStorage::all_away, shared};
+  return {TileFit::Way::streamed, BodyStorage::global, shared};
 }
 
 }  // namespace macadam::kernels

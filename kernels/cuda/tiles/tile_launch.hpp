@@ -27,14 +27,14 @@ class TileLaunch {
 
   TileLaunch(const DeviceTeam& team, const TeamCuts& cuts, const Layout& layout, TileData<P>& data, const TileFit& fit)
       : team_(team), cuts_(cuts), layout_(layout), data_(data), fit_(fit) {
-    data.arrays().where = fit.storage;
-    data.arrays().room = fit.shared;
+    data.arrays().storage = fit.storage;
+    data.arrays().shared_bytes = fit.shared;
     if (!is_resident()) return;
     team.each([&](std::size_t m) {
       occupied_[team.device(m)] += static_cast<int>(tiles(m));
       of_device_[team.device(m)] = DeviceLimits::query(0).multiprocessors;
-      if (fit.storage != BodyStorage::here)
-        data.allocate_body_data(m, ResidentMemory<P>::rest_bytes(data.arrays().most_bodies, fit.storage));
+      if (fit.storage != BodyStorage::shared)
+        data.allocate_body_data(m, ResidentMemory<P>::body_bytes(data.arrays().most_bodies, fit.storage));
     });
   }
   TileLaunch(const TileLaunch&) = delete;
@@ -143,7 +143,7 @@ class TileLaunch {
              short_kernel_threads, 0, team_.stream(m), data_.arrays_of(m), 0u, first, end);
     });
     for (std::uint32_t k = 0; k < steps; ++k) {
-      team_.meet();
+      team_.join_streams();
       data_.messages().velocities(team_, k);
       team_.each([&](std::size_t m) {
         launch("time steps", kernel, tiles(m), streamed_threads, fit_.shared, team_.stream(m), data_.arrays_of(m), k,

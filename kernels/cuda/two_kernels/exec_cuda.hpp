@@ -50,8 +50,8 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
     contacts_ = std::vector<ContactLaunches<P, AnyLaw>>(this->team_.size());
     slots_ = 0;
     if (!start.first) return records_.clear();
-    this->require_memory(start.group_bytes + this->rows_.records * record_words * sizeof(G));
-    records_ = DeviceArray<G>(this->rows_.shares, record_words);
+    this->require_memory(start.group_bytes + this->lists_.records * record_words * sizeof(G));
+    records_ = DeviceArray<G>(this->lists_.shares, record_words);
   }
 
   template <class L, class Forces>
@@ -80,15 +80,15 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
     motion_.wall.table = wall_row_.data();
     this->add_body_states();
     add_device_state(this->states_, "loads", "N, N m", records_.data(), records_.size(),
-                     [this] { return this->rows_.state_order(this->layout_); });
+                     [this] { return this->lists_.state_order(this->layout_); });
   }
 
   /// Enqueues all steps.
   void run(std::int64_t, std::int64_t steps, std::int64_t) {
     const Range range("time steps");
-    this->team_.meet();  // the start may have written to memory on other streams
+    this->team_.join_streams();  // the start may have written to memory on other streams
     if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_);
-    this->team_.meet();
+    this->team_.join_streams();
     const Ranks* ranks = this->team_.ranks();
     if (waits_for_launches() || this->parts_.runs() || (ranks && !ranks->goes_into_graphs())) {
       for (; steps > 0; --steps) step();
@@ -118,7 +118,7 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   void gather() const {
     if (!this->team_.ranks()) return;
     Base::gather();
-    queue_whole(this->team_, records_.data(), record_words, [this](std::size_t m) { return this->rows_.cut[m]; });
+    queue_whole(this->team_, records_.data(), record_words, [this](std::size_t m) { return this->lists_.cut[m]; });
     this->wait();
   }
 
@@ -130,7 +130,7 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   }
   std::int64_t traffic() const {
     return this->group_bytes_ + this->state_bytes_ + this->body_traffic() +
-           static_cast<std::int64_t>(2 * records_.bytes() + this->rows_.place.bytes());
+           static_cast<std::int64_t>(2 * records_.bytes() + this->lists_.place.bytes());
   }
   Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
   std::int64_t bytes() const { return this->held_bytes() + static_cast<std::int64_t>(records_.bytes()); }
@@ -138,23 +138,23 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
  private:
   /// Takes one step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void step() {
-    const bool pushed = motion_.wall.by_force || motion_.body.weight;
+    const bool has_external_loads = motion_.wall.by_force || motion_.body.weight;
     const auto& team = this->team_;
     team.each([&](std::size_t m) {
-      const auto [long_body, long_rows] = this->rows_.long_rows(m, pushed);
+      const auto [long_body, long_lists] = this->lists_.long_lists(m, has_external_loads);
       const std::size_t first = this->cuts_.body(m), end = this->cuts_.body(m + 1);
-      launch("bodies", pushed ? step_bodies<P, true> : step_bodies<P, false>,
-             long_rows + (end - first + bodies_a_block - 1) / bodies_a_block, body_threads, 0, team.stream(m), motion_,
-             records(), long_body, long_rows, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end));
+      launch("bodies", has_external_loads ? step_bodies<P, true> : step_bodies<P, false>,
+             long_lists + (end - first + bodies_a_block - 1) / bodies_a_block, body_threads, 0, team.stream(m), motion_,
+             records(), long_body, long_lists, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end));
     });
-    team.meet();
+    team.join_streams();
     this->parts_.end_of("bodies", team.stream());
     send(moved_);
     team.each([&](std::size_t m) {
       contacts_[m].run(team.stream(m), {this->gathered(), this->displacement_.data()}, records(),
                        m == team.first() ? clock_ : WallClock<R>{});
     });
-    team.meet();
+    team.join_streams();
     this->parts_.end_of("contacts", team.stream());
     send(loads_);
   }
@@ -171,7 +171,7 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
       *graph = nullptr;
     }
   }
-  LoadRecords<G> records() const { return {records_.data(), this->rows_.begin.data(), this->rows_.place.data()}; }
+  LoadRecords<G> records() const { return {records_.data(), this->lists_.begin.data(), this->lists_.place.data()}; }
 
   ParticleMotion<P> motion_{};
   cudaGraphExec_t many_ = nullptr, one_ = nullptr;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_places.hpp  Maps the contacts of the layout's groups to their places in the tiles.
+/// \file contact_positions.hpp  Maps the contacts of the layout's groups to their positions in the tiles.
 ///
-/// A contact has one slot in its group (layout.hpp), and one or two places in TilePlan::contact: a contact between
+/// A contact has one slot in its group (layout.hpp), and one or two positions in TilePlan::contact: a contact between
 /// particles of two tiles is in both. TileData fills the map in add_contacts() and uploads it in start(). The
 /// kernels between two blocks of steps use it to find the words of a slot's contact (settle_kernels.hpp), and
 /// checkpoints use it to write the tiles' words in the order of the network.
 ///
-/// Words: a slot is numbered over all groups, one group after the other; a place is packet · 32 + lane.
+/// Words: a slot is numbered over all groups, one group after the other; a position is packet · 32 + lane.
 #pragma once
 
 #include <utility>
@@ -18,52 +18,52 @@
 
 namespace macadam::kernels {
 
-/// The places of every slot. They are on the host until keep(), then on the device.
-class TilePlaces {
+/// The positions of every slot. They are on the host until keep(), then on the device.
+class TilePositions {
  public:
-  explicit TilePlaces(const Layout& layout) : layout_(layout) {
+  explicit TilePositions(const Layout& layout) : layout_(layout) {
     for (const auto& group : layout.groups) {
       first_slot_.push_back(slots_);
       slots_ += group.contact.size();
     }
-    places_.assign(slots_, uint2{UINT32_MAX, UINT32_MAX});
+    positions_.assign(slots_, uint2{UINT32_MAX, UINT32_MAX});
   }
 
   /// Number of slots of all groups; first slot of one group.
   std::size_t slots() const { return slots_; }
   std::size_t first_slot(std::size_t group) const { return first_slot_[group]; }
 
-  /// Records that the contact of a slot is (also) at `place`.
-  void add(std::size_t group, std::size_t slot, std::uint32_t place) {
-    uint2& of_slot = places_[first_slot_[group] + slot];
-    (of_slot.x == UINT32_MAX ? of_slot.x : of_slot.y) = place;
+  /// Records that the contact of a slot is (also) at `position`.
+  void add(std::size_t group, std::size_t slot, std::uint32_t position) {
+    uint2& of_slot = positions_[first_slot_[group] + slot];
+    (of_slot.x == UINT32_MAX ? of_slot.x : of_slot.y) = position;
   }
-  /// Calls f(member, places) for the slots of each member of the team; only before keep().
+  /// Calls f(member, positions) for the slots of each member of the team; only before keep().
   template <class F>
   void for_each_slot(const TeamCuts& cuts, F&& f) const {
     each_slot(*this, cuts, f);
   }
-  /// Orders the two places of each slot so that the first belongs to the slot's own member, because settling reads the
-  /// first one. `owner`: place → member.
+  /// Orders the two positions of each slot so that the first belongs to the slot's own member, because settling reads
+  /// the first one. `owner`: position → member.
   template <class Owner>
   void own_first(const TeamCuts& cuts, Owner&& owner) {
-    each_slot(*this, cuts, [&](std::size_t m, uint2& place) {
-      if (place.y != UINT32_MAX && owner(place.x) != m) std::swap(place.x, place.y);
+    each_slot(*this, cuts, [&](std::size_t m, uint2& position) {
+      if (position.y != UINT32_MAX && owner(position.x) != m) std::swap(position.x, position.y);
     });
   }
-  /// Uploads the places; none can be added after this.
+  /// Uploads the positions; none can be added after this.
   void keep(DeviceStore& store, const Shares& shares) {
-    on_device_ = store.keep(places_, shares);
-    places_ = {};
+    on_device_ = store.keep(positions_, shares);
+    positions_ = {};
   }
   const uint2* on_device() const { return on_device_; }
 
   /// Returns the order in which a checkpoint stores an array of the tiles: contacts in the order of the network.
   /// `count`: words per contact in the array; `fields`: the numbers of a contact that are stored.
   StateOrder order(int count, const std::vector<TileContactWords::Field>& fields) const {
-    const std::vector<uint2> places = copied(0, slots_);
-    const auto at = [&](std::uint32_t place) {
-      return place == UINT32_MAX ? StateOrder::none : std::uint64_t{TileContactWords::first(place, count)} * 4;
+    const std::vector<uint2> positions = copied(0, slots_);
+    const auto at = [&](std::uint32_t position) {
+      return position == UINT32_MAX ? StateOrder::none : std::uint64_t{TileContactWords::first(position, count)} * 4;
     };
     StateOrder out;
     for (const auto& field : fields) {
@@ -72,9 +72,9 @@ class TilePlaces {
     }
     for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
       for (const std::uint32_t slot : slots_in_order(layout_.groups[g])) {
-        const uint2 place = places[first_slot_[g] + slot];
-        out.first.push_back(at(place.x));
-        out.twin.push_back(at(place.y));
+        const uint2 position = positions[first_slot_[g] + slot];
+        out.first.push_back(at(position.x));
+        out.twin.push_back(at(position.y));
       }
     }
     return out;
@@ -84,13 +84,13 @@ class TilePlaces {
   std::vector<float> changes(std::size_t group, const float4* state, std::size_t count) const {
     std::vector<float4> all(count);
     copy_now(all.data(), state, count * sizeof(float4), "states");
-    const std::vector<uint2> places = copied(first_slot_[group], layout_.groups[group].contact.size());
-    std::vector<float> out(6 * places.size(), 0.0f);
-    for (std::size_t slot = 0; slot < places.size(); ++slot) {
-      const std::uint32_t place = places[slot].x;
-      if (place == UINT32_MAX) continue;
+    const std::vector<uint2> positions = copied(first_slot_[group], layout_.groups[group].contact.size());
+    std::vector<float> out(6 * positions.size(), 0.0f);
+    for (std::size_t slot = 0; slot < positions.size(); ++slot) {
+      const std::uint32_t position = positions[slot].x;
+      if (position == UINT32_MAX) continue;
       float change[6], sum[6];
-      TileContactWords::read_state<false>(TileContactWords::at(all.data(), place, TileContactWords::states), change,
+      TileContactWords::read_state<false>(TileContactWords::at(all.data(), position, TileContactWords::states), change,
                                           sum);
       std::copy(change, change + 6, &out[6 * slot]);
     }
@@ -104,21 +104,21 @@ class TilePlaces {
       const GroupLayout& group = self.layout_.groups[g];
       for (std::size_t m = 0; m < cuts.members(); ++m) {
         for (std::size_t s = cuts.slot(group, m); s < cuts.slot(group, m + 1); ++s)
-          f(m, self.places_[self.first_slot_[g] + s]);
+          f(m, self.positions_[self.first_slot_[g] + s]);
       }
     }
   }
-  /// Returns a host copy of the places of some slots.
+  /// Returns a host copy of the positions of some slots.
   std::vector<uint2> copied(std::size_t first, std::size_t count) const {
     std::vector<uint2> out(count);
-    if (count > 0) copy_now(out.data(), on_device_ + first, count * sizeof(uint2), "places");
+    if (count > 0) copy_now(out.data(), on_device_ + first, count * sizeof(uint2), "positions");
     return out;
   }
 
   const Layout& layout_;
   std::size_t slots_ = 0;
   std::vector<std::size_t> first_slot_;  // [group]
-  std::vector<uint2> places_;            // empty after keep()
+  std::vector<uint2> positions_;         // empty after keep()
   const uint2* on_device_ = nullptr;
 };
 
