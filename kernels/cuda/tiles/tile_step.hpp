@@ -18,6 +18,7 @@
 
 #include <type_traits>
 
+#include "kernels/contact/block_step.hpp"
 #include "kernels/contact/contact_kinematics.hpp"
 #include "kernels/cuda/common/lane_item.hpp"
 #include "kernels/cuda/device/launch.hpp"
@@ -167,11 +168,7 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
     float drift[6];
     contact.read_drift(drift);
 #pragma unroll
-    for (int c = 0; c < 6; ++c) {
-      const float before = change[c];
-      change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
-      sum[c] += change[c] + before;
-    }
+    for (int c = 0; c < 6; ++c) step_in_block_by<float>({l.x, l.y, l.w}, u[c], drift[c], change[c], sum[c]);
   } else {
 #pragma unroll
     for (int c = 0; c < 6; ++c) change[c] = multiply_add(l.x, u[c], change[c]);
