@@ -3,7 +3,7 @@
 ///
 /// Changing one of them never changes what is computed, except for tile sizes: they change the layout, and the two
 /// kernels sum loads in the order of the layout. The times are microseconds per step of the full specimen (35,760
-/// particles, 220,166 contacts) on one H200, unless another device is named. They come from
+/// particles, some 221,000 contacts) on one H200, unless another device is named. They come from
 /// bench/results/tried-gpu-step.csv ("tried" below). "Not recorded" means that the number was chosen by trial and that
 /// no measurement of alternatives was kept. Two numbers of the tile path are in layout/tile_plan.hpp, because the plan
 /// is made without CUDA: TilePlan::couple and TilePlan::longest_short_list.

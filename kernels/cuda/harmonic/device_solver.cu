@@ -117,7 +117,7 @@ class Solver : public DeviceSolver {
     start_from_right_sides(start);
     CocgScalars<F> end, judged;
     {
-      const MultiprocessorLease::ForSolution room(devices_, team_.behind());
+      const MultiprocessorLease::ForSolution lease(devices_, team_.behind());
       end = iterate(v, look);
       start.most_iterations = 0;  // no iteration, only the residual
       start_from_right_sides(start);

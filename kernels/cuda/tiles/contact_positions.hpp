@@ -7,6 +7,7 @@
 /// checkpoints use it to write the tiles' words in the order of the network.
 ///
 /// Words: a slot is numbered over all groups, one group after the other; a position is packet · 32 + lane.
+/// docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <utility>

@@ -10,7 +10,8 @@
 ///
 /// Words: to settle is to update a contact between two blocks. A record is the load of one contact on one of its two
 /// bodies; the records of a body are consecutive (its load list). Each contact is settled once, by its slot in the
-/// layout; its words are written to all its positions in the tiles (one or two).
+/// layout; its words are written to all its positions in the tiles (one or two). docs/gpu-step.md explains the whole
+/// path.
 #pragma once
 
 #include "kernels/contact/block_settling.hpp"

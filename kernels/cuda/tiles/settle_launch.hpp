@@ -4,7 +4,7 @@
 ///
 /// TileBlocks owns one Settling. set_group() stores the law of each group; run() computes the coefficients for the
 /// lengths of the block that ends and of the block that begins (only if they changed) and launches the kernel on every
-/// device.
+/// device. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <array>

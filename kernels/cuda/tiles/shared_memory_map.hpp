@@ -5,7 +5,7 @@
 /// ResidentMemory computes the position of each array in a tile's shared memory. The host (fit_tiles()) uses it to
 /// decide whether tiles fit, and the kernel uses it to find the arrays. The remaining shared memory holds constants of
 /// packets (the cache). expected_resident_bytes() estimates the need before the tiles exist, so that ExecCudaTiles can
-/// choose their size.
+/// choose their size. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <cmath>

@@ -7,6 +7,7 @@
 /// before the first step of a sequence. Then each launch of run_streamed reads the velocities of its step, steps all
 /// contacts of each tile, sums the loads, and moves the particles. The new velocities go to the other one of two arrays
 /// (even and odd steps). The last launch of a sequence writes the loads instead of moving the particles.
+/// docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include "kernels/cuda/tiles/tile_step.hpp"

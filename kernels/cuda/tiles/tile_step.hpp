@@ -13,7 +13,8 @@
 /// contact is therefore in three places. The chain (ContactView::chain) holds the viscoelastic state at the beginning
 /// of the block, in full precision (without a chain, f follows from the displacements); settle_kernels.hpp updates
 /// it after the block. The words of states in memory (contact_words.hpp) hold δf and the sum; they are valid between
-/// launches. During a launch of the resident kernel, registers hold δf and the sum of most contacts.
+/// launches. During a launch of the resident kernel, registers hold δf and the sum of most contacts. docs/gpu-step.md
+/// explains the whole path.
 #pragma once
 
 #include <type_traits>

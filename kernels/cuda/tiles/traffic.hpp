@@ -4,6 +4,7 @@
 ///
 /// The counts follow from the plan (packets, cells and particles of each tile) and from where the kernels keep the
 /// data; nothing is measured. TileLaunch::traffic_by_place() calls these functions for the report of a run.
+/// docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <algorithm>
