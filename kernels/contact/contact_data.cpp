@@ -58,10 +58,10 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
     const double moments[6] = {c.moments.a, c.moments.s, c.moments.t, c.moments.ss, c.moments.st, c.moments.tt};
     for (int k = 0; k < (turns ? 6 : 1); ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.distance);
     for (std::uint32_t j = 0; by_points && j < c.point_end - c.point_begin; ++j) {
-      Geo* row = &out.points[(group.packet_layer[packet] + j) * point_words * lanes];
-      row[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);
-      row[point_t * lanes + lane] = static_cast<Geo>(network.point_t[c.point_begin + j]);
-      row[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.distance);
+      Geo* layer = &out.points[(group.packet_layer[packet] + j) * point_words * lanes];
+      layer[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);
+      layer[point_t * lanes + lane] = static_cast<Geo>(network.point_t[c.point_begin + j]);
+      layer[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.distance);
     }
   });
   return out;
@@ -88,9 +88,9 @@ void fill_states(const ContactNetwork& network, const Layout& layout, const Grou
     }
     if (!real || !options.start || sizes.stateless) return;
     const StartChain start{&options.start->chain[options.start->chain_begin[group.contact[slot]]], words};
-    auto set_chain = [&](std::size_t row, auto&& value) {
+    auto set_chain = [&](std::size_t layer, auto&& value) {
       for (std::size_t i = 0; i < components * words; ++i) {
-        out.chain[(row * components * words + i) * lanes + lane] =
+        out.chain[(layer * components * words + i) * lanes + lane] =
             static_cast<State>(value(static_cast<int>(i / words), i % words));
       }
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_contacts.hpp  Defines the kernel that steps the contacts of all groups in one launch (first of the two
+/// \file step_contacts.hpp  Defines the kernel that steps the contacts of all groups in one launch (second of the two
 /// kernels of ExecCuda). Each thread block belongs to one group, so that all threads of a warp run the same code.
 #pragma once
 
