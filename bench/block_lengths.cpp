@@ -2,7 +2,7 @@
 // block_lengths.cpp  Measures the error of |E*| and phase from taking steps in blocks, for several block lengths.
 // Writes CSV to standard output.
 //
-// The program repeats the stepping in blocks of the GPU backend (kernels/cuda/tiles/tile_runner.hpp) in simple code and
+// The program repeats the stepping in blocks of the GPU backend (kernels/cuda/tiles/tile_blocks.hpp) in simple code and
 // in double precision, for small networks of spheres with fixed geometry, from the steady state. Each row compares with
 // blocks of one step at the same time step and masses. It takes some minutes.
 #include <fmt/format.h>

@@ -13,7 +13,7 @@ std::unique_ptr<Stepper> make_cpu_in(const Specimen& specimen, const ContactNetw
                                      const std::array<std::optional<Any>, pair_types>& laws, const Inertia& inertia,
                                      const StepperOptions& options, std::unique_ptr<Stepper> used) {
   require_steppable(std::type_identity<Any>{});
-  return make_stepper_on<ExecCpu<P, Any>>(specimen, network, laws, inertia, options, std::move(used));
+  return make_stepper_on<ExecCpu<P, Any>>(specimen, network, laws, inertia, options, used);
 }
 
 }  // namespace macadam::kernels

@@ -26,12 +26,10 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
   if constexpr (!std::is_same_v<P, DoublePrecision> && any_has_blocks(std::type_identity<Any>{})) {
     using Tiles = ExecCudaTiles<P, Any>;
     if (Tiles::block_of(given, facts_of(laws), specimen.box.size) > 0) {
-      try {
-        return make_stepper_on<Tiles>(specimen, network, laws, inertia, given, std::move(used));
-      } catch (const typename Tiles::Impossible&) {}  // does not fit: ExecCuda instead
+      if (auto made = make_stepper_on<Tiles>(specimen, network, laws, inertia, given, used)) return made;
     }
   }
-  return make_stepper_on<ExecCuda<P, Any>>(specimen, network, laws, inertia, given, std::move(used));
+  return make_stepper_on<ExecCuda<P, Any>>(specimen, network, laws, inertia, given, used);
 }
 
 }  // namespace macadam::kernels

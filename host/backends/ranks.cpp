@@ -31,14 +31,6 @@ int processes_begun() {
 
 }  // namespace
 
-void Ranks::require_same(const std::string& what, std::int64_t value) {
-  const auto least_of = [this](std::int64_t n) { return static_cast<std::int64_t>(least(static_cast<double>(n))); };
-  const std::int64_t low = least_of(value), high = -least_of(-value);
-  if (low == high) return;
-  throw RunError("ranks: " + what + ": found " + std::to_string(low) + " and " + std::to_string(high) +
-                 ", expected the same of all: they no longer run the same scene");
-}
-
 DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   if (report_backends().devices.empty()) return asked;
   DeviceList devices = device_numbers(asked.empty() ? DeviceList{every_device} : asked);

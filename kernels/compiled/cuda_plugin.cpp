@@ -3,6 +3,8 @@
 #include "kernels/compiled/cuda_plugin.hpp"
 
 #include "kernels/contact/precision.hpp"
+#include "kernels/cuda/device/devices.hpp"
+#include "kernels/cuda/multi_gpu/idle_neighbour.hpp"
 #include "kernels/steppers.hpp"
 
 namespace macadam::kernels {

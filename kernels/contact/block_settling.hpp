@@ -45,7 +45,7 @@ struct BlockSettling {
     const Vec3<double> n0{word(n_x), word(n_y), word(n_z)};
     SettledContact<R> out;
     if constexpr (geometry == Geometry::updated)
-      out.frame = carry(item, packet, slot, n0, word(arm_a), word(arm_b), word(distance), now, before);
+      out.frame = frame_after_block(item, packet, slot, n0, word(arm_a), word(arm_b), word(distance), now, before);
     else
       out.frame = canonical_placement(n0, ::copysign(1.0, n0.z), word(arm_a), word(arm_b));
 
@@ -103,11 +103,13 @@ struct BlockSettling {
     return {w[0], w[1], w[2]};
   }
 
-  /// Eq. 5–6 over a whole block: like ContactForces::carry() for one step, with the motion since the last block.
+  /// Returns the frame by Eq. 5–6 after a whole block. ContactForces::carry() does the same for one step. This function
+  /// needs no frame in the middle of a step, and computes the previous normal by a root instead of a series. Both share
+  /// follow_branch() and turn_tangent() (carried_frame.hpp).
   template <class Item>
-  MACADAM_HD Placement<double> carry(const Item& item, std::uint32_t packet, std::size_t slot, const Vec3<double>& n0,
-                                     double arm_a, double arm_b, double d0, const double* now,
-                                     const double* before) const {
+  MACADAM_HD Placement<double> frame_after_block(const Item& item, std::uint32_t packet, std::size_t slot,
+                                                 const Vec3<double>& n0, double arm_a, double arm_b, double d0,
+                                                 const double* now, const double* before) const {
     const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
     const Vec3<double> branch = d0 * n0 + (vector(now, b, 0) - vector(now, a, 0));
     Placement<double> out{n0, {}, {}, arm_a, arm_b};

@@ -38,7 +38,7 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
   out.body_b = ZeroVector<std::int32_t>(sizes.slots);
   out.geometry = ZeroVector<Geo>(sizes.geometry());
   out.points = ZeroVector<Geo>(sizes.points());
-  if (by_points) out.packet_row.assign(group.packet_row.begin(), group.packet_row.end());
+  if (by_points) out.packet_layer.assign(group.packet_layer.begin(), group.packet_layer.end());
 
   for_each_slot(network, layout, group, [&](auto slot, auto packet, auto lane, bool real, const Contact& c) {
     out.body_a[slot] = layout.body_of(c.a);
@@ -58,10 +58,10 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
     const double moments[6] = {c.moments.a, c.moments.s, c.moments.t, c.moments.ss, c.moments.st, c.moments.tt};
     for (int k = 0; k < (turns ? 6 : 1); ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.distance);
     for (std::uint32_t j = 0; by_points && j < c.point_end - c.point_begin; ++j) {
-      Geo* row = &out.points[(group.packet_row[packet] + j) * point_words * lanes];
-      row[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);
-      row[point_t * lanes + lane] = static_cast<Geo>(network.point_t[c.point_begin + j]);
-      row[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.distance);
+      Geo* layer = &out.points[(group.packet_layer[packet] + j) * point_words * lanes];
+      layer[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);
+      layer[point_t * lanes + lane] = static_cast<Geo>(network.point_t[c.point_begin + j]);
+      layer[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.distance);
     }
   });
   return out;
@@ -88,15 +88,15 @@ void fill_states(const ContactNetwork& network, const Layout& layout, const Grou
     }
     if (!real || !options.start || sizes.stateless) return;
     const StartChain start{&options.start->chain[options.start->chain_begin[group.contact[slot]]], words};
-    auto set_chain = [&](std::size_t row, auto&& value) {
+    auto set_chain = [&](std::size_t layer, auto&& value) {
       for (std::size_t i = 0; i < components * words; ++i) {
-        out.chain[(row * components * words + i) * lanes + lane] =
+        out.chain[(layer * components * words + i) * lanes + lane] =
             static_cast<State>(value(static_cast<int>(i / words), i % words));
       }
     };
     if (!sizes.by_points) set_chain(packet, [&](int component, std::size_t w) { return start.facet(component, w); });
     for (std::uint32_t j = 0; sizes.by_points && j < c.point_end - c.point_begin; ++j) {
-      set_chain(group.packet_row[packet] + j, [&](int component, std::size_t w) {
+      set_chain(group.packet_layer[packet] + j, [&](int component, std::size_t w) {
         return start.point(component, w, network.point_s[c.point_begin + j], network.point_t[c.point_begin + j]);
       });
     }

@@ -21,20 +21,20 @@ namespace macadam::kernels {
 /// Words of ContactView::geometry, in order. `distance` is only present if the geometry is updated or the law is
 /// coupled.
 enum GeometryWord { n_x, n_y, n_z, arm_a, arm_b, moment_0, distance = moment_0 + 6 };
-/// Words of one row of ContactView::points.
+/// Words of one layer of ContactView::points.
 enum PointWord { point_s, point_t, point_weight, point_words };
 
-/// Pointers to the arrays of one group, as kernels receive them. A row is one contact point of each lane of a packet.
+/// Pointers to the arrays of one group, as kernels receive them. A layer is one contact point of each lane of a packet.
 template <class P>
 struct ContactView {
   using State = typename P::State;
   using Geometry = typename P::Geometry;
-  const std::int32_t* body_a;       ///< [slot] body number
-  const std::int32_t* body_b;       ///< [slot]
-  const Geometry* geometry;         ///< [packet][geometry_words][lane]; arms [m], moments over d [m] [m²] [m³]
-  const Geometry* points;           ///< [row][point_words][lane]; s, t [m], A_J/d [m]; points form only
-  const std::uint32_t* packet_row;  ///< [packet + 1]; points form only
-  /// Condensed form [packet], points form [row]: [components][1 + units][lane]; f [Pa·m], x_l [m]; null: stateless.
+  const std::int32_t* body_a;         ///< [slot] body number
+  const std::int32_t* body_b;         ///< [slot]
+  const Geometry* geometry;           ///< [packet][geometry_words][lane]; arms [m], moments over d [m] [m²] [m³]
+  const Geometry* points;             ///< [layer][point_words][lane]; s, t [m], A_J/d [m]; points form only
+  const std::uint32_t* packet_layer;  ///< [packet + 1]; points form only
+  /// Condensed form [packet], points form [layer]: [components][1 + units][lane]; f [Pa·m], x_l [m]; null: stateless.
   State* chain;
   State* frame;  ///< [packet][frame_words][lane] ŝ and, in single precision, the spin not yet applied to it
   std::uint32_t packets;
@@ -44,7 +44,7 @@ struct ContactView {
   /// shear).
   std::int32_t components;
   std::int32_t units;  ///< Kelvin units
-  bool by_points;      ///< whether rows of chains belong to points
+  bool by_points;      ///< whether layers of chains belong to points
   bool wall;           ///< whether body_b is a wall, whose plane is the facet
   Geometry alpha;
 };
@@ -54,7 +54,7 @@ template <class P>
 struct ContactArrays {
   ZeroVector<std::int32_t> body_a, body_b;
   ZeroVector<typename P::Geometry> geometry, points;
-  AlignedVector<std::uint32_t> packet_row;
+  AlignedVector<std::uint32_t> packet_layer;
   ZeroVector<typename P::State> chain, frame;
   ContactView<P> shape{};  ///< the numbers of the view; its pointers are null
 
@@ -65,7 +65,7 @@ struct ContactArrays {
     f("body_b", "1", body_b, view.body_b);
     f("geometry", "1, m, m, m2, m3", geometry, view.geometry);
     f("points", "m, m, m", points, view.points);
-    f("packet_row", "1", packet_row, view.packet_row);
+    f("packet_layer", "1", packet_layer, view.packet_layer);
     f("chain", "Pa m, m", chain, view.chain);
     f("frame", "1, rad", frame, view.frame);
   }
@@ -76,7 +76,7 @@ template <class P>
 struct GroupShape {
   ContactView<P> view{};  ///< numbers only; pointers are null
   bool by_points, stateless;
-  std::size_t slots, lanes, rows;  ///< rows: of chains, one per packet or one per point
+  std::size_t slots, lanes, layers;  ///< layers: of chains, one per packet or one per point
 
   /// `options.skip_rotations` has been decided before.
   GroupShape(const Layout& layout, const GroupLayout& group, const LawFacts& law, const StepperOptions& options)
@@ -84,7 +84,7 @@ struct GroupShape {
         stateless(options.geometry == Geometry::fixed && law.memoryless),
         slots(group.contact.size()),
         lanes(static_cast<std::size_t>(layout.lanes)),
-        rows(by_points ? group.packet_row.back() : group.packets()) {
+        layers(by_points ? group.packet_layer.back() : group.packets()) {
     const bool shear = law.alpha != 0 || !options.skip_shear || law.coupled, turns = !options.skip_rotations;
     view.by_points = by_points;
     view.alpha = static_cast<typename P::Geometry>(law.alpha);
@@ -98,14 +98,14 @@ struct GroupShape {
   std::size_t geometry() const { return slots * static_cast<std::size_t>(view.geometry_words); }
   std::size_t frame() const { return slots * static_cast<std::size_t>(view.frame_words); }
   std::size_t chain() const {
-    return stateless ? 0 : rows * lanes * static_cast<std::size_t>(view.components * (1 + view.units));
+    return stateless ? 0 : layers * lanes * static_cast<std::size_t>(view.components * (1 + view.units));
   }
-  std::size_t points() const { return by_points ? rows * lanes * point_words : 0; }
-  std::size_t packet_row() const { return by_points ? slots / lanes + 1 : 0; }
+  std::size_t points() const { return by_points ? layers * lanes * point_words : 0; }
+  std::size_t packet_layer() const { return by_points ? slots / lanes + 1 : 0; }
   /// Bytes of all arrays of the group.
   std::size_t bytes() const {
     return 2 * slots * sizeof(std::int32_t) + (geometry() + points()) * sizeof(typename P::Geometry) +
-           (chain() + frame()) * sizeof(typename P::State) + packet_row() * sizeof(std::uint32_t);
+           (chain() + frame()) * sizeof(typename P::State) + packet_layer() * sizeof(std::uint32_t);
   }
 };
 

@@ -99,11 +99,11 @@ class GroupReading {
   }
 
   /// Returns f of a chain and copies the chain's numbers to `out`. A stateless contact returns f of the displacement x.
-  double chain(std::size_t row, int component, std::size_t lane, double x, double* out) const {
+  double chain(std::size_t layer, int component, std::size_t lane, double x, double* out) const {
     if constexpr (memoryless_law<L>) {
       if (shape_.stateless) return *out = law_.value(x);
     }
-    const auto at = (row * static_cast<std::size_t>(shape_.view.components) + static_cast<std::size_t>(component)) *
+    const auto at = (layer * static_cast<std::size_t>(shape_.view.components) + static_cast<std::size_t>(component)) *
                     words() * shape_.lanes;
     for (std::size_t w = 0; w < words(); ++w) out[w] = state_.chain[at + w * shape_.lanes + lane];
     return out[0];
@@ -133,8 +133,9 @@ class GroupReading {
       const double x[3] = {u[0] + s * u[1] + t * u[2], u[3] - t * u[5], u[4] + s * u[5]};
       double f[3] = {0, 0, 0};
       for (int k = 0; k < shape_.view.components; ++k) {
-        const std::size_t row = group_.packet_row[slot / shape_.lanes] + j;
-        f[k] = weight * chain(row, k, slot % shape_.lanes, x[k], out + (3 * j + static_cast<std::size_t>(k)) * words());
+        const std::size_t layer = group_.packet_layer[slot / shape_.lanes] + j;
+        f[k] =
+            weight * chain(layer, k, slot % shape_.lanes, x[k], out + (3 * j + static_cast<std::size_t>(k)) * words());
       }
       const double along_s = alpha_ * f[1], along_t = alpha_ * f[2];
       load.n += f[0], load.s += along_s, load.t += along_t;

@@ -164,11 +164,11 @@ struct ContactForces {
   template <class Item, class T>
   MACADAM_HD FacetLoad<T> points_load(const Item& item, std::uint32_t packet, const T (&u)[6]) const {
     FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
-    for (std::uint32_t row = view.packet_row[packet]; row < view.packet_row[packet + 1]; ++row) {
-      const auto* point = view.points + static_cast<std::size_t>(row) * point_words * item.lanes();
+    for (std::uint32_t layer = view.packet_layer[packet]; layer < view.packet_layer[packet + 1]; ++layer) {
+      const auto* point = view.points + static_cast<std::size_t>(layer) * point_words * item.lanes();
       const auto of = [&](std::size_t w) { return item.template convert<Work>(item.load(point + w * item.lanes())); };
       const T s = of(point_s), t = of(point_t), weight = of(point_weight);
-      typename P::State* chain = view.chain + static_cast<std::size_t>(row) * chain_words() * item.lanes();
+      typename P::State* chain = view.chain + static_cast<std::size_t>(layer) * chain_words() * item.lanes();
       const T n = weight * advance(item, u[0] + s * u[1] + t * u[2], chain);
       T along_s(0), along_t(0);
       if (view.components == 3) {
@@ -188,13 +188,13 @@ struct ContactForces {
     using S = typename Item::template Value<typename P::State>;
     const auto of = [&](const T& x) { return item.template convert<typename P::State>(x); };
     FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
-    for (std::uint32_t row = view.packet_row[packet]; row < view.packet_row[packet + 1]; ++row) {
-      const auto* point = view.points + static_cast<std::size_t>(row) * point_words * item.lanes();
+    for (std::uint32_t layer = view.packet_layer[packet]; layer < view.packet_layer[packet + 1]; ++layer) {
+      const auto* point = view.points + static_cast<std::size_t>(layer) * point_words * item.lanes();
       const auto word = [&](std::size_t w) { return item.template convert<Work>(item.load(point + w * item.lanes())); };
       const T s = word(point_s), t = word(point_t), weight = word(point_weight);
       const S dx[3] = {of(u[0] + s * u[1] + t * u[2]) * S(dt), of(u[3] - t * u[5]) * S(dt),
                        of(u[4] + s * u[5]) * S(dt)};
-      typename P::State* chain = view.chain + static_cast<std::size_t>(row) * chain_words() * item.lanes();
+      typename P::State* chain = view.chain + static_cast<std::size_t>(layer) * chain_words() * item.lanes();
       const auto place = [&](int c, int l) {
         return chain + static_cast<std::size_t>(c * (1 + Units) + l) * item.lanes();
       };

@@ -9,6 +9,7 @@
 
 #include "kernels/step/block_length.hpp"
 #include "kernels/contact/block_settling.hpp"
+#include "kernels/contact/block_step.hpp"
 #include "kernels/cpu/pack_item.hpp"
 
 namespace macadam::kernels {
@@ -16,7 +17,7 @@ namespace macadam::kernels {
 /// Words of a contact's frame within a block: n, arm_a, arm_b, ŝ. With updated geometry only.
 enum PlacedWord { placed_n, placed_arm_a = 3, placed_arm_b, placed_s, placed_words = placed_s + 3 };
 
-/// Steps packets of contacts within a block by model (6.8), as step_in_block() does on a device; `state` and `placed`
+/// Steps packets of contacts within a block by model (6.8) (block_step.hpp); `state` and `placed`
 /// as in CpuGroup.
 template <class P, Geometry geometry>
 struct BlockForces {
@@ -67,10 +68,11 @@ struct BlockForces {
     float* own = state + slot * 3 * N;
     const auto place = [&](int kind, int c) { return own + static_cast<std::size_t>(kind * N + c) * item.lanes(); };
     for (int c = 0; c < N; ++c) {
-      const T before = item.load(place(0, c)), sum = item.load(place(1, c)), drift = item.load(place(2, c));
-      change[c] = before + (T(rate) * u[c] + (drift + T(follow) * sum - T(relax) * before));
+      change[c] = item.load(place(0, c));
+      T sum = item.load(place(1, c));
+      step_in_block_by<T>({T(rate), T(relax), T(follow)}, u[c], item.load(place(2, c)), change[c], sum);
       item.store(place(0, c), change[c]);
-      item.store(place(1, c), sum + (change[c] + before));
+      item.store(place(1, c), sum);
     }
   }
 };
@@ -143,7 +145,7 @@ struct CpuGroup {
     return static_cast<std::int64_t>(((array.size() * sizeof(array[0])) + ...));
   }
   std::int64_t fixed_bytes() const {
-    return bytes_of(arrays.body_a, arrays.body_b, arrays.geometry, arrays.points, arrays.packet_row);
+    return bytes_of(arrays.body_a, arrays.body_b, arrays.geometry, arrays.points, arrays.packet_layer);
   }
   std::int64_t chain_bytes() const { return bytes_of(arrays.chain, arrays.frame); }
   std::int64_t block_bytes() const { return bytes_of(state, placed); }

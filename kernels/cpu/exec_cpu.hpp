@@ -23,7 +23,7 @@ namespace macadam::kernels {
 /// register (in mixed precision without AVX-512, in double without AVX) is a tuple to gcc; its many small functions
 /// would otherwise become calls, up to four times slower.
 template <class P, class Laws, std::size_t width = packet_width<P>>
-class ExecCpu {
+class ExecCpu : public NoSamples<typename P::Particle> {
  public:
   using Policy = P;
   using AnyLaw = Laws;
@@ -32,16 +32,19 @@ class ExecCpu {
   static constexpr int lanes = static_cast<int>(Item::lanes());
   static constexpr bool five_units_in_registers = false;
 
-  /// Returns tiles of 1024 contacts: their states (200 kB) fit the L2 cache of a core.
-  static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
+  using Plan = LayoutPlan;
+  static std::optional<Plan> plan(const Specimen& specimen, const ContactNetwork& network, const StepperOptions&) {
+    // tiles of 1024 contacts: their states (200 kB) fit the L2 cache of a core
+    return Plan{make_layout(specimen, network, lanes, {1024})};
+  }
 
-  ExecCpu(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
-      : layout_(layout),
-        accumulators_(network, layout),
-        groups_(layout.groups.size()),
-        blocks_(layout, accumulators_),
+  ExecCpu(const ContactNetwork& network, const Plan& plan, const StepperOptions& options)
+      : layout_(plan.layout),
+        accumulators_(network, layout_),
+        groups_(layout_.groups.size()),
+        blocks_(layout_, accumulators_),
         threads_(
-            std::min(options.threads > 0 ? options.threads : omp_get_max_threads(), static_cast<int>(layout.tiles()))),
+            std::min(options.threads > 0 ? options.threads : omp_get_max_threads(), static_cast<int>(layout_.tiles()))),
         choice_(threads_, options.threads > 0) {}
 
   bool can_restart_with(const ExecStart&) const { return true; }
@@ -112,7 +115,7 @@ class ExecCpu {
   void prepare(const ParticleMotion<P>& motion) { motion_ = motion; }
 
   /// Takes all steps, in pieces; the number of threads is chosen for each piece.
-  void run(std::int64_t first, std::int64_t steps) {
+  void run(std::int64_t first, std::int64_t steps, std::int64_t) {
     for (std::int64_t row = 0; row < steps;) {
       const ThreadChoice::Next next = choice_.next();
       const std::int64_t n =

@@ -98,6 +98,6 @@ class DeviceSolver {
 
 /// Does the same as CudaCode::make_solver. Only in builds with CUDA.
 std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, const DeviceList& devices,
-                                                 std::int64_t& loose);
+                                                 std::int64_t& singular_body);
 
 }  // namespace macadam::kernels

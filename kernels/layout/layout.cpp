@@ -170,7 +170,7 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
   GroupLayout group;
   group.pair = pair;
   const auto lanes = static_cast<std::size_t>(layout.lanes);
-  std::uint32_t row = 0;
+  std::uint32_t layer = 0;
   for (std::size_t tile = 0; tile < layout.tiles(); ++tile) {
     group.tile_packet.push_back(static_cast<std::uint32_t>(group.contact.size() / lanes));
     for (std::size_t k = begin[tile]; k < begin[tile + 1]; ++k) {
@@ -182,11 +182,11 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
   }
   group.tile_packet.push_back(static_cast<std::uint32_t>(group.contact.size() / lanes));
   for (std::size_t packet = 0; packet < group.packets(); ++packet) {
-    group.packet_row.push_back(row);
+    group.packet_layer.push_back(layer);
     const auto first = group.points.begin() + static_cast<std::ptrdiff_t>(packet * lanes);
-    row += *std::max_element(first, first + layout.lanes);
+    layer += *std::max_element(first, first + layout.lanes);
   }
-  group.packet_row.push_back(row);
+  group.packet_layer.push_back(layer);
   return group;
 }
 

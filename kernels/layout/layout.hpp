@@ -33,8 +33,8 @@ struct GroupLayout {
   std::vector<std::uint32_t> contact;      ///< slot → network contact, or `inert`; the size is a multiple of `lanes`
   std::vector<std::uint32_t> points;       ///< [slot] number of contact points of the contact; 0 where inert
   std::vector<std::uint32_t> tile_packet;  ///< tile → first packet; tiles + 1 entries
-  /// Packet → first row of contact points (one point of each lane); packets + 1 entries.
-  std::vector<std::uint32_t> packet_row;
+  /// Packet → first layer of contact points (one point of each lane); packets + 1 entries.
+  std::vector<std::uint32_t> packet_layer;
   std::size_t packets() const { return tile_packet.back(); }
 };
 

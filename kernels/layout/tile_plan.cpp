@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tile_plan.cpp  Computes contacts, halo, ranks and slots of every tile; tile_plan.hpp explains the words.
+// tile_plan.cpp  Computes contacts, halo, ranks and cells of every tile; tile_plan.hpp explains the words.
 #include "kernels/layout/tile_plan.hpp"
 
 #include <algorithm>
@@ -16,26 +16,26 @@ namespace {
 /// A contact that touches a tile's particles.
 struct Touch {
   std::int32_t a, b;  ///< bodies
-  std::uint32_t group, group_slot, wall_row;
-  bool ends_run;  ///< last contact of its run
+  std::uint32_t group, group_slot, wall_contact;
+  bool ends_couple;  ///< last contact of its couple
 };
 
-using Run = std::vector<std::uint32_t>;
+using Couple = std::vector<std::uint32_t>;
 
-/// Runs of two contacts as columns (a thread steps a column from one end to the other), and runs of one contact.
+/// Couples of two contacts as columns (a thread steps a column from one end to the other), and couples of one contact.
 struct Columns {
-  static_assert(TilePlan::run == 2);
-  using Column = std::array<std::uint32_t, TilePlan::run>;
+  static_assert(TilePlan::couple == 2);
+  using Column = std::array<std::uint32_t, TilePlan::couple>;
   static constexpr std::uint32_t nobody = UINT32_MAX;
   std::vector<Column> column;
-  Run ones;
+  Couple ones;
 
-  explicit Columns(const std::vector<Run>& runs) {
-    for (const Run& run : runs) {
-      if (run.size() == TilePlan::run)
-        column.push_back({run[0], run[1]});
+  explicit Columns(const std::vector<Couple>& couples) {
+    for (const Couple& couple : couples) {
+      if (couple.size() == TilePlan::couple)
+        column.push_back({couple[0], couple[1]});
       else
-        ones.push_back(run.front());
+        ones.push_back(couple.front());
     }
   }
 };
@@ -44,7 +44,7 @@ struct Columns {
 struct TilePart {
   Tile tile{};
   std::vector<std::int32_t> body, halo;
-  std::vector<std::uint32_t> row, diagonal;
+  std::vector<std::uint32_t> list, diagonal;
   std::vector<TileContact> contact;
 };
 
@@ -82,12 +82,12 @@ class Planner {
   /// appear in both.
   void find_touches() {
     touches_.resize(layout_.tiles());
-    std::vector<std::uint32_t> next_row(walls + 1, 0);
+    std::vector<std::uint32_t> next_wall_contact(walls + 1, 0);
     for (const Contact& c : network_.contacts) {
-      if (c.b < 0) ++next_row[at(-c.b)];
+      if (c.b < 0) ++next_wall_contact[at(-c.b)];
     }
-    std::partial_sum(next_row.begin(), next_row.end(), next_row.begin());
-    out_.wall_begin = next_row;
+    std::partial_sum(next_wall_contact.begin(), next_wall_contact.end(), next_wall_contact.begin());
+    out_.wall_begin = next_wall_contact;
     struct Slot {
       std::uint32_t group, slot;
     };
@@ -107,8 +107,8 @@ class Planner {
                         layout_.body_of(c.b),
                         slot_of[number].group,
                         slot_of[number].slot,
-                        c.b < 0 ? next_row[at(-c.b) - 1]++ : UINT32_MAX,
-                        (k + 1) % TilePlan::run == 0 || k + 1 == of_end_a[at(c.a)]};
+                        c.b < 0 ? next_wall_contact[at(-c.b) - 1]++ : UINT32_MAX,
+                        (k + 1) % TilePlan::couple == 0 || k + 1 == of_end_a[at(c.a)]};
       const int tile = tile_of_[at(touch.a)];
       touches_[static_cast<std::size_t>(tile)].push_back(touch);
       if (!is_wall(touch.b) && !owns(tile, touch.b)) touches_[at(tile_of_[at(touch.b)])].push_back(touch);
@@ -120,7 +120,7 @@ class Planner {
     if (!begins_share_.empty() && begins_share_[t]) {
       out_.contact.resize(whole(out_.packets(), TilePlan::share_packets) * 32);  // inert
       out_.body.resize(whole(out_.body.size(), TilePlan::share_places), -1);
-      out_.row.resize(2 * out_.body.size());
+      out_.list.resize(2 * out_.body.size());
     }
     Tile tile = part.tile;
     tile.first_body = static_cast<std::uint32_t>(out_.body.size());
@@ -128,18 +128,18 @@ class Planner {
     tile.first_packet = static_cast<std::uint32_t>(out_.packets());
     const auto append = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
     append(out_.body, part.body);
-    append(out_.row, part.row);
+    append(out_.list, part.list);
     append(out_.diagonal, part.diagonal);
     append(out_.halo, part.halo);
     append(out_.contact, part.contact);
     out_.most_bodies = std::max(out_.most_bodies, tile.bodies);
     out_.most_locals = std::max(out_.most_locals, tile.bodies + tile.halo + walls);
-    out_.most_slots = std::max(out_.most_slots, tile.slots);
-    out_.fits = out_.fits && tile.bodies + tile.halo + walls < UINT16_MAX && tile.slots < TilePlan::more_of_run;
+    out_.most_cells = std::max(out_.most_cells, tile.cells);
+    out_.fits = out_.fits && tile.bodies + tile.halo + walls < UINT16_MAX && tile.cells < TilePlan::more_of_couple;
     out_.tile.push_back(tile);
   }
 
-  /// Plans one tile: halo, ranks and rows of its particles, then its contacts.
+  /// Plans one tile: halo, ranks and load lists of its particles, then its contacts.
   void make_tile(int t, TilePart& part) {
     auto& touches = touches_[at(t)];
     const auto first = static_cast<std::uint32_t>(layout_.tile_body[at(t)]);
@@ -147,14 +147,14 @@ class Planner {
     Tile& tile = part.tile;
     tile.bodies = bodies;
     part.body.resize(bodies);
-    part.row.resize(std::size_t{2} * bodies);
+    part.list.resize(std::size_t{2} * bodies);
 
     std::vector<std::uint32_t> length(bodies, 0), rank(bodies), order(bodies);
     std::vector<std::int32_t>& halo = part.halo;
     for (const Touch& touch : touches) {
       for (const std::int32_t body : {touch.a, touch.b}) {
         if (owns(t, body))
-          length[at(body) - first] += body == touch.b || touch.ends_run;
+          length[at(body) - first] += body == touch.b || touch.ends_couple;
         else if (!is_wall(body))
           halo.push_back(body);
       }
@@ -165,32 +165,32 @@ class Planner {
 
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return length[i] > length[j]; });
-    part.diagonal.assign(TilePlan::longest_short_row, 0);
+    part.diagonal.assign(TilePlan::longest_short_list, 0);
     for (std::uint32_t r = 0; r < bodies; ++r) {
       const std::uint32_t n = length[order[r]];
       rank[order[r]] = r;
       part.body[r] = static_cast<std::int32_t>(first + order[r]);
-      part.row[2 * r] = n;
-      if (n > TilePlan::longest_short_row) {
-        ++tile.long_rows;
-        part.row[2 * r + 1] = tile.slots;
-        tile.slots += n;
+      part.list[2 * r] = n;
+      if (n > TilePlan::longest_short_list) {
+        ++tile.long_lists;
+        part.list[2 * r + 1] = tile.cells;
+        tile.cells += n;
       }
     }
-    for (std::uint32_t e = 0; e < TilePlan::longest_short_row; ++e) {
-      // short ranks r ≥ long_rows have row lengths that fall with r, so slot e exists for the first `run` of them
-      std::uint32_t run = 0;
-      for (std::uint32_t r = tile.long_rows; r < bodies && part.row[2 * r] > e; ++r) ++run;
-      part.diagonal[e] = tile.slots - tile.long_rows;
-      tile.slots += run;
+    for (std::uint32_t e = 0; e < TilePlan::longest_short_list; ++e) {
+      // short ranks r ≥ long_lists have list lengths that fall with r, so cell e exists for the first `count` of them
+      std::uint32_t count = 0;
+      for (std::uint32_t r = tile.long_lists; r < bodies && part.list[2 * r] > e; ++r) ++count;
+      part.diagonal[e] = tile.cells - tile.long_lists;
+      tile.cells += count;
     }
     add_contacts(t, part, touches, rank);
     touches = {};
   }
 
-  /// Assigns slots to the contacts and sorts them into packets. Runs are sorted by entry e of their slot's row, then by
-  /// rank, so that the lanes of a warp access neighbouring words of shared memory. Runs of two that need no halo come
-  /// first, so that they can be stepped while velocities of other tiles are in transit.
+  /// Assigns cells to the contacts and sorts them into packets. Couples are sorted by entry e of their cell's list,
+  /// then by rank, so that the lanes of a warp access neighbouring words of shared memory. Couples of two that need no
+  /// halo come first, so that they can be stepped while velocities of other tiles are in transit.
   void add_contacts(int t, TilePart& part, const std::vector<Touch>& touches,
                     const std::vector<std::uint32_t>& rank) const {
     Tile& tile = part.tile;
@@ -203,55 +203,55 @@ class Planner {
       if (owns(t, body)) return rank[at(body - layout_.tile_body[at(t)])];
       return tile.bodies + static_cast<std::uint32_t>(std::lower_bound(halo.begin(), halo.end(), body) - halo.begin());
     };
-    const auto fill = [&](std::uint32_t r, std::uint16_t& slot) {
+    const auto fill = [&](std::uint32_t r, std::uint16_t& cell) {
       const std::uint32_t e = filled[r]++;
-      slot = static_cast<std::uint16_t>(r < tile.long_rows ? part.row[2 * r + 1] + e : part.diagonal[e] + r);
+      cell = static_cast<std::uint16_t>(r < tile.long_lists ? part.list[2 * r + 1] + e : part.diagonal[e] + r);
       return e;
     };
-    using Entry = std::tuple<std::uint32_t, std::uint32_t, Run>;  // entry, rank, contacts
+    using Entry = std::tuple<std::uint32_t, std::uint32_t, Couple>;  // entry, rank, contacts
     std::vector<Entry> entries;
     std::vector<TileContact> contacts;
-    std::vector<Run> begun(tile.bodies);
+    std::vector<Couple> begun(tile.bodies);
     for (const Touch& touch : touches) {
       const auto number = static_cast<std::uint32_t>(contacts.size());
       TileContact& c = contacts.emplace_back(TileContact{touch.group_slot, static_cast<std::uint16_t>(local(touch.a)),
-                                                         static_cast<std::uint16_t>(local(touch.b)), TilePlan::no_slot,
-                                                         TilePlan::no_slot, touch.group, touch.wall_row});
+                                                         static_cast<std::uint16_t>(local(touch.b)), TilePlan::no_cell,
+                                                         TilePlan::no_cell, touch.group, touch.wall_contact});
       if (!owns(t, touch.a)) continue;
-      auto& run = begun[c.local_a];
-      run.push_back(number);
-      c.slot_a = TilePlan::more_of_run;
-      if (touch.ends_run) entries.emplace_back(fill(c.local_a, c.slot_a), c.local_a, std::exchange(run, {}));
+      auto& couple = begun[c.local_a];
+      couple.push_back(number);
+      c.cell_a = TilePlan::more_of_couple;
+      if (touch.ends_couple) entries.emplace_back(fill(c.local_a, c.cell_a), c.local_a, std::exchange(couple, {}));
     }
     for (std::uint32_t i = 0; i < contacts.size(); ++i) {
       TileContact& c = contacts[i];
       if (!owns(t, touches[i].b)) continue;
-      const std::uint32_t entry = fill(c.local_b, c.slot_b);
+      const std::uint32_t entry = fill(c.local_b, c.cell_b);
       if (!owns(t, touches[i].a)) entries.emplace_back(entry, c.local_b, std::vector{i});
     }
     std::sort(entries.begin(), entries.end());
-    std::vector<Run> inner, outer;
-    for (auto& [entry, r, run] : entries) {
-      const bool waits = std::any_of(run.begin(), run.end(), [&](std::uint32_t number) {
+    std::vector<Couple> inner, outer;
+    for (auto& [entry, r, couple] : entries) {
+      const bool waits = std::any_of(couple.begin(), couple.end(), [&](std::uint32_t number) {
         const TileContact& c = contacts[number];
         return is_halo(tile, c.local_a) || is_halo(tile, c.local_b);
       });
-      (waits ? outer : inner).push_back(std::move(run));
+      (waits ? outer : inner).push_back(std::move(couple));
     }
     Columns columns(inner);
     tile.inner = static_cast<std::uint32_t>(columns.column.size() / 32);
     for (const std::uint32_t number : columns.ones) outer.push_back({number});
     const Columns others(outer);
     columns.column.insert(columns.column.end(), others.column.begin(), others.column.end());
-    tile.groups = static_cast<std::uint32_t>((columns.column.size() + 31) / 32);
+    tile.double_packets = static_cast<std::uint32_t>((columns.column.size() + 31) / 32);
     TileContact none;
-    none.slot_a = none.slot_b = TilePlan::no_slot;
+    none.cell_a = none.cell_b = TilePlan::no_cell;
     const auto add = [&](std::uint32_t number) {
       part.contact.push_back(number == Columns::nobody ? none : contacts[number]);
     };
-    columns.column.resize(std::size_t{32} * tile.groups, {Columns::nobody, Columns::nobody});
+    columns.column.resize(std::size_t{32} * tile.double_packets, {Columns::nobody, Columns::nobody});
     for (std::size_t first = 0; first < columns.column.size(); first += 32) {
-      for (std::size_t place = 0; place < TilePlan::run; ++place) {
+      for (std::size_t place = 0; place < TilePlan::couple; ++place) {
         for (std::size_t lane = 0; lane < 32; ++lane) add(columns.column[first + lane][place]);
       }
     }

@@ -3,8 +3,9 @@
 /// steps it.
 ///
 /// There are three: ExecCpu (threads and SIMD registers), ExecCuda (two kernels per step, any law and contact form),
-/// and ExecCudaTiles (blocks of steps over tiles). An executor is made once for a network and a layout, and can be
-/// restarted many times. For each start, StepperImpl calls, in this order:
+/// and ExecCudaTiles (blocks of steps over tiles). plan() first answers whether the executor fits the devices, without
+/// allocating anything on them. An executor is made once for a network and a plan, and can be restarted many times. For
+/// each start, StepperImpl calls, in this order:
 ///   begin(start)             sets all bodies to rest; applies the options
 ///   wall_table(values)       allocates the walls' table and returns its address
 ///   set_bodies(…)            sets masses and body forces
@@ -12,14 +13,18 @@
 ///                            arrays, on later starts only the states; it always sets the functor that steps the group
 ///   prepare(motion)          ends the set-up
 /// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). All other
-/// functions read, or set states of a checkpoint. Optional functions for samples are described in exec_cuda_tiles.hpp.
+/// functions read, or set states of a checkpoint. Between two calls of
+/// run() it may take samples (max_samples(), take_sample(), wait_for_samples()); executors that cannot, inherit
+/// NoSamples.
 #pragma once
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "kernels/layout/layout.hpp"
 #include "kernels/step/particle_motion.hpp"
 #include "kernels/step/state_list.hpp"
 #include "macadam/stepper.hpp"
@@ -35,13 +40,35 @@ struct ExecStart {
   std::size_t group_bytes;  ///< size of the arrays of all groups, if `first`
 };
 
+/// Plan of an executor that needs only a layout.
+struct LayoutPlan {
+  Layout layout;
+};
+
+/// Forces and motion of the walls at one step, sampled by an executor while it runs. R: precision of the particles.
+template <class R>
+struct WallSample {
+  std::vector<Twist<R>> force;       ///< [wall] exerted by the particles [N, N·m]
+  std::vector<double> displacement;  ///< [wall][8] at the whole step [m, rad]
+  std::vector<R> velocity;           ///< [wall][8] at the last half step [m/s, rad/s]
+  std::int64_t divergent;            ///< first particle that moves too far in a step (specimen order), or −1
+};
+/// Base class of executors that take no samples while they run.
+template <class R>
+struct NoSamples {
+  std::size_t max_samples(const std::vector<double>&) const { return 0; }
+  void take_sample(std::size_t) const {}
+  std::vector<WallSample<R>> wait_for_samples(std::size_t) const { return {}; }
+};
+
 template <class E>
-concept Executor = requires(E exec, const E& read, const ExecStart& start, const ContactNetwork& network,
-                            std::vector<typename E::Policy::Particle> words, std::vector<double> doubles,
-                            ParticleMotion<typename E::Policy> motion) {
+concept Executor = requires(E exec, const E& read, const ExecStart& start, const Specimen& specimen,
+                            const ContactNetwork& network, std::vector<typename E::Policy::Particle> words,
+                            std::vector<double> doubles, ParticleMotion<typename E::Policy> motion) {
   typename E::AnyLaw;  // std::variant<…> of the laws that it can step
   { E::lanes + 0 } -> std::convertible_to<int>;
-  { E::tile_size(network, start.options) } -> std::same_as<TileSize>;
+  // Plans the run; nothing, if it does not fit the devices. E::Plan has a member `layout`
+  { E::plan(specimen, network, start.options) } -> std::same_as<std::optional<typename E::Plan>>;
   {
     read.can_restart_with(start)
     } -> std::same_as<bool>;  // whether a start with these options can use the groups set before
@@ -50,9 +77,14 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   exec.set_bodies(words, words);
   exec.prepare(motion);
   exec.set_wall_rows(words);
-  // Arguments: first step, number of steps. The first row of the walls' table belongs to the first step
-  exec.run(std::int64_t{}, std::int64_t{});
+  // Arguments: first step, number of steps, row of the walls' table for the first step (0 without samples)
+  exec.run(std::int64_t{}, std::int64_t{}, std::int64_t{});
   exec.wait();
+  // Returns how many samples can be taken before they are read; 0: none. Argument: radii in specimen order [m]
+  { exec.max_samples(doubles) } -> std::same_as<std::size_t>;
+  exec.take_sample(std::size_t{});  // enqueues sample number k behind the enqueued steps
+  // Waits for all steps and returns the samples 0 … number − 1
+  { exec.wait_for_samples(std::size_t{}) } -> std::same_as<std::vector<WallSample<typename E::Policy::Particle>>>;
   read.gather();     // with ranks, completes on every device the arrays that steps change
   exec.end_steps();  // waits for queued work after an error, so that other devices and runs are not blocked
   { read.forces(std::int32_t{}, std::size_t{}) } -> std::same_as<std::vector<Twist<typename E::Policy::Particle>>>;

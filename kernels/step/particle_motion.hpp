@@ -31,9 +31,9 @@ struct ParticleMotion {
   using R = typename P::Particle;
   BodyView<P> body;
   Damping damping;
-  R chi;         ///< local damping; 0: none
-  R keep, gain;  ///< factors of v and of the force in viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 +
-                 ///< βΔt/2); both 1 without
+  R chi;                           ///< local damping; 0: none
+  R damping_factor, force_factor;  ///< factors of v and of the force in viscous damping, model (10.1): (1 − βΔt/2)/(1 +
+                                   ///< βΔt/2) and 1/(1 + βΔt/2); both 1 without
   double dt;  ///< [s]
   WallMotion<R> wall;
 
@@ -53,16 +53,17 @@ struct ParticleMotion {
     }
   }
 
-  /// Moves only word w of [v, –, ω, –] of body i, under word w of force and moment; one thread per word. `pushed`:
-  /// there are body forces, or walls driven by forces.
-  template <bool pushed>
+  /// Moves only word w of [v, –, ω, –] of body i, under word w of force and moment; one thread per word.
+  /// `has_external_loads`: there are body forces, or walls driven by forces.
+  template <bool has_external_loads>
   MACADAM_HD void word(std::int32_t i, int w, R force, std::int64_t k) const {
     const std::size_t at = place(i, w);
     if (i < body.particles) {
-      if (pushed && body.weight && w < 3) force += body.weight[static_cast<std::size_t>(i) * 4 + std::size_t(w)];
+      if (has_external_loads && body.weight && w < 3)
+        force += body.weight[static_cast<std::size_t>(i) * 4 + std::size_t(w)];
       set(at, moved(body.master[at], force, body.inverse[2 * i + w / 4]));
     } else if (w < 3) {
-      set(at, of_wall<pushed>(i, w, body.master[at], force, k));
+      set(at, of_wall<has_external_loads>(i, w, body.master[at], force, k));
     }
   }
 
@@ -83,12 +84,12 @@ struct ParticleMotion {
   }
 
   /// Returns the velocity of a wall along an axis after step k. `force`: exerted by the particles on it.
-  template <bool pushed>
+  template <bool has_external_loads>
   MACADAM_HD R of_wall(std::int32_t i, int axis, R v, R force, std::int64_t k) const {
     const int number = i - body.particles;
     if (!wall.moves(number)) return v;
     const R given = wall.row(number, k)[axis];
-    return pushed && wall.loaded(3 * number + axis) ? moved(v, force + given, body.inverse[2 * i]) : given;
+    return has_external_loads && wall.loaded(3 * number + axis) ? moved(v, force + given, body.inverse[2 * i]) : given;
   }
 
 #ifdef __CUDA_ARCH__
@@ -102,7 +103,7 @@ struct ParticleMotion {
       const R against = v == 0 ? R(0) : std::copysign(chi, -v);  // F_d = −χ·|F|·sign(v)
       f = multiply_add(against, f < 0 ? -f : f, f);
     }
-    return multiply_add(keep, v, gain * inverse * f);
+    return multiply_add(damping_factor, v, force_factor * inverse * f);
   }
 };
 

@@ -79,7 +79,7 @@ inline StateOrder contact_order(const Layout& layout, const GroupLayout& group, 
     const std::size_t packet = slot / lanes, lane = slot % lanes;
     if (!by_points) out.first.push_back(packet * words * lanes + lane);
     for (std::uint32_t j = 0; by_points && j < group.points[slot]; ++j)
-      out.first.push_back((group.packet_row[packet] + j) * words * lanes + lane);
+      out.first.push_back((group.packet_layer[packet] + j) * words * lanes + lane);
   }
   return out;
 }

@@ -43,13 +43,13 @@ class StepperImpl final : public Stepper {
   using R = typename P::Particle;
   using Laws = std::array<std::optional<typename Exec::AnyLaw>, pair_types>;
 
-  StepperImpl(const Specimen& specimen, const ContactNetwork& network, const Laws& laws, const Inertia& inertia,
-              const StepperOptions& options)
+  StepperImpl(typename Exec::Plan plan, const Specimen& specimen, const ContactNetwork& network, const Laws& laws,
+              const Inertia& inertia, const StepperOptions& options)
       : options_(decided(options, network, facts_of(laws))),
         radius_(specimen.radius),
         size_(specimen.box.size),
-        layout_(make_layout(specimen, network, Exec::lanes, Exec::tile_size(network, options))),
-        exec_(network, layout_, options_) {
+        plan_(std::move(plan)),
+        exec_(network, plan_, options_) {
     begin(network, laws, inertia, true);
   }
   StepperImpl(const StepperImpl&) = delete;
@@ -88,11 +88,9 @@ class StepperImpl final : public Stepper {
 
   std::vector<Sample> advance_sampled(std::int64_t every, std::int64_t times) override {
     exec_.use_device();
-    if constexpr (takes_notes) {
-      const auto samples = static_cast<std::int64_t>(exec_.max_samples(radius_));
-      if (samples > 0) return advance_noted(every, std::clamp<std::int64_t>(times, 1, samples));
-    }
-    return Stepper::advance_sampled(every, 1);
+    const auto samples = static_cast<std::int64_t>(exec_.max_samples(radius_));
+    if (samples == 0) return Stepper::advance_sampled(every, 1);
+    return advance_with_samples(every, std::clamp<std::int64_t>(times, 1, samples));
   }
 
   Observation observe() const override {
@@ -329,7 +327,8 @@ class StepperImpl final : public Stepper {
   void start_from(const StartState& start) {
     std::vector<Vec3d> velocity = start.velocity, spin = start.spin;
     for (auto* list : {&velocity, &spin}) {
-      for (Vec3d& v : *list) v = (1 / static_cast<double>(motion_.keep)) * v;  // the step will apply damping again
+      for (Vec3d& v : *list)
+        v = (1 / static_cast<double>(motion_.damping_factor)) * v;  // the step will apply damping again
     }
     if (options_.skip_rotations) spin.assign(spin.size(), {});  // spins in the solution are only rounding errors
     set_velocities(velocity, spin);
@@ -372,8 +371,6 @@ class StepperImpl final : public Stepper {
     });
   }
 
-  static constexpr bool takes_notes = requires(Exec & e, const std::vector<double>& radius) { e.max_samples(radius); };
-
   /// Steps that are enqueued in several parts, and the rows of the walls' table that are filled in for them.
   struct StepsToTake {
     std::int64_t begin, end, row = 0, rows = 0;
@@ -386,16 +383,13 @@ class StepperImpl final : public Stepper {
         exec_.set_wall_rows(wall_table_.fill(step_, all.rows));
       }
       const std::int64_t n = std::min(to - step_, all.rows - all.row);
-      if constexpr (takes_notes)
-        exec_.run(step_, n, all.row);
-      else
-        exec_.run(step_, n);
+      exec_.run(step_, n, all.row);
       step_ += n, all.row += n;
     }
   }
 
-  /// Does the same as advance_sampled(), for an executor that takes samples on the device (samples).
-  std::vector<Sample> advance_noted(std::int64_t every, std::int64_t times) {
+  /// Does the same as advance_sampled(), for an executor that takes samples while it runs.
+  std::vector<Sample> advance_with_samples(std::int64_t every, std::int64_t times) {
     StepsToTake all{step_, step_ + every * times};
     std::vector<Sample> out;
     try {
@@ -403,13 +397,10 @@ class StepperImpl final : public Stepper {
         queue_until(step_ + every, all);
         exec_.take_sample(static_cast<std::size_t>(k));
       }
-      const auto& samples = exec_.wait_for_samples(static_cast<std::size_t>(times));
-      for (std::int64_t k = 0; k < times; ++k) {
-        const auto& sample = samples[static_cast<std::size_t>(k)];
-        const auto list = [](const auto& of) { return std::vector(std::begin(of), std::end(of)); };
-        out.push_back({observation(all.begin + (k + 1) * every, Exec::twists(list(sample.force)),
-                                   list(sample.displacement), list(sample.velocity)),
-                       Exec::number_or_none(sample.divergent)});
+      std::int64_t step = all.begin;
+      for (const auto& sample : exec_.wait_for_samples(static_cast<std::size_t>(times))) {
+        out.push_back(
+            {observation(step += every, sample.force, sample.displacement, sample.velocity), sample.divergent});
       }
     } catch (...) {
       exec_.end_steps();
@@ -474,7 +465,8 @@ class StepperImpl final : public Stepper {
   Vec3d size_;  // of the specimen [m]
   std::size_t contacts_ = 0;
   Laws laws_;
-  Layout layout_;
+  typename Exec::Plan plan_;
+  const Layout& layout_ = plan_.layout;
   Exec exec_;
   ParticleMotion<P> motion_{};
   WallTable<R> wall_table_;
@@ -482,17 +474,20 @@ class StepperImpl final : public Stepper {
   bool started_ = false;  // whether the start was in motion, at a step before the first
 };
 
-/// Returns the used stepper, started again, if it suits; otherwise makes a new one.
+/// Returns the used stepper, started again, if it can be; otherwise makes a new one. Returns null and leaves the used
+/// one as it is, if the executor does not fit the devices.
 template <Executor Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<typename Exec::AnyLaw>, pair_types>& laws,
                                          const Inertia& inertia, const StepperOptions& options,
-                                         std::unique_ptr<Stepper> used) {
+                                         std::unique_ptr<Stepper>& used) {
   require_input(specimen.size(), network, facts_of(laws), options);
   auto* again = dynamic_cast<StepperImpl<Exec>*>(used.get());
-  if (again && again->begin_again(network, laws, inertia, options)) return used;
+  if (again && again->begin_again(network, laws, inertia, options)) return std::move(used);
+  auto plan = Exec::plan(specimen, network, options);
+  if (!plan) return nullptr;
   used.reset();  // frees its memory before the new one is made
-  return std::make_unique<StepperImpl<Exec>>(specimen, network, laws, inertia, options);
+  return std::make_unique<StepperImpl<Exec>>(*std::move(plan), specimen, network, laws, inertia, options);
 }
 
 }  // namespace macadam::kernels

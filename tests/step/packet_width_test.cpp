@@ -23,8 +23,9 @@ class PacketWidth : public testing::Test {
   static void expect_same(const TestScene& scene, StepperOptions options) {
     options.precision = P::value;
     const auto other = [&] {
+      std::unique_ptr<Stepper> used;
       return kernels::make_stepper_on<OtherExec>(scene.specimen, scene.network, scene.laws, scene.inertia, options,
-                                                 nullptr);
+                                                 used);
     };
     const auto own = make_stepper(Backend::cpu, scene.specimen, scene.network, scene.laws, scene.inertia, options);
     const auto theirs = other(), taken = other();

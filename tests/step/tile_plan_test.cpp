@@ -29,44 +29,44 @@ std::uint32_t number_of(const Layout& layout, const TileContact& c) {
   return inert;
 }
 
-/// Returns the load cells (slots) of a tile as its threads would leave them. Expects that every slot is written exactly
+/// Returns the load cells of a tile as its threads would leave them. Expects that every cell is written exactly
 /// once.
-std::vector<float> fill_slots(const TilePlan& plan, const Layout& layout, const Tile& tile,
+std::vector<float> fill_cells(const TilePlan& plan, const Layout& layout, const Tile& tile,
                               const std::vector<float>& load) {
-  std::vector<float> slots(tile.slots, 0);
-  std::vector<int> written(tile.slots, 0);
-  const auto put = [&](std::uint16_t slot, float x) {
-    if (slot == TilePlan::no_slot) return;
-    ASSERT_LT(slot, tile.slots);
-    slots[slot] = x;
-    EXPECT_EQ(++written[slot], 1);
+  std::vector<float> cells(tile.cells, 0);
+  std::vector<int> written(tile.cells, 0);
+  const auto put = [&](std::uint16_t cell, float x) {
+    if (cell == TilePlan::no_cell) return;
+    ASSERT_LT(cell, tile.cells);
+    cells[cell] = x;
+    EXPECT_EQ(++written[cell], 1);
   };
   const auto take = [&](std::uint32_t first, std::uint32_t packets) {
     for (std::uint32_t lane = 0; lane < 32; ++lane) {
-      float run = 0;
+      float couple = 0;
       for (std::uint32_t j = 0; j < packets; ++j) {
         const TileContact& c = plan.contact[(tile.first_packet + first + j) * 32 + lane];
         const float x = c.group_slot == UINT32_MAX ? 0 : load[number_of(layout, c)];
-        if (first < TilePlan::run * tile.inner) {
+        if (first < TilePlan::couple * tile.inner) {
           for (const std::uint32_t local : {c.local_a, c.local_b})
             EXPECT_TRUE(local < tile.bodies || local >= tile.bodies + tile.halo)
-                << "an inner group waits for another tile";
+                << "an inner double packet waits for another tile";
         }
-        run += x;
-        if (c.slot_a != TilePlan::more_of_run) {
-          put(c.slot_a, run);
-          run = 0;
+        couple += x;
+        if (c.cell_a != TilePlan::more_of_couple) {
+          put(c.cell_a, couple);
+          couple = 0;
         }
-        put(c.slot_b, -x);
+        put(c.cell_b, -x);
       }
-      EXPECT_EQ(run, 0) << "a run goes on beyond its packets";
+      EXPECT_EQ(couple, 0) << "a couple goes on beyond its packets";
     }
   };
-  const std::uint32_t ones = TilePlan::run * tile.groups;
-  for (std::uint32_t first = 0; first < ones; first += TilePlan::run) take(first, TilePlan::run);
+  const std::uint32_t ones = TilePlan::couple * tile.double_packets;
+  for (std::uint32_t first = 0; first < ones; first += TilePlan::couple) take(first, TilePlan::couple);
   for (std::uint32_t packet = ones; packet < tile.packets; ++packet) take(packet, 1);
-  EXPECT_EQ(std::count(written.begin(), written.end(), 1), static_cast<std::ptrdiff_t>(tile.slots));
-  return slots;
+  EXPECT_EQ(std::count(written.begin(), written.end(), 1), static_cast<std::ptrdiff_t>(tile.cells));
+  return cells;
 }
 
 /// Returns the sum of loads per particle as tiles compute it.
@@ -79,13 +79,13 @@ std::vector<float> sums_by_tiles(const test::TestScene& scene, const TileSize& s
   std::vector<float> out(scene.specimen.size());
   for (std::size_t t = 0; t < plan.tile.size(); ++t) {
     const Tile& tile = plan.tile[t];
-    const std::vector<float> slots = fill_slots(plan, layout, tile, load);
+    const std::vector<float> cells = fill_cells(plan, layout, tile, load);
     for (std::uint32_t r = 0; r < tile.bodies; ++r) {
-      const std::uint32_t place = tile.first_body + r, n = plan.row[2 * place];
+      const std::uint32_t place = tile.first_body + r, n = plan.list[2 * place];
       float sum = 0;
       for (std::uint32_t e = 0; e < n; ++e) {
-        sum += slots[r < tile.long_rows ? plan.row[2 * place + 1] + e
-                                        : plan.diagonal[t * TilePlan::longest_short_row + e] + r];
+        sum += cells[r < tile.long_lists ? plan.list[2 * place + 1] + e
+                                         : plan.diagonal[t * TilePlan::longest_short_list + e] + r];
       }
       out[static_cast<std::size_t>(layout.particle[static_cast<std::size_t>(plan.body[place])])] = sum;
     }
@@ -121,7 +121,7 @@ TEST(TilePlan, EveryLoadArrivesAndInOneOrderForAnyTiles) {
 }
 
 // A sphere of 4 mm among spheres of about 1 mm touches about seventy of them. All have lower numbers, so each contact
-// has its own slot in the row of the large sphere.
+// has its own cell in the list of the large sphere.
 TEST(TilePlan, LoadsArriveInRowsOfAnyLength) {
   const Specimen small = test::random_specimen(3, 7, 6, 8);
   const Vec3d middle = 0.5 * small.box.size;
@@ -141,7 +141,7 @@ TEST(TilePlan, LoadsArriveInRowsOfAnyLength) {
   const test::TestScene scene = test::make_scene(specimen);
   const std::size_t whole = scene.network.contacts.size();
   const TilePlan plan = plan_tiles(scene.network, make_layout(scene.specimen, scene.network, 32, whole));
-  ASSERT_GT(plan.tile.at(0).long_rows, 0u);
+  ASSERT_GT(plan.tile.at(0).long_lists, 0u);
   expect_every_load_arrives(scene);
 }
 
@@ -158,15 +158,15 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   const test::TestScene scene = test::make_scene(test::random_specimen(4, 12, 12, 14));
   const Layout layout = make_layout(scene.specimen, scene.network, 32, 2000);
   const TilePlan plan = plan_tiles(scene.network, layout);
-  std::size_t slots = 0, real = 0, inner = 0;
-  for (const Tile& tile : plan.tile) slots += tile.slots, inner += tile.inner;
+  std::size_t cells = 0, real = 0, inner = 0;
+  for (const Tile& tile : plan.tile) cells += tile.cells, inner += tile.inner;
   EXPECT_GT(inner, 0u);
   for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
-  // Each contact has a slot for end B. Each run of two contacts has one for end A; the last run of a particle may be
-  // half empty.
-  EXPECT_LE(slots, (3 * scene.network.contacts.size() + scene.specimen.size()) / 2);
-  // At most the last group of a warp per tile, and its last packet, are partly empty.
-  EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::run + 1));
+  // Each contact has a cell for end B. Each couple of two contacts has one for end A; the last couple of a particle may
+  // be half empty.
+  EXPECT_LE(cells, (3 * scene.network.contacts.size() + scene.specimen.size()) / 2);
+  // At most the last double packet of a warp per tile, and its last packet, are partly empty.
+  EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::couple + 1));
 }
 
 TEST(TilePlan, EvenTilesTouchAboutAsManyContactsEach) {

@@ -13,7 +13,7 @@
 #include "kernels/cuda/device/part_clock.hpp"
 #include "kernels/cuda/common/load_record_order.hpp"
 #include "kernels/cuda/multi_gpu/device_team.hpp"
-#include "kernels/cuda/multi_gpu/device_limits.hpp"
+#include "kernels/cuda/device/device_store.hpp"
 #include "kernels/cuda/common/wall_table.hpp"
 #include "kernels/step/executor.hpp"
 
@@ -32,12 +32,12 @@ class CudaBodyArrays {
       : team_(options.devices, options.ranks),
         layout_(layout),
         cuts_(team_, layout),
-        rows_(network, layout, cuts_, order),
+        lists_(network, layout, cuts_, order),
         views_(layout.groups.size()),
         master_(cuts_.bodies(), velocity_words),
         displacement_(cuts_.bodies(), displacement_words),
         velocity_(cuts_.bodies(), std::is_same_v<G, R> ? 0 : velocity_words) {
-    if (team_.ranks()) crossing_.emplace(team_, network, layout, cuts_, rows_);
+    if (team_.ranks()) crossing_.emplace(team_, network, layout, cuts_, lists_);
   }
   CudaBodyArrays(const CudaBodyArrays&) = delete;
 
@@ -49,9 +49,9 @@ class CudaBodyArrays {
   const R* wall_table(std::size_t most_values) { return wall_rows_.prepare(most_values); }
   /// Enqueues the upload of rows of the walls' table. Every device waits for them.
   void set_wall_rows(const std::vector<R>& rows) {
-    team_.meet();
+    team_.join_streams();
     wall_rows_.put(rows, team_);
-    team_.meet();
+    team_.join_streams();
   }
 
   BodyView<P> set_bodies(const std::vector<R>& inverse, const std::vector<R>& weight) {
@@ -95,7 +95,7 @@ class CudaBodyArrays {
       const auto words = [](int count) { return static_cast<std::size_t>(count) * lanes; };
       const ContactView<P>& view = views_[g];
       const auto row = [&](std::size_t m) {
-        return view.by_points ? std::size_t{group.packet_row[packet(m)]} : packet(m);
+        return view.by_points ? std::size_t{group.packet_layer[packet(m)]} : packet(m);
       };
       queue_whole(team_, view.chain, words(view.components * (1 + view.units)), row);
       queue_whole(team_, view.frame, words(view.frame_words), packet);
@@ -210,7 +210,7 @@ class CudaBodyArrays {
       if (needed <= free) return;
       const auto mib = [](std::size_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; };
       throw RunError("CUDA: the scene of " + std::to_string(layout_.particles()) + " particles and " +
-                     std::to_string(rows_.records / 2) + " contacts needs another " + mib(needed) + " on device " +
+                     std::to_string(lists_.records / 2) + " contacts needs another " + mib(needed) + " on device " +
                      std::to_string(team_.device(m)) + ": found " + mib(free) + " free of " + mib(total));
     });
   }
@@ -234,7 +234,7 @@ class CudaBodyArrays {
   std::int64_t held_bytes() const {
     return group_bytes_ +
            static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() + velocity_.bytes() +
-                                     rows_.place.bytes() + weight_.bytes() + wall_rows_.bytes());
+                                     lists_.place.bytes() + weight_.bytes() + wall_rows_.bytes());
   }
 
   /// Makes the search for divergent particles, if there is none. `radius` in specimen order [m]. \throws RunError if
@@ -266,16 +266,16 @@ class CudaBodyArrays {
   Shares array_shares(std::size_t words, const GroupLayout& group) const {
     if (words % group.contact.size() == 0) return cuts_.slots(group);
     return cuts_.of([&](std::size_t m) {
-      const std::size_t packet = group.tile_packet[cuts_.tile(m)], row = group.packet_row[packet];
+      const std::size_t packet = group.tile_packet[cuts_.tile(m)], row = group.packet_layer[packet];
       return m == team_.size() ? words
-                               : std::min<std::size_t>(words, row * (words / std::max(group.packet_row.back(), 1u)));
+                               : std::min<std::size_t>(words, row * (words / std::max(group.packet_layer.back(), 1u)));
     });
   }
 
   DeviceTeam team_;
   const Layout& layout_;
   TeamCuts cuts_;
-  RecordRows rows_;
+  LoadLists lists_;
   std::optional<Crossing> crossing_;   // with several ranks
   std::vector<ContactView<P>> views_;  // [group]
   DeviceArray<R> master_, inverse_, weight_;

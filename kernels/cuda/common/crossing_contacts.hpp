@@ -17,9 +17,9 @@ struct Crossing {
   RankItems records;  ///< from the rank of the contact to the rank of the body
 
   Crossing(const DeviceTeam& team, const ContactNetwork& network, const Layout& layout, const TeamCuts& cuts,
-           const RecordRows& rows)
+           const LoadLists& lists)
       : bodies(team), records(team) {
-    const std::vector<std::uint32_t> place = rows.place.download();
+    const std::vector<std::uint32_t> place = lists.place.download();
     std::size_t slot = 0;  // number among the slots of all groups
     for (const GroupLayout& group : layout.groups) {
       for (std::size_t m = 0; m < cuts.members(); ++m) {

@@ -5,6 +5,7 @@
 #include "kernels/contact/contact_step.hpp"
 #include "kernels/cuda/device/array.hpp"
 #include "kernels/cuda/device/launch.hpp"
+#include "kernels/cuda/device/tuning.hpp"
 #include "kernels/layout/layout.hpp"
 
 namespace macadam::kernels {
@@ -51,8 +52,7 @@ class DivergenceSearch {
   /// device, must be UINT32_MAX; it becomes the result of Stepper::first_divergent() if a particle is found.
   void queue(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end, std::uint32_t* first,
              cudaStream_t stream) const {
-    constexpr unsigned threads = 256;
-    launch("divergence", find_divergent<P>, (end - begin + threads - 1) / threads, threads, 0, stream,
+    launch("divergence", find_divergent<P>, (end - begin + copy_threads - 1) / copy_threads, copy_threads, 0, stream,
            Divergent<P>{velocity, particle_.data(), radius_.data(), dt}, static_cast<std::int32_t>(begin),
            static_cast<std::int32_t>(end), first);
   }

@@ -20,18 +20,18 @@ namespace macadam::kernels {
 enum class RecordOrder { as_written, by_number };
 
 /// The rows of all bodies, on the device.
-struct RecordRows {
+struct LoadLists {
   DeviceArray<std::uint32_t> begin;  ///< [body + 1] first record of a body
   /// [slot of all groups][2] records of the ends A and B; UINT32_MAX in an inert slot.
   DeviceArray<std::uint32_t> place;
-  DeviceArray<std::uint32_t> long_body;  ///< bodies with more than long_row records, walls last
+  DeviceArray<std::uint32_t> long_body;  ///< bodies with more than long_list records, walls last
   std::vector<std::uint32_t> long_cut;   ///< [member of the team + 1] first of the member's own bodies in long_body
   std::uint32_t long_particles = 0;      ///< number of particles in long_body
   std::size_t records = 0;
   std::vector<std::size_t> cut;  ///< [member of the team + 1] first record of its bodies
   Shares shares;                 ///< of the records, by device
 
-  RecordRows(const ContactNetwork& network, const Layout& layout, const TeamCuts& cuts, RecordOrder order) {
+  LoadLists(const ContactNetwork& network, const Layout& layout, const TeamCuts& cuts, RecordOrder order) {
     const std::size_t bodies = layout.particles() + walls, contacts = network.contacts.size();
     std::vector<std::uint32_t> next(bodies + 1, 0), longer;
     const auto body_of = [&](std::int32_t end) { return static_cast<std::size_t>(layout.body_of(end)); };
@@ -40,7 +40,7 @@ struct RecordRows {
       ++next[body_of(c.b) + 1];
     }
     for (std::size_t i = 0; i < bodies; ++i) {
-      if (next[i + 1] > long_row) {
+      if (next[i + 1] > long_list) {
         longer.push_back(static_cast<std::uint32_t>(i));
         if (i < layout.particles()) ++long_particles;
       }
@@ -80,7 +80,7 @@ struct RecordRows {
   }
 
   /// Returns the bodies of member m in long_body, and their number, with or without the walls.
-  std::pair<const std::uint32_t*, std::uint32_t> long_rows(std::size_t m, bool with_walls) const {
+  std::pair<const std::uint32_t*, std::uint32_t> long_lists(std::size_t m, bool with_walls) const {
     const std::uint32_t most = with_walls ? static_cast<std::uint32_t>(long_body.size()) : long_particles;
     const std::uint32_t first = std::min(long_cut[m], most);
     return {long_body.data() + first, std::min(long_cut[m + 1], most) - first};

@@ -11,6 +11,7 @@
 
 #include "kernels/cuda/device/array.hpp"
 #include "kernels/cuda/device/launch.hpp"
+#include "kernels/cuda/device/tuning.hpp"
 #include "kernels/layout/layout.hpp"
 
 namespace macadam::kernels {
@@ -41,10 +42,8 @@ __global__ void take_sample(DeviceSample<R>* sample, const R* force, const R* ve
 template <class R>
 class DeviceSamples {
  public:
-  static constexpr std::size_t most = 64;  ///< largest number of samples before they are read
-
-  DeviceSamples() : taken_(most) {
-    check_cuda(cudaMallocHost(&read_, most * sizeof(DeviceSample<R>)), "pinned memory");
+  DeviceSamples() : taken_(samples_per_read) {
+    check_cuda(cudaMallocHost(&read_, samples_per_read * sizeof(DeviceSample<R>)), "pinned memory");
   }
   DeviceSamples(const DeviceSamples&) = delete;
   ~DeviceSamples() { cudaFreeHost(read_); }

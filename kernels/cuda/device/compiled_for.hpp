@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file compiled_for.hpp  Determines which devices can run the code of a build, from the list of architectures given to
-/// CMake.
+/// \file compiled_for.hpp  Determines which devices can run the code of a build, from the list of architectures given
+/// to CMake.
 #pragma once
 
 #include <algorithm>

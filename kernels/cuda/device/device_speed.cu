@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "kernels/cuda/device/array.hpp"
-#include "kernels/steppers.hpp"
+#include "kernels/cuda/device/devices.hpp"
 
 namespace macadam::kernels {
 namespace {

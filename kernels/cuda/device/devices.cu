@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kernels/cuda/device/compiled_for.hpp"
-#include "kernels/steppers.hpp"
+#include "kernels/cuda/device/devices.hpp"
 
 namespace macadam::kernels {
 

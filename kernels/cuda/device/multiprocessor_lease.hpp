@@ -3,10 +3,9 @@
 /// share it.
 ///
 /// The thread blocks of a launch of resident tiles wait for one another, and each occupies one multiprocessor. If two
-/// such launches each had only some of the multiprocessors that they need, neither would end. So a specimen takes as
-/// many multiprocessors as it has tiles before it launches (TileRunner::run() calls take()), and gives them back when
-/// its steps have finished (give()). Room in the identifiers means these multiprocessors; a Share is the number of them
-/// on each device.
+/// such launches each had only some of the multiprocessors that they need, neither would end. Before it launches, a
+/// specimen takes one multiprocessor per tile (TileLaunch::lease() calls take()), and gives them back when its steps
+/// have finished (give()). A Share is the number of multiprocessors on each device.
 ///
 /// The oldest waiting specimen goes first. So the oldest two take turns and finish while others are still being
 /// prepared. If all specimens took turns, all would finish at the same time, and the device would be idle until the
@@ -16,9 +15,9 @@
 /// enqueued behind an event at the end of the first one's. So the device does not pause while host threads wake each
 /// other.
 ///
-/// A solution in the frequency domain goes before all steps that need room. While it runs, only steps that need no room
-/// may use its devices. It consists of hundreds of short kernels in sequence; each of them would otherwise wait for
-/// steps to end.
+/// A solution in the frequency domain goes before all steps that need multiprocessors of their own. While it runs, only
+/// other steps may use its devices. It consists of hundreds of short kernels in sequence; each of them would otherwise
+/// wait for steps to end.
 #pragma once
 
 #include <condition_variable>
@@ -40,60 +39,60 @@ class MultiprocessorLease {
   using Event = void*;
   /// Makes everything that the caller enqueues from now on wait for an event.
   using QueueBehind = std::function<void(Event)>;
-  /// Kind of work that needs room.
+  /// Kind of work that takes multiprocessors.
   enum class Work { steps, solution };
 
   /// Returns a number for a specimen that is to be stepped, or for a solution. Lower numbers go first. Numbers of one
   /// kind rise. All numbers of solutions are below all numbers of specimens.
   static std::uint64_t next_number(Work work = Work::steps) {
     constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
-    MultiprocessorLease& room = instance();
-    const std::lock_guard lock(room.mutex_);
-    return room.next_++ + (work == Work::steps ? first_of_steps : 0);
+    MultiprocessorLease& leases = instance();
+    const std::lock_guard lock(leases.mutex_);
+    return leases.next_++ + (work == Work::steps ? first_of_steps : 0);
   }
   /// Waits until `wanted` can be taken: no lower number waits for one of these devices, and all of it is free or will
   /// be free at an event. In the latter case, calls `queue_behind` with that event while the lock prevents its owner
   /// from destroying it. `of_device`: number of multiprocessors that each device has.
   static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
-    MultiprocessorLease& room = instance();
-    std::unique_lock lock(room.mutex_);
-    room.waiting_[number] = wanted;
+    MultiprocessorLease& leases = instance();
+    std::unique_lock lock(leases.mutex_);
+    leases.waiting_[number] = wanted;
     Event end = nullptr;
-    room.changed_.wait(lock, [&] {
+    leases.changed_.wait(lock, [&] {
       end = nullptr;
-      return room.is_first(number) && (room.is_free(wanted, of_device) || (end = room.end_before(wanted)));
+      return leases.is_first(number) && (leases.is_free(wanted, of_device) || (end = leases.end_before(wanted)));
     });
-    room.waiting_.erase(number);
-    room.changed_.notify_all();  // the next one in the queue may fit beside this one, or behind it
+    leases.waiting_.erase(number);
+    leases.changed_.notify_all();  // the next one in the queue may fit beside this one, or behind it
     if (end) queue_behind(end);
-    room.taken_[number] = {wanted, nullptr};
+    leases.taken_[number] = {wanted, nullptr};
   }
   /// Reports that all work of a specimen is enqueued; `end` is the event behind it.
   static void is_queued(std::uint64_t number, Event end) {
-    MultiprocessorLease& room = instance();
+    MultiprocessorLease& leases = instance();
     {
-      const std::lock_guard lock(room.mutex_);
-      room.taken_.at(number).end = end;
+      const std::lock_guard lock(leases.mutex_);
+      leases.taken_.at(number).end = end;
     }
-    room.changed_.notify_all();
+    leases.changed_.notify_all();
   }
   /// Returns whether a specimen or solution waits for its turn.
   static bool waits(std::uint64_t number) {
-    MultiprocessorLease& room = instance();
-    const std::lock_guard lock(room.mutex_);
-    return room.waiting_.contains(number);
+    MultiprocessorLease& leases = instance();
+    const std::lock_guard lock(leases.mutex_);
+    return leases.waiting_.contains(number);
   }
   /// Gives back what `number` has taken.
   static void give(std::uint64_t number) {
-    MultiprocessorLease& room = instance();
+    MultiprocessorLease& leases = instance();
     {
-      const std::lock_guard lock(room.mutex_);
-      room.taken_.erase(number);
+      const std::lock_guard lock(leases.mutex_);
+      leases.taken_.erase(number);
     }
-    room.changed_.notify_all();
+    leases.changed_.notify_all();
   }
 
-  /// Takes the devices of a solution for its lifetime; nobody else has room on them.
+  /// Takes the devices of a solution for its lifetime; nobody else can take them.
   class ForSolution {
    public:
     ForSolution(const DeviceList& devices, const QueueBehind& queue_behind) {
@@ -152,8 +151,8 @@ class MultiprocessorLease {
     return only ? only->end : nullptr;
   }
   static MultiprocessorLease& instance() {
-    static MultiprocessorLease room;
-    return room;
+    static MultiprocessorLease leases;
+    return leases;
   }
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -10,10 +10,6 @@
 
 namespace macadam::kernels {
 
-/// A body with at least this many contacts is computed by all warps of a block. A large aggregate has hundreds of
-/// contacts; one warp would take longer for it than all others take for the rest of the specimen.
-inline constexpr unsigned many_contacts = 64;
-
 /// Buffer for contact ends in shared memory. One part more per end makes threads that read one end each access
 /// different banks.
 template <unsigned N>
@@ -226,7 +222,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_step(CocgView<F> d, bool fi
   CocgScalars<F>& s = *d.scalars;
   if (!s.running) return;
   __shared__ double whole[2 * W];
-  sum_rows<2, W>(d.boxes_here.products, d.boxes, 2 * W, whole);
+  sum_lists<2, W>(d.boxes_here.products, d.boxes, 2 * W, whole);
   if (threadIdx.x < F) {
     const int f = static_cast<int>(threadIdx.x);
     const double2 pq = plain_product(whole, whole + W, f);

@@ -60,7 +60,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
   const unsigned lane = threadIdx.x % W;
   const double* const loads = d.boxes_here.loads;
   if (blockIdx.x == rows) {
-    sum_rows<fine_sums, W>(d.boxes_here.sums, d.boxes, fine_sums * W, d.fine);
+    sum_lists<fine_sums, W>(d.boxes_here.sums, d.boxes, fine_sums * W, d.fine);
   } else {
     double own[coarse_sums] = {};
     if (row < size) {
@@ -93,7 +93,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
   if (!comes_last(d.ticket, gridDim.x, false)) return;
   __shared__ double fine[fine_sums * W], of_boxes[coarse_sums * W];
   for (unsigned i = threadIdx.x; i < fine_sums * W; i += cocg_threads) fine[i] = __ldcg(&d.fine[i]);
-  sum_rows<coarse_sums, W>(d.coarse_sums, rows, coarse_sums * W, of_boxes);
+  sum_lists<coarse_sums, W>(d.coarse_sums, rows, coarse_sums * W, of_boxes);
   for (unsigned i = threadIdx.x; i < d.free * W; i += cocg_threads) {
     s.drop[i / W][i % W] = fine[sums_drop * W + i] + of_boxes[2 * W + i];
   }

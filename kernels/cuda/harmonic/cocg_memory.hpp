@@ -17,8 +17,6 @@ namespace macadam::kernels {
 
 /// The arrays of a linear system on the devices of a team.
 struct SystemMemory {
-  static constexpr std::size_t segments_a_multiprocessor = 16;  ///< few enough for one device, enough for two
-
   std::size_t bodies, boxes, segments;
   int free;
   std::vector<std::size_t> first_segment, first_body;  ///< [member + 1] of each member of the team
@@ -77,7 +75,7 @@ struct SystemMemory {
                      std::vector<std::int32_t>& box_segment) const {
     int multiprocessors = 0;
     check_cuda(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, team.device(0)), "device");
-    const std::size_t wanted = bodies / (static_cast<std::size_t>(multiprocessors) * segments_a_multiprocessor) + 1;
+    const std::size_t wanted = bodies / (static_cast<std::size_t>(multiprocessors) * segments_per_multiprocessor) + 1;
     const auto length = static_cast<std::int32_t>((wanted + 31) / 32 * 32);
     for (std::size_t b = 0; b < boxes; ++b) {
       for (std::int32_t i = system.box_body[b]; i < system.box_body[b + 1]; i += length) {

@@ -10,11 +10,11 @@
 
 namespace macadam::kernels {
 
-/// Computes K_ii⁻¹ of every body, packed. `loose` receives the first body whose own stiffness is singular in more ways
-/// than `own_motions` says.
+/// Computes K_ii⁻¹ of every body, packed. `singular_body` receives the first body whose own stiffness is singular in
+/// more ways than `own_motions` says.
 static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
                                      RealStiffness typical, const std::uint8_t* own_motions, double* inverse,
-                                     unsigned long long* loose) {
+                                     unsigned long long* singular_body) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
   if (i >= bodies) return;
   double block[36] = {};
@@ -22,7 +22,7 @@ static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_
     const auto pair = static_cast<std::size_t>(ends[at].pair);
     add_block(ends[at], typical.k[pair], typical.alpha[pair], block);
   }
-  if (invert_block(block) > own_motions[i]) atomicMin(loose, static_cast<unsigned long long>(i));
+  if (invert_block(block) > own_motions[i]) atomicMin(singular_body, static_cast<unsigned long long>(i));
   for (int a = 0; a < 6; ++a) {
     for (int b = 0; b <= a; ++b) inverse[packed_block * i + packed_at(a, b)] = block[6 * a + b];
   }

@@ -2,11 +2,10 @@
 /// \file cocg_sums.hpp  Sums over the threads of a block and over the blocks of a launch, always in the same order.
 #pragma once
 
+#include "kernels/cuda/device/tuning.hpp"
 #include "kernels/cuda/harmonic/cocg_lanes.hpp"
 
 namespace macadam::kernels {
-
-inline constexpr unsigned cocg_threads = 256;
 
 /// Sums v over the threads of a block that share a lane, into out[N][W] (global or shared memory).
 template <int N, int W>
@@ -50,7 +49,7 @@ __device__ inline bool comes_last(unsigned* counter, unsigned blocks, bool sever
 
 /// Sums `rows` rows of N·W numbers each, by the whole thread block, into out[N][W] in shared memory.
 template <int N, int W>
-__device__ void sum_rows(const double* rows_of, unsigned rows, unsigned stride, double* out) {
+__device__ void sum_lists(const double* rows_of, unsigned rows, unsigned stride, double* out) {
   double own[N] = {};
 #pragma unroll 5  // there are few rows; unrolling loads several before the first has arrived
   for (unsigned r = threadIdx.x / W; r < rows; r += cocg_threads / W) {

@@ -30,9 +30,9 @@ struct Vectors : VectorMemory<F> {
 /// The solver on the devices of a team; solves one load, or up to four side by side.
 class Solver : public DeviceSolver {
  public:
-  Solver(const LinearSystem& system, const DeviceList& devices, std::int64_t& loose)
+  Solver(const LinearSystem& system, const DeviceList& devices, std::int64_t& singular_body)
       : devices_(devices), team_(devices, nullptr, KernelOrder::first), system_(system, team_) {
-    loose = invert(system);
+    singular_body = invert(system);
   }
 
   std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::function<void()>& look) override {
@@ -54,16 +54,15 @@ class Solver : public DeviceSolver {
   /// or −1.
   std::int64_t invert(const LinearSystem& system) {
     constexpr unsigned long long none = std::numeric_limits<unsigned long long>::max();
-    DeviceArray<unsigned long long> loose(1);
-    loose.upload(&none);
+    DeviceArray<unsigned long long> singular_body(1);
+    singular_body.upload(&none);
     DeviceArray<std::uint8_t> own_motions(system.own_motions.size());
     own_motions.upload(system.own_motions.data());
-    constexpr unsigned threads = 128;
-    launch("particle blocks", invert_blocks, (system_.bodies + threads - 1) / threads, threads, 0, team_.stream(),
-           system_.bodies, system_.row_begin.data(), system_.ends.data(), system.typical, own_motions.data(),
-           system_.inverse.data(), loose.data());
+    launch("particle blocks", invert_blocks, (system_.bodies + short_kernel_threads - 1) / short_kernel_threads,
+           short_kernel_threads, 0, team_.stream(), system_.bodies, system_.row_begin.data(), system_.ends.data(),
+           system.typical, own_motions.data(), system_.inverse.data(), singular_body.data());
     team_.wait("particle blocks");
-    const unsigned long long found = loose.download().front();
+    const unsigned long long found = singular_body.download().front();
     return found == none ? -1 : static_cast<std::int64_t>(found);
   }
 
@@ -118,7 +117,7 @@ class Solver : public DeviceSolver {
     start_from_right_sides(start);
     CocgScalars<F> end, judged;
     {
-      const MultiprocessorLease::ForSolution room(devices_, team_.behind());
+      const MultiprocessorLease::ForSolution lease(devices_, team_.behind());
       end = iterate(v, look);
       start.most_iterations = 0;  // no iteration, only the residual
       start_from_right_sides(start);
@@ -179,17 +178,17 @@ class Solver : public DeviceSolver {
   template <int F>
   void improve(const Vectors<F>& v, const double* from, bool first) {
     over_segments(v, "apply", cocg_apply<F>, from);
-    team_.meet();
+    team_.join_streams();
     by_each(v, "step", cocg_step<F>, 1u, first);
     over_segments(v, "advance", cocg_advance<F>);
-    team_.meet();
+    team_.join_streams();
     by_each(v, "coarse", cocg_coarse<F>, row_blocks(system_.boxes) + 1);
   }
 
   /// Computes r = f − K·x. x does not change, because p = 0.
   template <int F>
   void begin(const Vectors<F>& v) {
-    team_.meet();
+    team_.join_streams();
     improve(v, v.x.data(), true);
   }
 
@@ -206,14 +205,14 @@ class Solver : public DeviceSolver {
   template <int F>
   CocgScalars<F> iterate(Vectors<F>& v, const std::function<void()>& look) {
     const auto queue_batch = [&] {
-      for (int k = 0; k < batch_length; ++k) {
+      for (int k = 0; k < iterations_per_batch; ++k) {
         over_segments(v, "turn", cocg_turn<F>);
-        team_.meet();
+        team_.join_streams();
         improve(v, v.p.data(), false);
       }
     };
     begin(v);
-    team_.meet();  // a batch begins on the first member's stream
+    team_.join_streams();  // a batch begins on the first member's stream
     if (!v.batch && !waits_for_launches()) v.batch = team_.record(queue_batch);
     const PinnedCopies<CocgScalars<F>> looked(team_);
     for (int batch = 0;; ++batch) {
@@ -229,7 +228,6 @@ class Solver : public DeviceSolver {
     }
   }
 
-  static constexpr int batch_length = 8;
   static constexpr std::size_t worth_pinning = std::size_t{32} << 20;  ///< bytes; pinning memory takes milliseconds
 
   DeviceList devices_;
@@ -245,8 +243,8 @@ class Solver : public DeviceSolver {
 }  // namespace
 
 std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, const DeviceList& devices,
-                                                 std::int64_t& loose) {
-  return std::make_unique<Solver>(system, devices, loose);
+                                                 std::int64_t& singular_body) {
+  return std::make_unique<Solver>(system, devices, singular_body);
 }
 
 }  // namespace macadam::kernels

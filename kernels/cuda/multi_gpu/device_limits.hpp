@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file device_limits.hpp  Determines the limits of the devices, and whether a kernel of the tile path fits them.
 ///
-/// TileRunner decides by these limits, never by a device's name, whether tiles stay on the chip (resident) or are
-/// streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made. The file also holds
-/// DeviceStore, which owns the device arrays of the tile path, and the kernel that sums the loads on the walls.
+/// fit_tiles() (tiles/tile_fit.hpp) decides by these limits, never by a device's name, whether tiles stay on the chip
+/// (resident) or are streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made.
 #pragma once
 
 #include <algorithm>
-#include <memory>
 
-#include "kernels/cuda/common/load_sums.hpp"
 #include "kernels/cuda/multi_gpu/device_team.hpp"
-#include "kernels/layout/tile_plan.hpp"
 
 namespace macadam::kernels {
 
@@ -80,63 +76,6 @@ bool fits_resident(const DeviceLimits& limits, void (*kernel)(Parameters...), st
   allow_all_shared_memory(limits, kernel);
   check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&fitting, kernel, threads, shared), "occupancy");
   return fitting > 0;
-}
-
-/// Owns device arrays of any type; they are freed with this object.
-class DeviceStore {
- public:
-  /// Copies a host array to the device and keeps it. Returns the device address.
-  template <class Array>
-  auto keep(const Array& array) {
-    using T = typename Array::value_type;
-    return own(DeviceArray<T>::of(array));
-  }
-  /// Does the same for an array whose items are spread over several devices.
-  template <class Array>
-  auto keep(const Array& array, const Shares& shares) {
-    using T = typename Array::value_type;
-    return own(DeviceArray<T>::of(array, shares));
-  }
-  /// Keeps an array of n zeros.
-  template <class T>
-  T* zeros(std::size_t n) {
-    return own(DeviceArray<T>(n));
-  }
-  /// Does the same for an array with `words` numbers per item, spread over several devices.
-  template <class T>
-  T* zeros(const Shares& shares, std::size_t words) {
-    return own(DeviceArray<T>(shares, words));
-  }
-  std::int64_t bytes() const { return bytes_; }  ///< size of all arrays
-
- private:
-  template <class T>
-  T* own(DeviceArray<T> array) {
-    bytes_ += static_cast<std::int64_t>(array.bytes());
-    auto kept = std::make_shared<DeviceArray<T>>(std::move(array));
-    owned_.push_back(kept);
-    return kept->data();
-  }
-  std::vector<std::shared_ptr<void>> owned_;
-  std::int64_t bytes_ = 0;
-};
-
-/// Writes the load on each wall: its base load plus the sum of its rows of `wall_load`, added in fixed order. One
-/// thread block per wall; all arguments except `wall_load` are arrays of the walls alone.
-template <class R>
-__global__ void __launch_bounds__(body_threads)
-    add_wall_loads(const float* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {
-  __shared__ R part[body_threads];
-  const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
-  R sum = 0;
-  for (std::uint32_t r = wall_begin[blockIdx.x] + lane; r < wall_begin[blockIdx.x + 1]; r += bodies_a_block)
-    sum += wall_load[r * std::size_t{velocity_words} + w];
-  part[threadIdx.x] = sum;
-  __syncthreads();
-  if (lane > 0) return;
-  sum = base[blockIdx.x * velocity_words + w];
-  for (unsigned k = 0; k < bodies_a_block; ++k) sum += part[k * velocity_words + w];
-  force[blockIdx.x * velocity_words + w] = sum;
 }
 
 }  // namespace macadam::kernels

@@ -102,7 +102,7 @@ class DeviceTeam {
 
   /// Joins the streams: everything that a member of this process enqueues from now on waits for everything that its
   /// members have enqueued so far.
-  void meet() const {
+  void join_streams() const {
     if (member_.size() == 1) return;
     each([&](std::size_t m) { check_cuda(cudaEventRecord(member_[m].here, member_[m].stream), "event"); });
     each([&](std::size_t m) {
@@ -141,8 +141,8 @@ class DeviceTeam {
     }
     use();
   }
-  /// Returns a function that makes the first member's later work wait for an event of another stream. meet() passes
-  /// this on to the other members.
+  /// Returns a function that makes the first member's later work wait for an event of another stream. join_streams()
+  /// passes this on to the other members.
   std::function<void(void*)> behind() const {
     return
         [this](void* event) { check_cuda(cudaStreamWaitEvent(stream(), static_cast<cudaEvent_t>(event), 0), "event"); };

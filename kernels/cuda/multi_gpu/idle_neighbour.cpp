@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// idle_neighbour.cpp  Decides whether a second device may be used although the user did not ask for it. Creates no context
-// on that device.
+// idle_neighbour.cpp  Decides whether a second device may be used although the user did not ask for it. Creates no
+// context on that device.
 #include <cuda_runtime.h>
 #include <dlfcn.h>
 
-#include "kernels/steppers.hpp"
+#include <string>
+
+#include "kernels/cuda/multi_gpu/idle_neighbour.hpp"
 
 namespace macadam::kernels {
 namespace {

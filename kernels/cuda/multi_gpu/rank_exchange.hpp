@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kernels/cuda/device/array.hpp"
+#include "kernels/cuda/device/tuning.hpp"
 #include "kernels/cuda/multi_gpu/device_team.hpp"
 
 namespace macadam::kernels {
@@ -145,11 +146,10 @@ class RankExchange {
   }
   template <bool into_buffer>
   static void move(const Way& way, cudaStream_t stream) {
-    constexpr unsigned threads = 256;
     for (const auto& m : way.moved) {
       const std::size_t words = std::size_t{m.items} * m.words;
-      launch("messages", move_items<into_buffer>, (words + threads - 1) / threads, threads, 0, stream, m.array,
-             way.buffer.data(), m.item.data(), m.place.data(), m.items, m.words);
+      launch("messages", move_items<into_buffer>, (words + copy_threads - 1) / copy_threads, copy_threads, 0, stream,
+             m.array, way.buffer.data(), m.item.data(), m.place.data(), m.items, m.words);
     }
   }
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file rank_messages.hpp  Sends the messages between tiles of several processes (ranks).
 ///
-/// With ranks every device has whole arrays, and each rank computes its own tiles. TileRunner sends velocities of halo
+/// With ranks every device has whole arrays, and each rank computes its own tiles. TileLaunch sends velocities of halo
 /// particles in every step, and between two blocks of steps the displacements, load records and constants that the next
 /// kernels read (RankExchange in rank_exchange.hpp). Within one process nothing is sent, because the devices read
-/// each other's memory.
+/// each other's memory. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <vector>
 
 #include "kernels/cuda/common/crossing_contacts.hpp"
 #include "kernels/cuda/tiles/settle_launch.hpp"
-#include "kernels/cuda/tiles/contact_places.hpp"
+#include "kernels/cuda/tiles/contact_positions.hpp"
 #include "kernels/cuda/tiles/tile_step.hpp"
 
 namespace macadam::kernels {
@@ -51,7 +51,7 @@ class TileMessages {
 
   /// Prepares the messages. Called once; the arrays must keep their addresses. `places` must still be on the host.
   void make_ready(const DeviceTeam& team, const Layout& layout, const TeamCuts& cuts, const TilePlan& plan,
-                  const TileOwners& owners, const TilePlaces& places, const Crossing& crossing,
+                  const TileOwners& owners, const TilePositions& positions, const Crossing& crossing,
                   const TileArrays<P>& scene, const SettledArrays<P>& settled, double* before, R* base, bool carried) {
     RankItems halo(team), constants(team), wall_rows(team), wall_bodies(team);
     for (std::size_t m = 0; m < team.size(); ++m) {
@@ -62,18 +62,18 @@ class TileMessages {
         }
       }
     }
-    places.for_each_slot(cuts, [&](std::size_t m, const uint2& place) {
+    positions.for_each_slot(cuts, [&](std::size_t m, const uint2& place) {
       for (const std::uint32_t p : {place.x, place.y}) {
         if (p == UINT32_MAX) continue;
         const std::size_t reader = owners.of_contact(p);
-        const auto add = [&](RankItems& to, int w, int words) {
-          to.add((p / 32 * static_cast<std::size_t>(words) + static_cast<std::size_t>(w)) * 32 + p % 32, m, reader);
-        };
-        for (const int w : settled_constants(carried)) add(constants, w, tile_constants(carried));
+        const std::size_t first = TileContactWords::first(p, TileContactWords::constants(carried));
+        for (const auto& field : TileContactWords::settled_fields(carried))
+          constants.add(first + 32 * static_cast<std::size_t>(field.word), m, reader);
       }
     });
     for (std::size_t i = 0; i < plan.contact.size(); ++i) {
-      if (plan.contact[i].wall_row != UINT32_MAX) wall_rows.add_for_all(plan.contact[i].wall_row, owners.of_contact(i));
+      if (plan.contact[i].wall_contact != UINT32_MAX)
+        wall_rows.add_for_all(plan.contact[i].wall_contact, owners.of_contact(i));
     }
     for (std::size_t w = 0; w < walls; ++w) wall_bodies.add_for_all(layout.particles() + w, team.size() - 1);
 
@@ -100,12 +100,6 @@ class TileMessages {
   void wall_loads(const DeviceTeam& team) const { walls_.queue(team); }
 
  private:
-  /// Returns the words of a contact's constants that the update between blocks writes.
-  static std::vector<int> settled_constants(bool carried) {
-    if (!carried) return {tile_drift_a, tile_drift_b};
-    return {tile_drift_a, tile_drift_b, tile_normal, tile_moment_a, tile_tangent};
-  }
-
   RankExchange even_, odd_, now_, settled_, before_, walls_;
 };
 

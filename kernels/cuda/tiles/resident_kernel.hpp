@@ -2,285 +2,39 @@
 /// \file resident_kernel.hpp  Defines the resident kernel, which takes many steps in one launch, with one tile per
 /// multiprocessor.
 ///
-/// run_resident is launched by TileRunner with one thread block per tile; all blocks run at the same time (a
-/// cooperative launch). A block loads its tile into shared memory, takes the steps, and writes the tile back.
-/// Particles, slots of loads and velocities stay in shared memory as far as they fit; each warp keeps the states of its
+/// run_resident is launched by TileLaunch with one thread block per tile; all of them run at the same time (a
+/// cooperative launch). A thread block loads its tile into shared memory, takes the steps, and writes the tile back.
+/// Particles, load cells and velocities stay in shared memory as far as they fit; each warp keeps the states of its
 /// first packets in registers.
 ///
-/// The order of one step is: sum the slots of each particle and move it; publish its velocity for other tiles
+/// The order of one step is: sum the cells of each particle and move it; publish its velocity for other tiles
 /// (halo_exchange.hpp); step the contacts that touch no halo particle while velocities are in transit; receive the
-/// halo's velocities; step the other contacts, which store their loads into slots.
+/// halo's velocities; step the other contacts, which store their loads into cells.
 ///
-/// Words: a tile, group, packet, run, slot, row and halo are explained in tile_plan.hpp. A share is here the part of a
-/// tile's packets that one warp steps: `early` and `late` are its packets with states in registers, `others` are those
-/// with states in memory. The cache is the part of shared memory that holds constants of packets; `cached` is the
-/// number of packets in it.
+/// ResidentTile (resident_tile.hpp) has the parts of a step. docs/gpu-step.md explains the whole path.
 #pragma once
 
-#include <cuda_pipeline_primitives.h>
-
-#include "kernels/cuda/tiles/shared_memory_map.hpp"
-#include "kernels/cuda/tiles/halo_exchange.hpp"
+#include "kernels/cuda/tiles/resident_tile.hpp"
 
 namespace macadam::kernels {
 
-/// One tile, and the parts of a step that its threads compute. All data of a body is read before the first of it is
-/// written. Otherwise each read would wait for the write before it, because both might have the same address. `memory`:
-/// some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in shared
-/// memory.
-template <class P, int Threads, bool carried, bool memory, BodyStorage where>
-class ResidentTile {
- public:
-  using R = typename P::Particle;
-  static constexpr unsigned warps = Threads / 32;
-  using Constants = ContactConstants<carried, memory>;
-  using Contact = ContactInBlock<carried, memory>;
-  /// Constant words of a packet: number in memory, and number of those that a step reads and the cache holds.
-  static constexpr std::uint32_t words = tile_constants(carried), kept = Constants::words;
-
-  __device__ __forceinline__ ResidentTile(const TileArrays<P>& scene, const Tile& own_tile, unsigned char* shared,
-                                          const ResidentMemory<P>& m)
-      : s(scene),
-        tile(own_tile),
-        body(s.body + tile.first_body),
-        velocity{SixTable::at(shared + m.velocity, tile.bodies + tile.halo + walls)},
-        law(reinterpret_cast<float4*>(shared + m.law)),
-        cache(reinterpret_cast<float4*>(shared + m.cache)),
-        constants(s.constant + std::size_t{tile.first_packet} * words * 32),
-        states(s.state + std::size_t{tile.first_packet} * tile_states * 32),
-        slots{SixTable::at(shared + m.slots, tile.slots)},
-        displacement(reinterpret_cast<Six<double>*>(rest(shared, m))),
-        base(reinterpret_cast<Six<R>*>(displacement + tile.bodies)),
-        inverse(reinterpret_cast<Two<R>*>(base + tile.bodies)),
-        own(own_place(shared, m)),
-        halo(reinterpret_cast<std::int32_t*>(shared + m.halo)),
-        diagonal(reinterpret_cast<std::uint32_t*>(shared + m.diagonal)),
-        row(reinterpret_cast<uint2*>(shared + m.row)),
-        cached(m.cached),
-        first_wall(tile.bodies + tile.halo) {}
-
-  /// Returns how many groups are stepped before the halo's velocities have arrived. Zero if there are few, because an
-  /// early part of the step needs one more barrier.
-  __device__ __forceinline__ std::uint32_t inner() const { return 2 * tile.inner < warps ? 0 : tile.inner; }
-  /// Some consecutive packets: first and count. They are packed into one word, because registers are scarce.
-  struct Packets {
-    std::uint32_t word;
-    __device__ __forceinline__ Packets(std::uint32_t first, std::uint32_t count) : word(first << 4 | count) {}
-    __device__ __forceinline__ std::uint32_t first() const { return word >> 4; }
-    __device__ __forceinline__ std::uint32_t count() const { return word & 15; }
-  };
-  /// The packets that one warp steps. The states of `early` and `late` stay in registers; the states of `others` are in
-  /// memory.
-  struct Share {
-    Packets early, late;
-    bool ahead;  ///< whether `early` needs no velocities of other tiles
-    WarpPackets others;
-  };
-  /// Returns the packets of this thread's warp.
-  __device__ __forceinline__ Share share() const {
-    constexpr std::uint32_t run = TilePlan::run, room = groups_in_registers * warps;
-    const std::uint32_t warp = threadIdx.x / 32, groups = min(tile.groups, room), free = room - groups;
-    const std::uint32_t ahead = min(inner(), warps);
-    const std::uint32_t first_one = run * tile.groups, ones = tile.packets - first_one;
-    const std::uint32_t each = free == 0 ? 0 : min(run, (ones + free - 1) / free);
-    const auto packets = [&](std::uint32_t k) -> Packets {
-      if (k < groups) return {run * k, run};
-      const std::uint32_t at = min((k - groups) * each, ones);
-      return {first_one + at, min(each, ones - at)};
-    };
-    return {packets(warp), packets(warps + warp), warp < ahead,
-            WarpPackets::of(tile, groups, first_one + min(free * each, ones), warp, warps, ahead)};
-  }
-  /// Returns the position in the cache of the constants of a warp's packet j; the packet is cached if this is less than
-  /// `cached`. The first packets of all warps come first, so that no warp has many more uncached packets than another.
-  __device__ __forceinline__ static std::uint32_t place_in_cache(std::uint32_t j) {
-    return j * warps + threadIdx.x / 32;
-  }
-  /// Position of constants that are in global memory.
-  static constexpr std::uint32_t in_memory = UINT32_MAX;
-  /// First of a warp's packets with states in registers whose constants are in registers, too.
-  static constexpr std::uint32_t first_kept = groups_in_registers * TilePlan::run - packets_with_constants(memory);
-  /// Returns the address of the state of this thread's contact in a packet.
-  __device__ __forceinline__ float4* state(std::uint32_t packet) const {
-    return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
-  }
-
-  /// Loads the tile from global memory, except for the states of the contacts.
-  __device__ __forceinline__ void load() const {
-    for (std::uint32_t r = threadIdx.x; r < tile.bodies; r += Threads) {
-      const auto i = static_cast<std::size_t>(body[r]);
-      Six<R> velocities, loads;
-      Six<double> moved;
-      for (int c = 0; c < 6; ++c) {
-        velocities.of[c] = s.motion.body.master[i * velocity_words + moving_word(c)];
-        loads.of[c] = s.base[i * velocity_words + moving_word(c)];
-        moved.of[c] = s.motion.body.displacement[i * displacement_words + moving_word(c)];
-      }
-      const Two<R> by{s.motion.body.inverse[2 * i], s.motion.body.inverse[2 * i + 1]};
-      const uint2 of_row = s.row[tile.first_body + r];
-      own[r] = velocities, base[r] = loads, displacement[r] = moved, inverse[r] = by, row[r] = of_row;
-    }
-    for (std::uint32_t h = threadIdx.x; h < tile.halo; h += Threads) halo[h] = s.halo[tile.first_halo + h];
-    for (std::uint32_t e = threadIdx.x; e < TilePlan::longest_short_row; e += Threads)
-      diagonal[e] = s.diagonal[s.own_tile() * TilePlan::longest_short_row + e];
-    if (threadIdx.x < pair_types) law[threadIdx.x] = s.law[threadIdx.x];
-    if (threadIdx.x < walls) velocity.set(first_wall + threadIdx.x, {0, 0, 0, 0, 0, 0});
-    const Share own_share = share();
-    const auto keep = [&](const Packets& packets, std::uint32_t first) {
-      for (std::uint32_t k = 0; k < packets.count(); ++k) {
-        const std::uint32_t at = place_in_cache(first + k);
-        for (std::uint32_t i = threadIdx.x % 32; at < cached && i < kept * 32; i += 32) {
-          __pipeline_memcpy_async(&cache[at * kept * 32 + i],
-                                  &constants[std::size_t{packets.first() + k} * words * 32 + i], sizeof(float4));
-        }
-      }
-    };
-    keep(own_share.early, 0);
-    keep(own_share.late, TilePlan::run);
-    __pipeline_commit();
-  }
-  /// Waits until the constants that load() requested for this thread have arrived.
-  __device__ __forceinline__ static void wait_for_load() { __pipeline_wait_prior(0); }
-
-  /// Moves all particles of the tile by their loads in global memory (first step of a launch).
-  __device__ __forceinline__ void move_by_memory(std::uint32_t tag) const {
-    for (std::uint32_t r = threadIdx.x; r < tile.bodies; r += Threads) {
-      R force[6];
-      for (int c = 0; c < 6; ++c)
-        force[c] = s.force[static_cast<std::size_t>(body[r]) * velocity_words + moving_word(c)];
-      move(r, force, tag);
-    }
-  }
-  /// Moves all particles by the loads that the contacts of the last step left in slots, plus the base loads.
-  __device__ __forceinline__ void move_by_sums(std::uint32_t tag) const {
-    sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
-      Six<R> force = base[r];
-      for (int c = 0; c < 6; ++c) force.of[c] += static_cast<R>(extra[c]);
-      move(r, force.of, tag);
-    });
-  }
-  /// Enters the velocity of a wall in the table of velocities.
-  __device__ __forceinline__ void set_wall(int wall, const Vec3<float>& v) const {
-    velocity.set(first_wall + static_cast<std::uint32_t>(wall), {v.x, v.y, v.z, 0, 0, 0});
-  }
-
-  /// Receives the velocities of the halo from other tiles; waits for them.
-  __device__ __forceinline__ void receive(std::uint32_t tag) const {
-    const ulonglong2* from = s.exchange(tag);
-    wait_for_words(
-        2 * tile.halo, tag, [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; },
-        [&](std::uint32_t h, const float4& numbers) { velocity.set_half(tile.bodies + h / 2, h % 2 == 1, numbers); });
-  }
-  /// Adds Δt times the current velocity to the displacement of each particle. Starts with the last warps, which have
-  /// the least work.
-  __device__ __forceinline__ void displace() const {
-    for (std::uint32_t r = Threads - 1 - threadIdx.x; r < tile.bodies; r += Threads) {
-      Six<double> u = displacement[r];
-      const Six<R> x = own[r];
-      for (int c = 0; c < 6; ++c) u.of[c] = multiply_add(s.motion.dt, double(x.of[c]), u.of[c]);
-      displacement[r] = u;
-    }
-  }
-
-  /// Returns the constants of this thread's contact in a packet. `at`: place_in_cache(), or in_memory.
-  __device__ __forceinline__ Constants constants_of(std::uint32_t packet, std::uint32_t at) const {
-    const unsigned lane = threadIdx.x % 32;
-    Constants out;
-    // Two branches, so that the compiler knows for each load whether it is from shared or global memory
-    if (at < cached)
-      out.load(cache + at * kept * 32 + lane);
-    else
-      out.load(constants + std::size_t{packet} * words * 32 + lane);
-    return out;
-  }
-  /// Steps one contact and stores its load into slots. `first`: a run begins here.
-  template <bool first>
-  __device__ __forceinline__ void step(const Constants& constant, float (&change)[6], float (&sum)[6],
-                                       ContactRun& run) const {
-    const Contact contact(constant);
-    const auto load = step_in_block<first>(contact, law, velocity, change, sum, run);
-    slots.put(contact.slots, load, run);
-  }
-  /// Writes the loads on walls to global memory, after the last step.
-  __device__ __forceinline__ void store_wall_loads(std::uint32_t packet, const float (&change)[6]) const {
-    const Constants constant = constants_of(packet, in_memory);
-    const Contact contact(constant);
-    store_wall_load(s.wall_load, contact.of, contact.load(change, law[contact.of.group()].z));
-  }
-
-  /// Writes the particles and their current loads to global memory.
-  __device__ __forceinline__ void store() const {
-    sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
-      const auto i = static_cast<std::size_t>(body[r]);
-      for (int c = 0; c < 6; ++c) {
-        s.force[i * velocity_words + moving_word(c)] = base[r].of[c] + static_cast<R>(extra[c]);
-        s.motion.body.master[i * velocity_words + moving_word(c)] = own[r].of[c];
-        s.motion.body.displacement[i * displacement_words + moving_word(c)] = displacement[r].of[c];
-      }
-    });
-  }
-
- private:
-  // decided at compile time, so that the compiler knows which data is in shared memory
-  __device__ __forceinline__ unsigned char* rest(unsigned char* shared, const ResidentMemory<P>& m) const {
-    if constexpr (where == BodyStorage::here)
-      return shared + m.rest;
-    else
-      return s.rest + std::size_t{blockIdx.x} * ResidentMemory<P>::rest_bytes(s.most_bodies, where);
-  }
-  __device__ __forceinline__ Six<R>* own_place(unsigned char* shared, const ResidentMemory<P>& m) const {
-    if constexpr (where == BodyStorage::all_away)
-      return reinterpret_cast<Six<R>*>(inverse + tile.bodies);
-    else
-      return reinterpret_cast<Six<R>*>(shared + m.own);
-  }
-  /// Moves particle r under `force`, publishes its velocity with `tag`, and enters it in the table of velocities.
-  __device__ __forceinline__ void move(std::uint32_t r, const R (&force)[6], std::uint32_t tag) const {
-    const Two<R> by = inverse[r];
-    Six<R> now = own[r];
-    for (int c = 0; c < 6; ++c) now.of[c] = s.motion.moved(now.of[c], force[c], c < 3 ? by.linear : by.angular);
-    own[r] = now;
-    const R(&x)[6] = now.of;
-    const float y[6] = {float(x[0]), float(x[1]), float(x[2]), float(x[3]), float(x[4]), float(x[5])};
-    put_velocity(s.exchange(tag) + 2 * (static_cast<std::size_t>(tile.first_body) + r), y, tag);
-    velocity.set(r, y);
-  }
-
-  const TileArrays<P>& s;
-  const Tile tile;
-  const std::int32_t* body;
-  const TileVelocities velocity;
-  float4 *law, *cache;
-  const float4* constants;
-  float4* states;
-  const TileSlots slots;
-  Six<double>* displacement;
-  Six<R>* base;
-  Two<R>* inverse;
-  Six<R>* own;
-  std::int32_t* halo;
-  std::uint32_t* diagonal;
-  uint2* row;
-  const std::uint32_t cached, first_wall;
-};
-
 /// Takes `steps` steps; the first has the tag `first_tag`. The states of a warp's first packets stay in registers.
-template <class P, int Threads, bool carried, bool memory, BodyStorage where>
+template <class P, int Threads, bool carried, bool memory, BodyStorage storage>
 __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileArrays<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   extern __shared__ __align__(16) unsigned char shared[];
   const Tile own_tile = s.tile[s.own_tile()];
-  using OfTile = ResidentTile<P, Threads, carried, memory, where>;
-  const ResidentMemory<P> places(own_tile, OfTile::kept, where, s.room);
-  OfTile tile(s, own_tile, shared, places);
-  const auto share = tile.share();
-  // kept in shared memory, because registers are scarce
-  auto& others = reinterpret_cast<WarpPackets*>(shared + places.others)[threadIdx.x / 32];
-  if (threadIdx.x % 32 == 0) others = share.others;
+  using OfTile = ResidentTile<P, Threads, carried, memory, storage>;
+  const ResidentMemory<P> memory_map(own_tile, OfTile::words_read, storage, s.shared_bytes);
+  OfTile tile(s, own_tile, shared, memory_map);
+  const auto mine = tile.packets_of_warp();
+  // words_read in shared memory, because registers are scarce
+  auto& spilled = reinterpret_cast<WarpPackets*>(shared + memory_map.spilled)[threadIdx.x / 32];
+  if (threadIdx.x % 32 == 0) spilled = mine.spilled;
   tile.load();
-  constexpr std::uint32_t run = TilePlan::run;
-  float change[groups_in_registers * run][6], sum[groups_in_registers * run][6];
-  static_assert(run == 2 && groups_in_registers == 2);
+  constexpr std::uint32_t couple = TilePlan::couple;
+  float change[double_packets_in_registers * couple][6], sum[double_packets_in_registers * couple][6];
+  static_assert(couple == 2 && double_packets_in_registers == 2);
   // f(index of the state, packet); the indices are compile-time constants, so that the arrays stay in registers
   const auto each_of = [](const auto& packets, auto begin, auto&& f) {
     const auto one = [&](auto j) {
@@ -290,15 +44,15 @@ __global__ void __launch_bounds__(Threads, 1)
     one(std::integral_constant<std::uint32_t, 1>{});
   };
   constexpr std::integral_constant<std::uint32_t, 0> early{};
-  constexpr std::integral_constant<std::uint32_t, run> late{};
+  constexpr std::integral_constant<std::uint32_t, couple> late{};
   const auto each_resident = [&](auto&& f) {
-    each_of(share.early, early, f);
-    each_of(share.late, late, f);
+    each_of(mine.early, early, f);
+    each_of(mine.late, late, f);
   };
-  typename OfTile::Constants constants[groups_in_registers * run];  // used from first_kept on
+  typename OfTile::Constants constants[double_packets_in_registers * couple];  // used from first_in_registers on
   each_resident([&](auto k, std::uint32_t packet) {
-    state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
-    if constexpr (k() >= OfTile::first_kept) constants[k] = tile.constants_of(packet, OfTile::in_memory);
+    TileContactWords::state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
+    if constexpr (k() >= OfTile::first_in_registers) constants[k] = tile.constants_of(packet, OfTile::in_memory);
   });
 
   const bool inner = tile.inner() > 0;
@@ -315,46 +69,46 @@ __global__ void __launch_bounds__(Threads, 1)
     else
       tile.move_by_sums(tag);
     if (drives_wall) tile.set_wall(wall, of_wall);
-    ContactRun contacts;
+    ContactCouple contacts;
     const auto step = [&](auto k, std::uint32_t packet) {
-      constexpr bool begins_run = k() % run == 0;
-      if constexpr (k() >= OfTile::first_kept)
-        tile.template step<begins_run>(constants[k], change[k], sum[k], contacts);
+      constexpr bool begins_couple = k() % couple == 0;
+      if constexpr (k() >= OfTile::first_in_registers)
+        tile.template step<begins_couple>(constants[k], change[k], sum[k], contacts);
       else
-        tile.template step<begins_run>(tile.constants_of(packet, OfTile::place_in_cache(k)), change[k], sum[k],
-                                       contacts);
+        tile.template step<begins_couple>(tile.constants_of(packet, OfTile::place_in_cache(k)), change[k], sum[k],
+                                          contacts);
     };
     if (inner) __syncthreads();
 #pragma unroll 1
     for (int turn = 0; turn < 2; ++turn) {  // turn 0, while velocities are in transit: `early` packets that need no
                                             // other tile; turn 1: all other `early` packets
-      if (share.ahead == (turn == 0)) each_of(share.early, early, step);
+      if (mine.ahead == (turn == 0)) each_of(mine.early, early, step);
       if (turn > 0) break;
       if (inner) tile.displace();
       tile.receive(tag);
       __syncthreads();
       if (!inner) tile.displace();
     }
-    each_of(share.late, late, step);
+    each_of(mine.late, late, step);
 #pragma unroll 1
-    for (std::uint32_t k = 0; k < others.count(); ++k) {
-      const std::uint32_t packet = others[k];
+    for (std::uint32_t k = 0; k < spilled.count(); ++k) {
+      const std::uint32_t packet = spilled[k];
       float df[6], both[6];
-      state_before<memory>(s.begins_block && tag == first_tag, tile.state(packet), df, both);
+      TileContactWords::state_before<memory>(s.begins_block && tag == first_tag, tile.state(packet), df, both);
       tile.template step<false>(tile.constants_of(packet, OfTile::in_memory), df, both, contacts);
-      store_state<memory>(tile.state(packet), df, both);
+      TileContactWords::write_state<memory>(tile.state(packet), df, both);
     }
     __syncthreads();
   }
 
   each_resident([&](auto k, std::uint32_t packet) {
-    store_state<memory>(tile.state(packet), change[k], sum[k]);
+    TileContactWords::write_state<memory>(tile.state(packet), change[k], sum[k]);
     tile.store_wall_loads(packet, change[k]);
   });
-  for (std::uint32_t k = 0; k < others.count(); ++k) {
+  for (std::uint32_t k = 0; k < spilled.count(); ++k) {
     float df[6], both[6];
-    load_state<memory>(tile.state(others[k]), df, both);
-    tile.store_wall_loads(others[k], df);
+    TileContactWords::read_state<memory>(tile.state(spilled[k]), df, both);
+    tile.store_wall_loads(spilled[k], df);
   }
   tile.store();
   if (s.own_tile() == 0) {

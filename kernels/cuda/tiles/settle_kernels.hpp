@@ -2,15 +2,16 @@
 /// \file settle_kernels.hpp  Defines the kernels that run between two blocks of steps on the tile path. They update the
 /// viscoelastic states in full precision and prepare the next block.
 ///
-/// TileRunner launches two kernels in this order. settle_contacts (through Settling in settle_launch.hpp) takes each
+/// TileBlocks launches two kernels in this order. settle_contacts (through Settling in settle_launch.hpp) takes each
 /// contact's δf and sum from the tiles' states, updates the contact's chain by model (6.9), writes the drift (and with
 /// updated geometry the frame) for the next block into the tiles' constants, and stores the loads of the current f as
 /// records. sum_base sums the records of each body to its new base loads and stores its displacement as that at the
 /// beginning of the block. The formulas of one contact are in block_settling.hpp.
 ///
 /// Words: to settle is to update a contact between two blocks. A record is the load of one contact on one of its two
-/// bodies; the records of a body are consecutive (its row). Each contact is settled once, by its slot in the layout;
-/// its words are written to all its places in the tiles (one or two).
+/// bodies; the records of a body are consecutive (its load list). Each contact is settled once, by its slot in the
+/// layout; its words are written to all its positions in the tiles (one or two). docs/gpu-step.md explains the whole
+/// path.
 #pragma once
 
 #include "kernels/contact/block_settling.hpp"
@@ -29,59 +30,40 @@ struct SettleContact {
   /// The update of one contact, as in block_settling.hpp.
   BlockSettling<P, Block, Units, geometry> settling;
 
-  /// `place`: the one or two places of the contact in the tiles; x is UINT32_MAX for an inert slot. `now`, `before`:
-  /// displacements now and at the beginning of the block, [body][8]. `steps`: of the block that ends; 0: there is none;
-  /// settling_starts: see there. `record`: slot among all groups.
-  __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, const float4* state, const double* now,
-                             const double* before, int steps, const LoadRecords<typename P::Particle>& records,
-                             std::uint32_t record) const {
-    if (place.x == UINT32_MAX) return;
+  /// `position`: the one or two positions of the contact in the tiles; x is UINT32_MAX for an inert slot. `now`,
+  /// `before`: displacements now and at the beginning of the block, [body][8]. `steps`: of the block that ends; 0:
+  /// no block has ended; settling_starts: see there. `record`: slot among all groups.
+  __device__ void operator()(std::uint32_t slot, uint2 position, float4* constant, const float4* state,
+                             const double* now, const double* before, int steps,
+                             const LoadRecords<typename P::Particle>& records, std::uint32_t record) const {
+    if (position.x == UINT32_MAX) return;
     constexpr bool carried = geometry == Geometry::updated;
     if (steps == settling_starts) {
-      begin(slot, place, constant);
+      begin(slot, position, constant);
       return;
     }
     float change[6], sum[6];
-    load_state(at(state, place.x, tile_states), change, sum);
+    TileContactWords::read_state(TileContactWords::at(state, position.x, TileContactWords::states), change, sum);
     const auto [frame, drift, load] = settling(LaneItem{slot % 32}, slot / 32, change, sum, now, before, steps);
     records.store(record, load);
 
-    for (const std::uint32_t p : {place.x, place.y}) {
-      if (p == UINT32_MAX) continue;
-      float4* out = at(constant, p, tile_constants(carried));
-      out[tile_drift_a * 32] = {drift[0], drift[1], drift[2], drift[3]};
-      *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {drift[4], drift[5]};
-      if constexpr (carried) {
-        out[tile_normal * 32] = {float(frame.n.x), float(frame.n.y), float(frame.n.z), float(frame.arm_a)};
-        out[tile_moment_a * 32].x = float(frame.arm_b);
-        out[tile_tangent * 32] = {float(frame.s.x), float(frame.s.y), float(frame.s.z), 0};
-      }
+    for (const std::uint32_t p : {position.x, position.y}) {
+      if (p != UINT32_MAX)
+        TileContactWords::settle<carried>(TileContactWords::at(constant, p, TileContactWords::constants(carried)),
+                                          frame, drift);
     }
   }
 
  private:
-  /// Returns the address of the words of a contact at `place`, with `count` words per contact.
-  template <class Word>
-  __device__ __forceinline__ static Word* at(Word* words, std::uint32_t place, int count) {
-    return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
-  }
-
   /// Writes constants without drift, with the frame of the undeformed contact.
-  __device__ void begin(std::uint32_t slot, uint2 place, float4* constant) const {
+  __device__ void begin(std::uint32_t slot, uint2 position, float4* constant) const {
     const ContactView<P>& view = settling.view;
     const auto* g = view.geometry + static_cast<std::size_t>(slot / 32) * view.geometry_words * 32 + slot % 32;
     const auto word = [&](int k) { return static_cast<float>(g[k * 32]); };
     constexpr bool carried = geometry == Geometry::updated;
-    for (const std::uint32_t p : {place.x, place.y}) {
-      if (p == UINT32_MAX) continue;
-      float4* out = at(constant, p, tile_constants(carried));
-      out[tile_drift_a * 32] = {0, 0, 0, 0};
-      *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {0, 0};
-      if constexpr (carried) {
-        out[tile_normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
-        out[tile_moment_a * 32].x = word(arm_b);
-        out[tile_tangent * 32] = {0, 0, 0, 0};
-      }
+    for (const std::uint32_t p : {position.x, position.y}) {
+      if (p != UINT32_MAX)
+        TileContactWords::begin<carried>(TileContactWords::at(constant, p, TileContactWords::constants(carried)), word);
     }
   }
 };
@@ -110,7 +92,7 @@ struct SettleGroups<P, std::variant<L...>, geometry> {
     typename AnyFunctorOf<Functors>::type functor;
   };
   Group group[pair_types];
-  const uint2* place;  ///< [slot of all groups] the places of its contact in the tiles
+  const uint2* position;  ///< [slot of all groups] the positions of its contact in the tiles
 };
 
 /// The slots of each group that one launch settles. Thread blocks first_block, first_block + 1, … handle slots begin …
@@ -144,7 +126,7 @@ __global__ void __launch_bounds__(contact_threads)
   if (slot >= range.end) return;
   const std::uint32_t record = group.first_slot + slot;
   group.functor.visit([&](const auto& functor) {
-    functor(slot, groups.place[record], constant, state, now, before, steps, records, record);
+    functor(slot, groups.position[record], constant, state, now, before, steps, records, record);
   });
 }
 
@@ -157,10 +139,11 @@ __global__ void begin_with_weight(const R* weight, std::uint32_t particles, R* f
 }
 
 /// Sums the base loads (records and body force) of the bodies first … end − 1, walls included, and copies their
-/// displacements from `now` to `before`. The first `long_rows` thread blocks handle one body each, as in step_bodies().
+/// displacements from `now` to `before`. The first `long_lists` thread blocks handle one body each, as in
+/// step_bodies().
 template <class P>
 __global__ void __launch_bounds__(body_threads)
-    sum_base(const LoadRecords<typename P::Particle> records, const std::uint32_t* long_body, std::uint32_t long_rows,
+    sum_base(const LoadRecords<typename P::Particle> records, const std::uint32_t* long_body, std::uint32_t long_lists,
              std::uint32_t first, std::uint32_t end, const typename P::Particle* weight, std::uint32_t particles,
              typename P::Particle* base, const double* now, double* before) {
   using R = typename P::Particle;
@@ -170,16 +153,34 @@ __global__ void __launch_bounds__(body_threads)
     base[body * std::size_t{velocity_words} + w] = sum;
     before[body * std::size_t{displacement_words} + w] = now[body * std::size_t{displacement_words} + w];
   };
-  if (blockIdx.x < long_rows) {
+  if (blockIdx.x < long_lists) {
     const std::uint32_t body = long_body[blockIdx.x];
     const R sum = sum_by_block<R>(records, body);
     if (threadIdx.x < velocity_words) keep(body, sum);
     return;
   }
-  const std::uint32_t body = first + (blockIdx.x - long_rows) * bodies_a_block + threadIdx.x / velocity_words;
+  const std::uint32_t body = first + (blockIdx.x - long_lists) * bodies_a_block + threadIdx.x / velocity_words;
   if (body >= end) return;
-  const std::uint32_t row = records.row_begin[body], row_end = records.row_begin[body + 1];
-  if (row_end - row <= long_row) keep(body, sum_words<R>(records, row, row_end, 1, w));
+  const std::uint32_t list = records.list_begin[body], list_end = records.list_begin[body + 1];
+  if (list_end - list <= long_list) keep(body, sum_words<R>(records, list, list_end, 1, w));
+}
+
+/// Writes the load on each wall: its base load plus the sum of the loads of its contacts in `wall_load`, added in fixed
+/// order. One thread block per wall; all arguments except `wall_load` are arrays of the walls alone.
+template <class R>
+__global__ void __launch_bounds__(body_threads)
+    add_wall_loads(const float* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {
+  __shared__ R part[body_threads];
+  const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
+  R sum = 0;
+  for (std::uint32_t r = wall_begin[blockIdx.x] + lane; r < wall_begin[blockIdx.x + 1]; r += bodies_a_block)
+    sum += wall_load[r * std::size_t{velocity_words} + w];
+  part[threadIdx.x] = sum;
+  __syncthreads();
+  if (lane > 0) return;
+  sum = base[blockIdx.x * velocity_words + w];
+  for (unsigned k = 0; k < bodies_a_block; ++k) sum += part[k * velocity_words + w];
+  force[blockIdx.x * velocity_words + w] = sum;
 }
 
 }  // namespace macadam::kernels

@@ -2,9 +2,9 @@
 /// \file settle_launch.hpp  Launches the kernel that updates contacts between two blocks of steps (settle_contacts in
 /// settle_kernels.hpp).
 ///
-/// TileRunner owns one Settling. set_group() stores the law of each group; run() computes the coefficients for the
+/// TileBlocks owns one Settling. set_group() stores the law of each group; run() computes the coefficients for the
 /// lengths of the block that ends and of the block that begins (only if they changed) and launches the kernel on every
-/// device.
+/// device. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct SettledArrays {
   const float4* state;         ///< states (δf and sum) of the contacts in tiles
   const double *now, *before;  ///< displacements now, and at the beginning of the block [body][8]
   LoadRecords<typename P::Particle> records;
-  const uint2* place;  ///< [slot of all groups] the places of its contact in the tiles
+  const uint2* position;  ///< [slot of all groups] the positions of its contact in the tiles
 };
 
 /// Launches the update of all groups on all devices of a team.
@@ -53,7 +53,7 @@ class Settling {
     };
     filled_ended_ = filled_steps_ = 0;  // forces run() to compute coefficients for the new law and time step
     launch_ = [this, groups](int ended, const SettledArrays<P>& a) {
-      groups->place = a.place;
+      groups->position = a.position;
       team_.each([&](std::size_t m) {
         launch("settling", settle_contacts<P, AnyLaw, geometry>, ranges_[m].blocks, contact_threads, 0, team_.stream(m),
                *groups, ranges_[m], a.constant, a.state, a.now, a.before, ended, a.records);

@@ -2,30 +2,24 @@
 /// \file shared_memory_map.hpp  Divides the shared memory and the registers of a multiprocessor for the resident
 /// kernel (resident_kernel.hpp).
 ///
-/// ResidentMemory computes the position of each array in a tile's shared memory. The host (TileRunner) uses it to
+/// ResidentMemory computes the position of each array in a tile's shared memory. The host (fit_tiles()) uses it to
 /// decide whether tiles fit, and the kernel uses it to find the arrays. The remaining shared memory holds constants of
 /// packets (the cache). expected_resident_bytes() estimates the need before the tiles exist, so that ExecCudaTiles can
-/// choose their size.
+/// choose their size. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <cmath>
 #include <vector>
 
+#include "kernels/cuda/device/tuning.hpp"
 #include "kernels/cuda/tiles/tile_step.hpp"
 
 namespace macadam::kernels {
 
-/// Uses all registers of a multiprocessor; a contact's state takes twelve registers.
-inline constexpr std::uint32_t resident_threads = 512;
-/// Number of groups (double packets) whose states a warp keeps in registers: one that it steps before the velocities of
-/// other tiles have arrived, and one that it steps after that.
-inline constexpr std::uint32_t groups_in_registers = 2;
 /// Largest number of contacts of one tile whose states fit in registers.
-inline constexpr std::uint32_t contacts_in_registers = groups_in_registers * TilePlan::run * resident_threads;
+inline constexpr std::uint32_t contacts_in_registers =
+    double_packets_in_registers * TilePlan::couple * resident_threads;
 inline constexpr std::uint32_t packets_with_states = contacts_in_registers / 32;
-/// Number of packets per warp whose constants stay in registers too. They are the last of the packets with states in
-/// registers. `memory`: some law has a memory; its sums then leave no registers for constants.
-__host__ __device__ constexpr std::uint32_t packets_with_constants(bool memory) { return memory ? 0 : 2; }
 
 /// Six or two numbers of a body, aligned so that threads with neighbouring bodies access different banks of shared
 /// memory.
@@ -43,22 +37,23 @@ struct alignas(2 * sizeof(R)) Two {
 template <class P>
 struct ResidentMemory {
   using R = typename P::Particle;
-  std::uint32_t velocity, slots, own, rest, halo, diagonal, row, law, others, cache, total;
+  std::uint32_t velocity, cells, full_velocity, body_data, halo, diagonal, list, law, spilled, cache, total;
   std::uint32_t cached;  ///< number of packets in the cache
 
   /// Returns the size of a tile's particle data: displacements, base loads, Δt/m and Δt/I and, with all_away, the
   /// velocities in full precision. It is in global memory if it does not fit in shared memory.
-  __host__ __device__ static constexpr std::uint32_t rest_bytes(std::uint32_t bodies, BodyStorage rest) {
-    const auto numbers = rest == BodyStorage::all_away ? 14u : 8u;
+  __host__ __device__ static constexpr std::uint32_t body_bytes(std::uint32_t bodies, BodyStorage storage) {
+    const auto numbers = storage == BodyStorage::global ? 14u : 8u;
     return bodies * static_cast<std::uint32_t>(6 * sizeof(double) + numbers * sizeof(R));
   }
   __host__ __device__ static constexpr std::uint32_t packet_bytes(std::uint32_t constants) {
     return constants * 32 * sizeof(float4);
   }
 
-  /// `constants`: constant words per packet. `room`: bytes of shared memory available; if they do not suffice for the
-  /// other arrays, the cache is empty.
-  __host__ __device__ ResidentMemory(const Tile& tile, std::uint32_t constants, BodyStorage where, std::uint32_t room) {
+  /// `constants`: constant words per packet. `available`: bytes of shared memory available; if they do not suffice for
+  /// the other arrays, the cache is empty.
+  __host__ __device__ ResidentMemory(const Tile& tile, std::uint32_t constants, BodyStorage storage,
+                                     std::uint32_t available) {
     std::uint32_t at = 0;
     const auto take = [&](std::uint32_t bytes) {
       const std::uint32_t here = at;
@@ -68,15 +63,15 @@ struct ResidentMemory {
     const std::uint32_t locals = tile.bodies + tile.halo + walls;
     velocity = take(SixTable::bytes(locals));
     law = take(16 * pair_types);
-    slots = take(SixTable::bytes(tile.slots));
-    own = take(where == BodyStorage::all_away ? 0 : tile.bodies * static_cast<std::uint32_t>(sizeof(Six<R>)));
-    rest = take(where == BodyStorage::here ? rest_bytes(tile.bodies, where) : 0);
+    cells = take(SixTable::bytes(tile.cells));
+    full_velocity = take(storage == BodyStorage::global ? 0 : tile.bodies * static_cast<std::uint32_t>(sizeof(Six<R>)));
+    body_data = take(storage == BodyStorage::shared ? body_bytes(tile.bodies, storage) : 0);
     halo = take(4 * tile.halo);
-    diagonal = take(4 * TilePlan::longest_short_row);
-    row = take(8 * tile.bodies);
-    others = take(static_cast<std::uint32_t>(sizeof(WarpPackets)) * resident_threads / 32);
+    diagonal = take(4 * TilePlan::longest_short_list);
+    list = take(8 * tile.bodies);
+    spilled = take(static_cast<std::uint32_t>(sizeof(WarpPackets)) * resident_threads / 32);
     cache = at;
-    cached = room < at ? 0 : (room - at) / packet_bytes(constants);
+    cached = available < at ? 0 : (available - at) / packet_bytes(constants);
     if (cached > packets_with_states) cached = packets_with_states;
     total = at + cached * packet_bytes(constants);
   }
@@ -87,20 +82,19 @@ struct ResidentMemory {
 template <class P>
 std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t tiles) {
   std::vector<std::uint32_t> of_end_a(network.row_begin.size() - 1, 0);
-  std::size_t slots = 0;  // slots of runs and of ends B
+  std::size_t cells = 0;  // load cells of couples and of ends B
   for (const Contact& c : network.contacts) {
-    slots += (of_end_a[static_cast<std::size_t>(c.a)]++ % TilePlan::run == 0) + (c.b >= 0);
+    cells += (of_end_a[static_cast<std::size_t>(c.a)]++ % TilePlan::couple == 0) + (c.b >= 0);
   }
-  const double fullest = 1.06;  // some tiles have a few per cent more than the mean
-  const double bodies = fullest * static_cast<double>(of_end_a.size()) / static_cast<double>(tiles);
+  const double bodies = fullest_tile * static_cast<double>(of_end_a.size()) / static_cast<double>(tiles);
   // Particles in a layer of 0.9 particle diameters around a cube of `bodies` particles
   const double halo = std::pow(std::cbrt(bodies) + 1.8, 3) - bodies;
   const auto whole = [](double x) { return static_cast<std::uint32_t>(x); };
   Tile tile{};
   tile.bodies = whole(bodies);
   tile.halo = whole(halo);
-  tile.slots = whole(fullest * static_cast<double>(slots) / static_cast<double>(tiles));
-  return ResidentMemory<P>(tile, tile_constants(false), BodyStorage::all_away, 0).total;
+  tile.cells = whole(fullest_tile * static_cast<double>(cells) / static_cast<double>(tiles));
+  return ResidentMemory<P>(tile, TileContactWords::constants(false), BodyStorage::global, 0).total;
 }
 
 }  // namespace macadam::kernels

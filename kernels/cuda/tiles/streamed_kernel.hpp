@@ -2,11 +2,12 @@
 /// \file streamed_kernel.hpp  Defines the streamed kernel, which takes one step per launch, for any number of
 /// tiles.
 ///
-/// TileRunner uses it if the tiles do not fit on the chip, and with several ranks. Two tiles share a multiprocessor;
+/// TileLaunch uses it if the tiles do not fit on the chip, and with several ranks. Two tiles share a multiprocessor;
 /// the constants and states of contacts are read from global memory in every step. begin_streamed moves the bodies
 /// before the first step of a sequence. Then each launch of run_streamed reads the velocities of its step, steps all
 /// contacts of each tile, sums the loads, and moves the particles. The new velocities go to the other one of two arrays
 /// (even and odd steps). The last launch of a sequence writes the loads instead of moving the particles.
+/// docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include "kernels/cuda/tiles/tile_step.hpp"
@@ -61,11 +62,11 @@ __global__ void begin_streamed(const __grid_constant__ TileArrays<P> s, std::uin
   move_body(s, i, place, force, k);
 }
 
-/// Layout of the shared memory of run_streamed: the table of velocities, then the slots [byte].
+/// Layout of the shared memory of run_streamed: the table of velocities, then the cells [byte].
 struct StreamedMemory {
-  std::uint32_t slots, total;
-  __host__ __device__ StreamedMemory(std::uint32_t locals, std::uint32_t slot_count)
-      : slots((SixTable::bytes(locals) + 15) / 16 * 16), total(slots + SixTable::bytes(slot_count)) {}
+  std::uint32_t cells, total;
+  __host__ __device__ StreamedMemory(std::uint32_t locals, std::uint32_t cell_count)
+      : cells((SixTable::bytes(locals) + 15) / 16 * 16), total(cells + SixTable::bytes(cell_count)) {}
 };
 
 /// Steps the contacts in step k. Then moves the particles into step k + 1 or, if `last`, writes the loads. `memory`:
@@ -75,12 +76,12 @@ __global__ void __launch_bounds__(Threads, Blocks)
     run_streamed(const __grid_constant__ TileArrays<P> s, std::uint32_t k, bool last) {
   using R = typename P::Particle;
   extern __shared__ __align__(16) unsigned char shared[];
-  const StreamedMemory m(s.most_locals, s.most_slots);
+  const StreamedMemory m(s.most_locals, s.most_cells);
   const TileVelocities velocity{SixTable::at(shared, s.most_locals)};
-  const TileSlots slots{SixTable::at(shared + m.slots, s.most_slots)};
+  const LoadCells cells{SixTable::at(shared + m.cells, s.most_cells)};
   const unsigned tid = threadIdx.x, lane = tid % 32, warp = tid / 32;
   constexpr unsigned warps = Threads / 32;
-  constexpr std::uint32_t words = tile_constants(carried);
+  constexpr std::uint32_t words = TileContactWords::constants(carried);
   const Tile tile = s.tile[s.own_tile()];
   const float4* from = velocities_of(s, k);
   // the last warps of the first tile move the walls; with several ranks, the first tile of each
@@ -102,34 +103,34 @@ __global__ void __launch_bounds__(Threads, Blocks)
     wall.move(s, k + 1, k + 2);
     wall_velocity_of(s, k + 1, axis) = static_cast<float>(wall.v);
   }
-  const auto mine = WarpPackets::of(tile, 0, TilePlan::run * tile.groups, warp, warps, warps);
-  ContactRun run;
+  const auto mine = WarpPackets::of(tile, 0, TilePlan::couple * tile.double_packets, warp, warps, warps);
+  ContactCouple couple;
 #pragma unroll 4
   for (std::uint32_t packet = 0; packet < mine.count(); ++packet) {
     const std::size_t at = tile.first_packet + mine[packet];
-    float4* state = s.state + at * tile_states * 32 + lane;
+    float4* state = s.state + at * TileContactWords::states * 32 + lane;
     float change[6], sum[6];
-    state_before<memory>(s.begins_block && k == 0, state, change, sum);
+    TileContactWords::state_before<memory>(s.begins_block && k == 0, state, change, sum);
     ContactConstants<carried, memory> constant;
     constant.load(s.constant + at * words * 32 + lane);
     const ContactInBlock<carried, memory> contact(constant);
-    const auto load = step_in_block<false>(contact, s.law, velocity, change, sum, run);
-    store_state<memory>(state, change, sum);
-    slots.put(contact.slots, load, run);
+    const auto load = step_in_block<false>(contact, s.law, velocity, change, sum, couple);
+    TileContactWords::write_state<memory>(state, change, sum);
+    cells.put(contact.cells, load, couple);
     if (last) store_wall_load(s.wall_load, contact.of, load);
   }
   __syncthreads();
-  sum_rows(tile, s.row + tile.first_body, s.diagonal + s.own_tile() * TilePlan::longest_short_row, slots,
-           [&](std::uint32_t r, const float(&extra)[6]) {
-             const std::size_t place = tile.first_body + r;
-             const auto i = static_cast<std::size_t>(s.body[place]);
-             R force[6];
-             for (int c = 0; c < 6; ++c) {
-               force[c] = s.base[i * velocity_words + moving_word(c)] + static_cast<R>(extra[c]);
-               if (last) s.force[i * velocity_words + moving_word(c)] = force[c];
-             }
-             if (!last) move_body(s, i, place, force, k + 1);
-           });
+  sum_lists(tile, s.list + tile.first_body, s.diagonal + s.own_tile() * TilePlan::longest_short_list, cells,
+            [&](std::uint32_t r, const float(&extra)[6]) {
+              const std::size_t place = tile.first_body + r;
+              const auto i = static_cast<std::size_t>(s.body[place]);
+              R force[6];
+              for (int c = 0; c < 6; ++c) {
+                force[c] = s.base[i * velocity_words + moving_word(c)] + static_cast<R>(extra[c]);
+                if (last) s.force[i * velocity_words + moving_word(c)] = force[c];
+              }
+              if (!last) move_body(s, i, place, force, k + 1);
+            });
 }
 
 }  // namespace macadam::kernels

@@ -1,101 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_step.hpp  Defines what the resident and the streamed kernel of the tile path have in common: packed
-/// data of a contact, the arguments of a launch, one step of one contact, and the sums of loads in shared memory.
+/// \file tile_step.hpp  Defines what the resident and the streamed kernel of the tile path have in common: the
+/// arguments of a launch, one step of one contact, and the sums of loads in shared memory.
 ///
 /// Callers are run_resident (resident_kernel.hpp) and run_streamed (streamed_kernel.hpp); tile_plan.hpp
 /// explains the words. In every step a thread block takes the velocities of its particles, its halo and the walls from
-/// a table in shared memory (TileVelocities); steps its contacts with step_in_block(), which stores loads into slots
-/// (TileSlots); adds the slots of each particle with sum_rows(); and moves the particles.
+/// a table in shared memory (TileVelocities); steps its contacts with step_in_block(), which stores loads into cells
+/// (LoadCells); adds the cells of each particle with sum_lists(); and moves the particles.
 ///
 /// Steps are taken in blocks of up to longest_block steps (see block_settling.hpp and model (6.8)). Within a block a
 /// contact carries only the change δf since the beginning of the block and, if some law has a memory, a sum over the
 /// steps. The loads of the f at the beginning of the block are part of the particles' `base` loads. The state of a
 /// contact is therefore in three places. The chain (ContactView::chain) holds the viscoelastic state at the beginning
-/// of the block, in full precision (there is none where f follows from the displacements); settle_kernels.hpp updates
-/// it after the block. The words of TileState in memory hold δf and the sum; they are valid between launches. During a
-/// launch of the resident kernel, registers hold δf and the sum of most contacts.
+/// of the block, in full precision (without a chain, f follows from the displacements); settle_kernels.hpp updates
+/// it after the block. The words of states in memory (contact_words.hpp) hold δf and the sum; they are valid between
+/// launches. During a launch of the resident kernel, registers hold δf and the sum of most contacts. docs/gpu-step.md
+/// explains the whole path.
 #pragma once
 
 #include <type_traits>
 
+#include "kernels/contact/block_step.hpp"
 #include "kernels/contact/contact_kinematics.hpp"
 #include "kernels/cuda/common/lane_item.hpp"
 #include "kernels/cuda/device/launch.hpp"
 #include "kernels/step/particle_motion.hpp"
 #include "kernels/contact/precision.hpp"
+#include "kernels/cuda/tiles/contact_words.hpp"
 #include "kernels/layout/tile_plan.hpp"
 
 namespace macadam::kernels {
 
-/// Constants of a contact, as words of 16 bytes in the order [packet][word][lane].
-enum TileConstant {
-  tile_normal,    ///< normal n, lever arm of end A
-  tile_moment_a,  ///< lever arm of end B, area moments 0…2
-  tile_moment_b,  ///< area moments 3…5, EndPair of the local numbers of the bodies
-  tile_drift_b,   ///< drift of components 4 and 5, EndPair of the slots of loads, GroupAndRow
-  tile_drift_a,   ///< drift of components 0…3
-  tile_tangent,   ///< first tangent s, unused word; with updated geometry only
-};
-/// State of a contact, as words of 16 bytes [packet][word][lane]: δf 0…3; δf 4, 5 and sum 0, 1; sum 2…5.
-enum TileState { tile_change, tile_both, tile_sum, tile_states };
-
-/// Returns the number of words of TileState that a step reads and writes. `memory`: some law has a memory.
-__host__ __device__ constexpr int tile_states_moved(bool memory) { return memory ? tile_states : tile_sum; }
-
-/// Two 16-bit numbers in one word, for the ends A and B of a contact.
-struct EndPair {
-  std::uint32_t word;
-  __host__ __device__ static constexpr EndPair of(std::uint16_t a, std::uint16_t b) {
-    return {a | static_cast<std::uint32_t>(b) << 16};
-  }
-  __host__ __device__ constexpr std::uint32_t a() const { return word & 0xffff; }
-  __host__ __device__ constexpr std::uint32_t b() const { return word >> 16; }
-};
-
-/// Two numbers of a contact in one word: its group (pair type) and its wall row, or no_row.
-struct GroupAndRow {
-  static constexpr std::uint32_t group_bits = 4, no_row = (1u << (32 - group_bits)) - 1;
-  static_assert(pair_types <= 1 << group_bits);
-  std::uint32_t word;
-  __host__ __device__ static constexpr GroupAndRow of(std::uint32_t group, std::uint32_t row) {
-    return {group | (row < no_row ? row : no_row) << group_bits};
-  }
-  __host__ __device__ constexpr std::uint32_t group() const { return word & ((1u << group_bits) - 1); }
-  __host__ __device__ constexpr std::uint32_t row() const { return word >> group_bits; }
-};
-
-/// Returns the number of 16-byte words of constants per contact (see TileConstant). `carried`: the contact frame is
-/// updated during the run, so the tangent is stored too.
-__host__ __device__ constexpr int tile_constants(bool carried) { return carried ? tile_tangent + 1 : tile_tangent; }
-/// Returns the number of these words that a step reads, which are the first ones. `memory`: some law has a memory.
-/// Without one, and with fixed geometry, a step does not read tile_drift_a.
-__host__ __device__ constexpr int tile_constants_read(bool carried, bool memory) {
-  return memory || carried ? tile_constants(carried) : tile_drift_a;
-}
-
 /// The memory in which a resident tile keeps the data of its particles. The velocities that contacts see are always in
 /// shared memory.
 enum class BodyStorage {
-  here,      ///< all in shared memory
-  away,      ///< full-precision velocities in shared memory, everything else in global memory
-  all_away,  ///< all in global memory
+  shared,  ///< all in shared memory
+  split,   ///< full-precision velocities in shared memory, everything else in global memory
+  global,  ///< all in global memory
 };
 
-/// The packets of a tile that one warp steps: first groups, then single packets, chosen so that all warps have about
-/// the same number of packets.
+/// The packets of a tile that one warp steps: first double packets, then single ones, chosen so that all warps have
+/// about the same number of packets.
 struct WarpPackets {
-  std::uint32_t first_group, groups, stride;  ///< groups first_group, first_group + stride, …
+  std::uint32_t first_double, doubles, stride;  ///< double packets first_double, first_double + stride, …
   std::uint32_t first_one = 0, ones = 0;
 
-  /// Returns the packets of warp `warp` among the groups from `group` on and the single packets from `one` on. All
-  /// warps except the first `free` step one more group, which is not in these numbers.
-  __device__ __forceinline__ static WarpPackets of(const Tile& tile, std::uint32_t group, std::uint32_t one,
+  /// Returns the packets of warp `warp` among the double packets from `first` on and the single packets from `one` on.
+  /// All warps except the first `free` step one more double packet, which is not in these numbers.
+  __device__ __forceinline__ static WarpPackets of(const Tile& tile, std::uint32_t first, std::uint32_t one,
                                                    std::uint32_t warp, std::uint32_t warps, std::uint32_t free) {
-    const std::uint32_t all = tile.groups - group, low = all / warps, with_more = all % warps;
-    const std::uint32_t fair = (TilePlan::run * (all + warps - free) + tile.packets - one + warps - 1) / warps;
-    WarpPackets out{group + warp, low + (warp < with_more), warps};
+    const std::uint32_t all = tile.double_packets - first, low = all / warps, with_more = all % warps;
+    const std::uint32_t fair = (TilePlan::couple * (all + warps - free) + tile.packets - one + warps - 1) / warps;
+    WarpPackets out{first + warp, low + (warp < with_more), warps};
     for (std::uint32_t k = 0; k <= warp; ++k) {
-      const std::uint32_t busy = TilePlan::run * (low + (k < with_more) + (k >= free));
+      const std::uint32_t busy = TilePlan::couple * (low + (k < with_more) + (k >= free));
       out.first_one = one;
       out.ones = min(fair - min(fair, busy), tile.packets - one);
       one += out.ones;
@@ -103,10 +60,11 @@ struct WarpPackets {
     return out;
   }
   /// Returns the number of packets, and the k-th packet.
-  __device__ __forceinline__ std::uint32_t count() const { return TilePlan::run * groups + ones; }
+  __device__ __forceinline__ std::uint32_t count() const { return TilePlan::couple * doubles + ones; }
   __device__ __forceinline__ std::uint32_t operator[](std::uint32_t k) const {
-    constexpr std::uint32_t run = TilePlan::run;
-    return k < run * groups ? run * (first_group + k / run * stride) + k % run : first_one + (k - run * groups);
+    constexpr std::uint32_t couple = TilePlan::couple;
+    return k < couple * doubles ? couple * (first_double + k / couple * stride) + k % couple
+                                : first_one + (k - couple * doubles);
   }
 };
 
@@ -116,22 +74,23 @@ struct TileArrays {
   using R = typename P::Particle;
   const Tile* tile;
   const std::int32_t* body;       ///< [place]
-  const uint2* row;               ///< [place] number of slots; first slot of a long row
-  const std::uint32_t* diagonal;  ///< [tile][longest_short_row]
+  const uint2* list;              ///< [place] number of cells; first cell of a long list
+  const std::uint32_t* diagonal;  ///< [tile][longest_short_list]
   const std::int32_t* halo;       ///< [first_halo + …] place
-  const float4* constant;         ///< [packet][word][lane] see TileConstant
-  float4* state;                  ///< [packet][word][lane] see TileState
+  const float4* constant;         ///< [packet][word][lane] constants, see TileContactWords
+  float4* state;                  ///< [packet][word][lane] states, see TileContactWords
   const R* base;                  ///< [body][8] loads at the beginning of the block, with body forces [N, N·m]
   R* force;                       ///< [body][8] loads after the last step of a launch [N, N·m]
-  float4* wall_load;  ///< [wall row][2] change of the loads on the walls since the beginning of the block [N, N·m]
+  float4* wall_load;  ///< [wall contact number][2] change of the loads on the walls since the beginning of the block
+                      ///< [N, N·m]
   ulonglong2 *even, *odd;  ///< [place][2] velocities and spins of even and odd steps in single precision; the streamed
                            ///< kernel has the walls after the last place
   ParticleMotion<P> motion;  ///< how bodies move; its table of wall velocities begins with the first step of the launch
   float4 law[pair_types];    ///< [group] coefficients of the step: rate·Δt, relax, α, follow
-  unsigned char* rest;       ///< [thread block] particle data that does not fit in shared memory
-  BodyStorage where;         ///< where the particle data is
-  std::uint32_t most_bodies, most_locals, most_slots;  ///< maxima over the tiles, see TilePlan
-  std::uint32_t room;                                  ///< shared memory of a resident tile [byte]
+  unsigned char* body_data;  ///< [thread block] particle data that does not fit in shared memory
+  BodyStorage storage;       ///< where the particle data is
+  std::uint32_t most_bodies, most_locals, most_cells;  ///< maxima over the tiles, see TilePlan
+  std::uint32_t shared_bytes;                          ///< shared memory of a resident tile [byte]
   std::uint32_t places;                                ///< number of places
   std::uint32_t first_tile;                            ///< first tile of this device
   bool moves_walls;   ///< whether the first tile of this device moves the walls; streamed kernel only
@@ -144,27 +103,16 @@ struct TileArrays {
   __device__ __forceinline__ ulonglong2* exchange(std::uint32_t k) const { return k & 1 ? odd : even; }
 };
 
-/// The constants of one contact that a step reads, in registers.
-template <bool carried, bool memory>
-struct ContactConstants {
-  static constexpr int words = tile_constants_read(carried, memory);
-  float4 word[words];
-  __device__ __forceinline__ void load(const float4* from) {
-#pragma unroll
-    for (int k = 0; k < words; ++k) word[k] = from[k * 32];
-  }
-};
-
-/// A table in shared memory with six floats (24 bytes) per row, as one word of 16 and one of 8 bytes: with threads
-/// accessing rows in any order, fewer bytes per row cause fewer bank conflicts.
+/// A table in shared memory with six floats (24 bytes) per entry, as one word of 16 and one of 8 bytes: with threads
+/// accessing entries in any order, fewer bytes per entry cause fewer bank conflicts.
 struct SixTable {
   float4* first;
   float2* second;
 
-  __host__ __device__ static constexpr std::uint32_t bytes(std::uint32_t rows) { return 24 * rows; }
-  /// Returns the table of `rows` rows that begins at `place`.
-  __device__ __forceinline__ static SixTable at(unsigned char* place, std::uint32_t rows) {
-    return {reinterpret_cast<float4*>(place), reinterpret_cast<float2*>(place + 16 * rows)};
+  __host__ __device__ static constexpr std::uint32_t bytes(std::uint32_t entries) { return 24 * entries; }
+  /// Returns the table of `entries` entries that begins at `address`.
+  __device__ __forceinline__ static SixTable at(unsigned char* address, std::uint32_t entries) {
+    return {reinterpret_cast<float4*>(address), reinterpret_cast<float2*>(address + 16 * entries)};
   }
 };
 
@@ -192,69 +140,36 @@ struct TileVelocities : SixTable {
   }
 };
 
-/// The run that a thread is stepping: the motion of the common end A, and the sum of the loads on it so far.
-struct ContactRun {
+/// The couple that a thread is stepping: the motion of the common end A, and the sum of the loads on it so far.
+struct ContactCouple {
   Vec3<float> linear, angular, force, moment;
-  bool goes_on = false;  ///< whether the next contact belongs to the same run
-};
-
-/// One contact without its state: its constants unpacked, with its frame.
-template <bool carried, bool memory>
-struct ContactInBlock {
-  const float4 (&word)[tile_constants_read(carried, memory)];
-  Placement<float> frame;
-  GroupAndRow of;
-  EndPair slots;
-
-  __device__ __forceinline__ explicit ContactInBlock(const ContactConstants<carried, memory>& constant)
-      : word(constant.word), of{__float_as_uint(word[tile_drift_b].w)}, slots{__float_as_uint(word[tile_drift_b].z)} {
-    const float4 c0 = word[tile_normal];
-    const Vec3<float> n{c0.x, c0.y, c0.z};
-    if constexpr (carried) {
-      const float4 c5 = word[tile_tangent];
-      const Vec3<float> tangent{c5.x, c5.y, c5.z};
-      frame = {n, tangent, cross(n, tangent), c0.w, word[tile_moment_a].x};
-    } else {
-      frame = canonical_placement(n, copysignf(1.0f, n.z), c0.w, word[tile_moment_a].x);
-    }
-  }
-  __device__ __forceinline__ EndPair ends() const { return {__float_as_uint(word[tile_moment_b].w)}; }
-
-  /// Returns the change of the contact's loads for the change `change` of its f.
-  __device__ __forceinline__ ContactLoad<float> load(const float (&change)[6], float alpha) const {
-    const float4 c1 = word[tile_moment_a], c2 = word[tile_moment_b];
-    const float moments[6] = {c1.y, c1.z, c1.w, c2.x, c2.y, c2.z};
-    return to_centres(frame, condensed_load(change, alpha, moments));
-  }
+  bool continues = false;  ///< whether the next contact belongs to the same couple
 };
 
 /// Steps one contact by model (6.8), and returns the change of its loads since the beginning of the block. `change` is
-/// δf, `sum` the sum of δf' + δf over the steps. Template arguments: `first`, whether a run begins here; `memory`,
+/// δf, `sum` the sum of δf' + δf over the steps. Template arguments: `first`, whether a couple begins here; `memory`,
 /// whether some law has a memory.
 template <bool first, bool carried, bool memory>
 __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried, memory>& contact,
                                                             const float4* law, const TileVelocities& velocity,
-                                                            float (&change)[6], float (&sum)[6], ContactRun& run) {
+                                                            float (&change)[6], float (&sum)[6],
+                                                            ContactCouple& couple) {
   const EndPair end = contact.ends();
-  if (first || !run.goes_on) {
+  if (first || !couple.continues) {
     const Twist<float> a = velocity[end.a()];
-    run.linear = a.linear;
-    run.angular = a.angular;
-    run.force = run.moment = {0, 0, 0};
+    couple.linear = a.linear;
+    couple.angular = a.angular;
+    couple.force = couple.moment = {0, 0, 0};
   }
-  run.goes_on = contact.slots.a() == TilePlan::more_of_run;
+  couple.continues = contact.cells.a() == TilePlan::more_of_couple;
   float u[6];
-  relative_rates(contact.frame, Twist<float>{run.linear, run.angular}, velocity[end.b()], u);
+  relative_rates(contact.frame, Twist<float>{couple.linear, couple.angular}, velocity[end.b()], u);
   const float4 l = law[contact.of.group()];
   if constexpr (memory) {
-    const float4 c3 = contact.word[tile_drift_a], c4 = contact.word[tile_drift_b];
-    const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
+    float drift[6];
+    contact.read_drift(drift);
 #pragma unroll
-    for (int c = 0; c < 6; ++c) {
-      const float before = change[c];
-      change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
-      sum[c] += change[c] + before;
-    }
+    for (int c = 0; c < 6; ++c) step_in_block_by<float>({l.x, l.y, l.w}, u[c], drift[c], change[c], sum[c]);
   } else {
 #pragma unroll
     for (int c = 0; c < 6; ++c) change[c] = multiply_add(l.x, u[c], change[c]);
@@ -263,59 +178,59 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
 }
 
 /// Slots of loads in shared memory: force and moment.
-struct TileSlots : SixTable {
-  /// Stores a load; does nothing if `slot` is no_slot or more_of_run. A barrier separates these stores from the
-  /// threads that read slots, so they need not stay in order with other accesses to shared memory. The compiler would
+struct LoadCells : SixTable {
+  /// Stores a load; does nothing if `cell` is no_cell or more_of_couple. A barrier separates these stores from the
+  /// threads that read cells, so they need not stay in order with other accesses to shared memory. The compiler would
   /// keep stores through a pointer in order; therefore the store is written in assembly.
-  __device__ __forceinline__ void put(std::uint32_t slot, const Vec3<float>& force, const Vec3<float>& moment) const {
-    static_assert(TilePlan::more_of_run < TilePlan::no_slot);
+  __device__ __forceinline__ void put(std::uint32_t cell, const Vec3<float>& force, const Vec3<float>& moment) const {
+    static_assert(TilePlan::more_of_couple < TilePlan::no_cell);
     asm volatile(
-        "{ .reg .pred slot; setp.lt.u32 slot, %0, %1;\n"
-        "@slot st.shared.v4.f32 [%2], {%4, %5, %6, %7};\n"
-        "@slot st.shared.v2.f32 [%3], {%8, %9}; }" ::"r"(slot),
-        "n"(std::uint32_t{TilePlan::more_of_run}),
-        "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(first + slot))),
-        "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(second + slot))), "f"(force.x), "f"(force.y),
+        "{ .reg .pred cell; setp.lt.u32 cell, %0, %1;\n"
+        "@cell st.shared.v4.f32 [%2], {%4, %5, %6, %7};\n"
+        "@cell st.shared.v2.f32 [%3], {%8, %9}; }" ::"r"(cell),
+        "n"(std::uint32_t{TilePlan::more_of_couple}),
+        "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(first + cell))),
+        "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(second + cell))), "f"(force.x), "f"(force.y),
         "f"(force.z), "f"(moment.x), "f"(moment.y), "f"(moment.z));
   }
-  /// Adds the load in a slot to f.
-  __device__ __forceinline__ void add(std::uint32_t slot, float (&f)[6]) const {
-    const float4 a = first[slot];
-    const float2 b = second[slot];
+  /// Adds the load in a cell to f.
+  __device__ __forceinline__ void add(std::uint32_t cell, float (&f)[6]) const {
+    const float4 a = first[cell];
+    const float2 b = second[cell];
     f[0] += a.x, f[1] += a.y, f[2] += a.z, f[3] += a.w, f[4] += b.x, f[5] += b.y;
   }
-  /// Adds the first `count` of four slots (all four if count ≥ 4). All are loaded before the first is added.
-  __device__ __forceinline__ void add(const std::uint32_t (&slot)[4], std::uint32_t count, float (&f)[6]) const {
+  /// Adds the first `count` of four cells (all four if count ≥ 4). All are loaded before the first is added.
+  __device__ __forceinline__ void add(const std::uint32_t (&cell)[4], std::uint32_t count, float (&f)[6]) const {
     float4 a[4];
     float2 b[4];
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) {
-      a[k] = k < count ? first[slot[k]] : float4{0, 0, 0, 0};
-      b[k] = k < count ? second[slot[k]] : float2{0, 0};
+      a[k] = k < count ? first[cell[k]] : float4{0, 0, 0, 0};
+      b[k] = k < count ? second[cell[k]] : float2{0, 0};
     }
 #pragma unroll
     for (int k = 0; k < 4; ++k)
       f[0] += a[k].x, f[1] += a[k].y, f[2] += a[k].z, f[3] += a[k].w, f[4] += b[k].x, f[5] += b[k].y;
   }
-  /// Adds the load on end A to the sum of the run and stores it if the run ends here; stores the load on end B.
-  __device__ __forceinline__ void put(EndPair slots, const ContactLoad<float>& load, ContactRun& run) const {
-    run.force += load.force_a;
-    run.moment += load.moment_a;
-    put(slots.a(), run.force, run.moment);
-    put(slots.b(), -load.force_a, load.moment_b);
+  /// Adds the load on end A to the sum of the couple and stores it if the couple ends here; stores the load on end B.
+  __device__ __forceinline__ void put(EndPair cells, const ContactLoad<float>& load, ContactCouple& couple) const {
+    couple.force += load.force_a;
+    couple.moment += load.moment_a;
+    put(cells.a(), couple.force, couple.moment);
+    put(cells.b(), -load.force_a, load.moment_b);
   }
 };
 
-/// Calls f(rank, sum of its slots) for every particle of the tile. Each long row is summed by a warp (the last warp
-/// sums the first row), each short row by a thread.
+/// Calls f(rank, sum of its cells) for every particle of the tile. Each long list is summed by a warp (the last warp
+/// sums the first list), each short list by a thread.
 template <class F>
-__device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, const std::uint32_t* diagonal,
-                                         const TileSlots& slots, F&& f) {
+__device__ __forceinline__ void sum_lists(const Tile& tile, const uint2* list, const std::uint32_t* diagonal,
+                                          const LoadCells& cells, F&& f) {
   const unsigned warp = threadIdx.x / 32, lane = threadIdx.x % 32, warps = blockDim.x / 32;
-  for (std::uint32_t r = warps - 1 - warp; r < tile.long_rows; r += warps) {
+  for (std::uint32_t r = warps - 1 - warp; r < tile.long_lists; r += warps) {
     float sum[6] = {0, 0, 0, 0, 0, 0};
-    const uint2 place = row[r];
-    for (std::uint32_t e = lane; e < place.x; e += 32) slots.add(place.y + e, sum);
+    const uint2 place = list[r];
+    for (std::uint32_t e = lane; e < place.x; e += 32) cells.add(place.y + e, sum);
 #pragma unroll
     for (int c = 0; c < 6; ++c) {
 #pragma unroll
@@ -323,12 +238,12 @@ __device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, con
     }
     if (lane == 0) f(r, sum);
   }
-  for (std::uint32_t r = tile.long_rows + threadIdx.x; r < tile.bodies; r += blockDim.x) {
+  for (std::uint32_t r = tile.long_lists + threadIdx.x; r < tile.bodies; r += blockDim.x) {
     float sum[6] = {0, 0, 0, 0, 0, 0};
-    const std::uint32_t n = row[r].x;
+    const std::uint32_t n = list[r].x;
     for (std::uint32_t e = 0; e < n; e += 4) {
       const uint4 at = reinterpret_cast<const uint4*>(diagonal)[e / 4];
-      slots.add({at.x + r, at.y + r, at.z + r, at.w + r}, n - e, sum);
+      cells.add({at.x + r, at.y + r, at.z + r, at.w + r}, n - e, sum);
     }
     f(r, sum);
   }
@@ -376,40 +291,13 @@ struct WallAxisMotion {
 /// Returns the index of component c (0…5) in the eight words v, –, ω, – of a body.
 __host__ __device__ constexpr int moving_word(int c) { return c < 3 ? c : c + 1; }
 
-/// Loads the state of a contact from memory. Only laws with a memory have sums; without one, `sum` is left unchanged.
-template <bool memory = true>
-__device__ __forceinline__ void load_state(const float4* state, float (&change)[6], float (&sum)[6]) {
-  const float4 a = state[tile_change * 32], b = state[tile_both * 32];
-  change[0] = a.x, change[1] = a.y, change[2] = a.z, change[3] = a.w, change[4] = b.x, change[5] = b.y;
-  if constexpr (memory) {
-    const float4 c = state[tile_sum * 32];
-    sum[0] = b.z, sum[1] = b.w, sum[2] = c.x, sum[3] = c.y, sum[4] = c.z, sum[5] = c.w;
-  }
-}
-/// Sets the state before a step: zero if the step begins a block, else the state in memory.
-template <bool memory>
-__device__ __forceinline__ void state_before(bool begins, const float4* state, float (&change)[6], float (&sum)[6]) {
-  if (!begins) return load_state<memory>(state, change, sum);
-  for (int c = 0; c < 6; ++c) change[c] = sum[c] = 0;
-}
-/// Stores the state of a contact to memory.
-template <bool memory>
-__device__ __forceinline__ void store_state(float4* state, const float (&change)[6], const float (&sum)[6]) {
-  state[tile_change * 32] = {change[0], change[1], change[2], change[3]};
-  if constexpr (memory) {
-    state[tile_both * 32] = {change[4], change[5], sum[0], sum[1]};
-    state[tile_sum * 32] = {sum[2], sum[3], sum[4], sum[5]};
-  } else {
-    state[tile_both * 32] = {change[4], change[5], 0, 0};
-  }
-}
-
-/// Stores a contact's load on a wall into its wall row; does nothing for a contact between particles.
-__device__ __forceinline__ void store_wall_load(float4* wall_load, GroupAndRow of, const ContactLoad<float>& load) {
-  const std::uint32_t row = of.row();
-  if (row == GroupAndRow::no_row) return;
-  wall_load[2 * row] = {-load.force_a.x, -load.force_a.y, -load.force_a.z, 0};
-  wall_load[2 * row + 1] = {load.moment_b.x, load.moment_b.y, load.moment_b.z, 0};
+/// Stores the load of a contact at a wall, by its wall contact number; does nothing for a contact between particles.
+__device__ __forceinline__ void store_wall_load(float4* wall_load, GroupAndWallContact of,
+                                                const ContactLoad<float>& load) {
+  const std::uint32_t number = of.wall_contact();
+  if (number == GroupAndWallContact::no_wall) return;
+  wall_load[2 * number] = {-load.force_a.x, -load.force_a.y, -load.force_a.z, 0};
+  wall_load[2 * number + 1] = {load.moment_b.x, load.moment_b.y, load.moment_b.z, 0};
 }
 
 }  // namespace macadam::kernels

@@ -2,20 +2,21 @@
 /// \file exec_cuda.hpp  Defines the executor for CUDA devices with two kernels per step, for any contact form, law and
 /// precision. Many steps are enqueued as one graph.
 ///
-/// step_bodies (load_sums.hpp) sums the loads of each body and moves it; step_contacts (step_contacts.hpp) steps each
+/// step_bodies (step_bodies.hpp) sums the loads of each body and moves it; step_contacts (step_contacts.hpp) steps each
 /// contact. A contact writes the loads on its two bodies to records of its own. The records of a body are consecutive,
 /// and the body sums them in fixed order. There are no floating-point atomics, so the same device gives the same bits
 /// in every run.
 #pragma once
 
 #include "kernels/cuda/common/body_arrays.hpp"
+#include "kernels/cuda/two_kernels/step_bodies.hpp"
 #include "kernels/cuda/two_kernels/step_contacts.hpp"
 
 namespace macadam::kernels {
 
 /// Executor for CUDA devices with precision P and a list of laws; see executor.hpp for its functions.
 template <class P, class Laws>
-class ExecCuda : public CudaBodyArrays<P> {
+class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle> {
   using Base = CudaBodyArrays<P>;
 
  public:
@@ -25,11 +26,17 @@ class ExecCuda : public CudaBodyArrays<P> {
   /// ContactForces has code for up to five Kelvin units in registers, besides exactly three.
   static constexpr bool five_units_in_registers = true;
 
-  /// The size does not depend on the device, because it determines the layout, and sums are in the order of the layout.
-  static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
+  using Plan = LayoutPlan;
+  /// The size of the tiles (1024 contacts) does not depend on the device, because it determines the layout, and sums
+  /// are in the order of the layout.
+  static std::optional<Plan> plan(const Specimen& specimen, const ContactNetwork& network, const StepperOptions&) {
+    return Plan{make_layout(specimen, network, Base::lanes, {1024})};
+  }
 
-  ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
-      : Base(network, layout, options, RecordOrder::as_written), step_(1), wall_row_(walls * WallMotion<R>::words) {}
+  ExecCuda(const ContactNetwork& network, const Plan& plan, const StepperOptions& options)
+      : Base(network, plan.layout, options, RecordOrder::as_written),
+        step_(1),
+        wall_row_(walls * WallMotion<R>::words) {}
   ~ExecCuda() {
     this->end_steps();
     forget_graphs();
@@ -43,8 +50,8 @@ class ExecCuda : public CudaBodyArrays<P> {
     contacts_ = std::vector<ContactLaunches<P, AnyLaw>>(this->team_.size());
     slots_ = 0;
     if (!start.first) return records_.clear();
-    this->require_memory(start.group_bytes + this->rows_.records * record_words * sizeof(G));
-    records_ = DeviceArray<G>(this->rows_.shares, record_words);
+    this->require_memory(start.group_bytes + this->lists_.records * record_words * sizeof(G));
+    records_ = DeviceArray<G>(this->lists_.shares, record_words);
   }
 
   template <class L, class Forces>
@@ -73,15 +80,15 @@ class ExecCuda : public CudaBodyArrays<P> {
     motion_.wall.table = wall_row_.data();
     this->add_body_states();
     add_device_state(this->states_, "loads", "N, N m", records_.data(), records_.size(),
-                     [this] { return this->rows_.state_order(this->layout_); });
+                     [this] { return this->lists_.state_order(this->layout_); });
   }
 
   /// Enqueues all steps.
-  void run(std::int64_t, std::int64_t steps) {
+  void run(std::int64_t, std::int64_t steps, std::int64_t) {
     const Range range("time steps");
-    this->team_.meet();  // the start may have written to memory on other streams
+    this->team_.join_streams();  // the start may have written to memory on other streams
     if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_);
-    this->team_.meet();
+    this->team_.join_streams();
     const Ranks* ranks = this->team_.ranks();
     if (waits_for_launches() || this->parts_.runs() || (ranks && !ranks->goes_into_graphs())) {
       for (; steps > 0; --steps) step();
@@ -95,7 +102,7 @@ class ExecCuda : public CudaBodyArrays<P> {
       check_cuda(cudaGraphLaunch(graph, this->team_.stream()), "time steps");
       steps -= n;
     };
-    while (steps >= steps_a_graph) queue(many_, steps_a_graph);
+    while (steps >= steps_per_graph) queue(many_, steps_per_graph);
     while (steps > 0) queue(one_, 1);
   }
 
@@ -111,7 +118,7 @@ class ExecCuda : public CudaBodyArrays<P> {
   void gather() const {
     if (!this->team_.ranks()) return;
     Base::gather();
-    queue_whole(this->team_, records_.data(), record_words, [this](std::size_t m) { return this->rows_.cut[m]; });
+    queue_whole(this->team_, records_.data(), record_words, [this](std::size_t m) { return this->lists_.cut[m]; });
     this->wait();
   }
 
@@ -123,33 +130,31 @@ class ExecCuda : public CudaBodyArrays<P> {
   }
   std::int64_t traffic() const {
     return this->group_bytes_ + this->state_bytes_ + this->body_traffic() +
-           static_cast<std::int64_t>(2 * records_.bytes() + this->rows_.place.bytes());
+           static_cast<std::int64_t>(2 * records_.bytes() + this->lists_.place.bytes());
   }
   Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
   std::int64_t bytes() const { return this->held_bytes() + static_cast<std::int64_t>(records_.bytes()); }
 
  private:
-  static constexpr std::int64_t steps_a_graph = 64;
-
   /// Takes one step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void step() {
-    const bool pushed = motion_.wall.by_force || motion_.body.weight;
+    const bool has_external_loads = motion_.wall.by_force || motion_.body.weight;
     const auto& team = this->team_;
     team.each([&](std::size_t m) {
-      const auto [long_body, long_rows] = this->rows_.long_rows(m, pushed);
+      const auto [long_body, long_lists] = this->lists_.long_lists(m, has_external_loads);
       const std::size_t first = this->cuts_.body(m), end = this->cuts_.body(m + 1);
-      launch("bodies", pushed ? step_bodies<P, true> : step_bodies<P, false>,
-             long_rows + (end - first + bodies_a_block - 1) / bodies_a_block, body_threads, 0, team.stream(m), motion_,
-             records(), long_body, long_rows, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end));
+      launch("bodies", has_external_loads ? step_bodies<P, true> : step_bodies<P, false>,
+             long_lists + (end - first + bodies_a_block - 1) / bodies_a_block, body_threads, 0, team.stream(m), motion_,
+             records(), long_body, long_lists, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end));
     });
-    team.meet();
+    team.join_streams();
     this->parts_.end_of("bodies", team.stream());
     send(moved_);
     team.each([&](std::size_t m) {
       contacts_[m].run(team.stream(m), {this->gathered(), this->displacement_.data()}, records(),
                        m == team.first() ? clock_ : WallClock<R>{});
     });
-    team.meet();
+    team.join_streams();
     this->parts_.end_of("contacts", team.stream());
     send(loads_);
   }
@@ -166,7 +171,7 @@ class ExecCuda : public CudaBodyArrays<P> {
       *graph = nullptr;
     }
   }
-  LoadRecords<G> records() const { return {records_.data(), this->rows_.begin.data(), this->rows_.place.data()}; }
+  LoadRecords<G> records() const { return {records_.data(), this->lists_.begin.data(), this->lists_.place.data()}; }
 
   ParticleMotion<P> motion_{};
   cudaGraphExec_t many_ = nullptr, one_ = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_contacts.hpp  Defines the kernel that steps the contacts of all groups in one launch (first of the two
+/// \file step_contacts.hpp  Defines the kernel that steps the contacts of all groups in one launch (second of the two
 /// kernels of ExecCuda). Each thread block belongs to one group, so that all threads of a warp run the same code.
 #pragma once
 
@@ -8,72 +8,13 @@
 #include <memory>
 #include <type_traits>
 
-#include "kernels/cuda/common/lane_item.hpp"
-#include "kernels/cuda/device/launch.hpp"
 #include "kernels/contact/law_functors.hpp"
+#include "kernels/cuda/common/lane_item.hpp"
+#include "kernels/cuda/common/load_records.hpp"
+#include "kernels/cuda/device/launch.hpp"
+#include "kernels/cuda/device/tuning.hpp"
 
 namespace macadam::kernels {
-
-inline constexpr unsigned contact_threads = 128, contact_blocks = 4;  ///< thread blocks per multiprocessor, at least
-
-inline constexpr unsigned record_words = 6;
-
-/// The records in which contacts store their loads. A record is the load on one end; the records of a body are
-/// consecutive.
-template <class T>
-struct LoadRecords {
-  T* words;                        ///< [record][6] force, moment [N, N·m]
-  const std::uint32_t* row_begin;  ///< [body + 1]
-  const std::uint32_t* place;      ///< [slot][2] records of the A and the B end; UINT32_MAX in an inert slot
-
-  using Two = std::conditional_t<sizeof(T) == 8, double2, float2>;
-  static constexpr unsigned parts = record_words / 2;  ///< number of parts in which a record is written
-
-  /// Writes one record.
-  template <class U>
-  __device__ __forceinline__ static void store(Two* to, const Vec3<U>& force, const Vec3<U>& moment) {
-    to[0] = {T(force.x), T(force.y)};
-    to[1] = {T(force.z), T(moment.x)};
-    to[2] = {T(moment.y), T(moment.z)};
-  }
-  __device__ __forceinline__ Two* record(std::uint32_t number) const {
-    return reinterpret_cast<Two*>(words) + static_cast<std::size_t>(number) * parts;
-  }
-  /// Returns the numbers of a slot's two records.
-  __device__ __forceinline__ uint2 places(std::uint32_t slot) const {
-    return __ldg(reinterpret_cast<const uint2*>(place) + slot);
-  }
-
-  /// Writes the loads of the contact in a slot to its two records; does nothing for an inert slot.
-  template <class U>
-  __device__ __forceinline__ void store(std::uint32_t slot, const ContactLoad<U>& load) const {
-    const uint2 to = places(slot);
-    if (to.x == UINT32_MAX) return;
-    store(record(to.x), load.force_a, load.moment_a);
-    store(record(to.y), -load.force_a, load.moment_b);
-  }
-  /// Does the same as store(), by all threads of a warp together. The records are transposed in shared memory, so that
-  /// neighbouring threads write one record and memory receives whole sectors.
-  template <class U>
-  __device__ __forceinline__ void store_by_warp(std::uint32_t slot, const ContactLoad<U>& load) const {
-    __shared__ Two turned[contact_threads][parts];
-    const uint2 to = places(slot);
-    const unsigned lane = threadIdx.x % 32, first = threadIdx.x - lane;
-    const auto write = [&](std::uint32_t mine, const Vec3<U>& force, const Vec3<U>& moment) {
-      __syncwarp();
-      store(turned[threadIdx.x], force, moment);
-      __syncwarp();
-#pragma unroll
-      for (unsigned k = 0; k < parts; ++k) {
-        const unsigned of = (32 * k + lane) / parts, part = (32 * k + lane) % parts;
-        const std::uint32_t number = __shfl_sync(0xffffffff, mine, static_cast<int>(of));
-        if (number != UINT32_MAX) record(number)[part] = turned[first + of][part];
-      }
-    };
-    write(to.x, load.force_a, load.moment_a);
-    write(to.y, -load.force_a, load.moment_b);
-  }
-};
 
 /// The functors of the groups of a launch, passed to the kernel by value. `Units`: as in ContactForces; laws without
 /// memory fit any number.

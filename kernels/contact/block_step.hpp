@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file block_step.hpp  Takes one step within a block of steps, for one displacement component of a contact: model
+/// (6.8). The CPU (cpu_group.hpp) and the tiles of a GPU (tile_step.hpp) share this code.
+#pragma once
+
+#include "macadam/numeric.hpp"
+
+namespace macadam::kernels {
+
+/// Coefficients of a step; they are the same in every step of a block. See law.block() and block_length.hpp.
+template <class T>
+struct BlockCoefficients {
+  T rate, relax, follow;  ///< rate is multiplied by Δt
+};
+
+/// Advances `change`, which is δf since the beginning of the block, and `sum`, which is the sum of δf' + δf over its
+/// steps, by one step with the relative rate u. `drift`: the effect of the states at the beginning of the block.
+template <class T>
+MACADAM_HD void step_in_block_by(const BlockCoefficients<T>& by, const T& u, const T& drift, T& change, T& sum) {
+  const T before = change;
+  change = before + (by.rate * u + (drift + by.follow * sum - by.relax * before));
+  sum = sum + (change + before);
+}
+
+}  // namespace macadam::kernels

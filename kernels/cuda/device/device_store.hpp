@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file device_store.hpp  Owns device arrays whose type is not known to the owner.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "kernels/cuda/device/array.hpp"
+
+namespace macadam::kernels {
+
+/// Owns device arrays of any type; they are freed with this object.
+class DeviceStore {
+ public:
+  /// Copies a host array to the device and keeps it. Returns the device address.
+  template <class Array>
+  auto keep(const Array& array) {
+    using T = typename Array::value_type;
+    return own(DeviceArray<T>::of(array));
+  }
+  /// Does the same for an array whose items are spread over several devices.
+  template <class Array>
+  auto keep(const Array& array, const Shares& shares) {
+    using T = typename Array::value_type;
+    return own(DeviceArray<T>::of(array, shares));
+  }
+  /// Keeps an array of n zeros.
+  template <class T>
+  T* zeros(std::size_t n) {
+    return own(DeviceArray<T>(n));
+  }
+  /// Does the same for an array with `words` numbers per item, spread over several devices.
+  template <class T>
+  T* zeros(const Shares& shares, std::size_t words) {
+    return own(DeviceArray<T>(shares, words));
+  }
+  std::int64_t bytes() const { return bytes_; }  ///< size of all arrays
+
+ private:
+  template <class T>
+  T* own(DeviceArray<T> array) {
+    bytes_ += static_cast<std::int64_t>(array.bytes());
+    auto kept = std::make_shared<DeviceArray<T>>(std::move(array));
+    owned_.push_back(kept);
+    return kept->data();
+  }
+  std::vector<std::shared_ptr<void>> owned_;
+  std::int64_t bytes_ = 0;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file tile_fit.hpp  Decides by the limits of the devices whether planned tiles run resident, streamed or not at all.
+///
+/// ExecCudaTiles asks fit_tiles() before it allocates anything on a device. docs/gpu-step.md explains both ways.
+#pragma once
+
+#include <algorithm>
+
+#include "kernels/cuda/device/tuning.hpp"
+#include "kernels/cuda/multi_gpu/device_limits.hpp"
+#include "kernels/cuda/tiles/resident_kernel.hpp"
+#include "kernels/cuda/tiles/streamed_kernel.hpp"
+
+namespace macadam::kernels {
+
+template <class P>
+using ResidentKernel = void (*)(TileArrays<P>, std::uint32_t steps, std::uint32_t first_tag);
+template <class P>
+using StreamedKernel = void (*)(TileArrays<P>, std::uint32_t step, bool last);
+
+/// Returns the resident kernel for a geometry (`carried`: updated), a storage of bodies, and laws with or without a
+/// memory. With updated geometry there is one kernel for both.
+template <class P>
+ResidentKernel<P> resident_kernel(bool carried, BodyStorage storage, bool memory) {
+  constexpr int threads = resident_threads;
+  const auto of = [&](auto is_carried, auto has_memory) -> ResidentKernel<P> {
+    constexpr bool c = decltype(is_carried)::value, m = decltype(has_memory)::value;
+    return storage == BodyStorage::shared  ? run_resident<P, threads, c, m, BodyStorage::shared>
+           : storage == BodyStorage::split ? run_resident<P, threads, c, m, BodyStorage::split>
+                                           : run_resident<P, threads, c, m, BodyStorage::global>;
+  };
+  if (carried) return of(std::true_type{}, std::true_type{});
+  return memory ? of(std::false_type{}, std::true_type{}) : of(std::false_type{}, std::false_type{});
+}
+/// Returns the streamed kernel, likewise.
+template <class P>
+StreamedKernel<P> streamed_kernel(bool carried, bool memory) {
+  if (carried) return run_streamed<P, streamed_threads, streamed_blocks, true, true>;
+  return memory ? run_streamed<P, streamed_threads, streamed_blocks, false, true>
+                : run_streamed<P, streamed_threads, streamed_blocks, false, false>;
+}
+
+/// How the tiles of a plan run.
+struct TileFit {
+  enum class Way { none, resident, streamed };
+  Way way = Way::none;                        ///< none: no kernel fits these devices
+  BodyStorage storage = BodyStorage::global;  ///< resident tiles only
+  std::uint32_t shared = 0;                   ///< shared memory of a thread block [byte]
+};
+
+/// Returns the fit of resident tiles. Chooses the storage of bodies with the most data in shared memory among those
+/// whose tiles fit there.
+template <class P>
+TileFit fit_resident(const TilePlan& plan, const DeviceTeam& team, const TeamCuts& cuts, const DeviceLimits& limits,
+                     bool carried) {
+  const auto limit = static_cast<std::uint32_t>(limits.shared);
+  const auto largest = [&](BodyStorage storage, std::uint32_t available) {
+    std::uint32_t bytes = 0;
+    for (const Tile& tile : plan.tile)
+      bytes = std::max(bytes, ResidentMemory<P>(tile, TileContactWords::constants(carried), storage, available).total);
+    return bytes;
+  };
+  TileFit out{TileFit::Way::resident, BodyStorage::global, 0};
+  for (const BodyStorage storage : {BodyStorage::split, BodyStorage::shared}) {
+    if (largest(storage, 0) <= limit) out.storage = storage;
+  }
+  out.shared = largest(out.storage, limit);
+  team.each([&](std::size_t m) {
+    for (const bool memory : {true, false}) {
+      if (!fits_resident(limits, resident_kernel<P>(carried, out.storage, memory), cuts.tile(m + 1) - cuts.tile(m),
+                         resident_threads, out.shared))
+        out.way = TileFit::Way::none;
+    }
+  });
+  return out;
+}
+
+/// Returns how the tiles run on the devices of a team. Resident tiles read the memory of other devices, which ranks
+/// cannot.
+template <class P>
+TileFit fit_tiles(const TilePlan& plan, const DeviceTeam& team, const TeamCuts& cuts, const DeviceLimits& limits,
+                  bool carried) {
+  if (!plan.fits) return {};
+  if (!team.ranks()) {
+    const TileFit resident = fit_resident<P>(plan, team, cuts, limits, carried);
+    if (resident.way == TileFit::Way::resident) return resident;
+  }
+  const std::uint32_t shared = StreamedMemory(plan.most_locals, plan.most_cells).total;
+  if (shared > static_cast<std::uint32_t>(limits.shared)) return {};
+  team.each([&](std::size_t) {
+    for (const bool memory : {true, false}) allow_all_shared_memory(limits, streamed_kernel<P>(carried, memory));
+  });
+  return {TileFit::Way::streamed, BodyStorage::global, shared};
+}
+
+}  // namespace macadam::kernels
