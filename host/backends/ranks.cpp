@@ -36,7 +36,7 @@ void Ranks::require_same(const std::string& what, std::int64_t value) {
   const std::int64_t low = least_of(value), high = -least_of(-value);
   if (low == high) return;
   throw RunError("ranks: " + what + ": found " + std::to_string(low) + " and " + std::to_string(high) +
-                 ", expected the same of all: they no longer run the same scene");
+                 ", expected the same number on all ranks: they do not run the same scene");
 }
 
 DeviceList device_of(const Ranks& team, const DeviceList& asked) {
@@ -46,7 +46,7 @@ DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   // each process may see another device as its only one; if processes share one, NCCL reports the error
   if (devices.size() == 1) return devices;
   if (own >= devices.size()) {
-    throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " on this host beside " +
+    throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " on this host with " +
                      std::to_string(devices.size()) + " devices, expected one for each device");
   }
   return {devices[own]};
@@ -62,11 +62,11 @@ Ranks* join_ranks() {
   if (joined) return joined;
   std::string why;
   const RanksPlugin* const plugin = find(why);
-  if (!plugin) throw RunError("ranks: this process cannot join others: " + why);
+  if (!plugin) throw RunError("ranks: this process cannot join the others: " + why);
   Ranks* const found = plugin->join();
   if (found->count() == 1 && processes_begun() > 1) {
     throw RunError("ranks: found this process alone, expected " + std::to_string(processes_begun()) +
-                   ": they were begun by another MPI than that of libmacadam_ranks.so");
+                   ": they were started by another MPI than libmacadam_ranks.so uses");
   }
   if (found->count() > 1) return joined = found;
   found->leave();

@@ -51,7 +51,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // help, version
   say_error("macadam: {}\n", fault_of(app, error));
-  say_error("--help behind a command lists what it takes\n");
+  say_error("--help after a command lists its arguments and options\n");
   return 2;
 }
 

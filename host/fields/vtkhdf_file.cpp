@@ -232,8 +232,8 @@ class VtkHdfSeries : public FieldSeries {
   /// Opens an existing file and removes the frames from time `until` on.
   void go_on(double until) {
     const auto refuse = [&](const std::string& found) {
-      throw InputError(name_.string(), 0, "fields to go on with", found,
-                       "those of this run; without the file the run goes on, and begins a new one");
+      throw InputError(name_.string(), 0, "fields to continue", found,
+                       "the fields of this run; if the file is removed, the run begins a new one");
     };
     std::vector<double> times;
     std::int64_t points = -1;
@@ -249,7 +249,7 @@ class VtkHdfSeries : public FieldSeries {
         times.resize(std::min(times.size(), static_cast<std::size_t>(std::max<std::int64_t>(0, number))));
         open_->hdf5().openDataSet("VTKHDF/NumberOfPoints").read(&points, type_of(points));
       });
-    } catch (const RunError& error) { refuse("what cannot be read (" + std::string(error.what()) + ")"); }
+    } catch (const RunError& error) { refuse("data that cannot be read (" + std::string(error.what()) + ")"); }
     if (points != static_cast<std::int64_t>(mesh_.point_count())) {
       refuse(fmt::format("{} points, not {}", points, mesh_.point_count()));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made (kernels/contact/contact_data.hpp).
+// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made
+// (kernels/contact/contact_data.hpp).
 #include "host/run/skips.hpp"
 
 #include <fmt/format.h>
@@ -34,15 +35,17 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   std::vector<Skip> out;
   const auto [unitless, unitless_count] = pairs_that(scene, prepared, [](const auto& law) { return law.units() == 0; });
   if (unitless_count > 0) {
-    out.push_back({"Kelvin units", fmt::format("{} contacts ({}) have none", unitless_count, unitless), "rounding"});
+    out.push_back(
+        {"Kelvin units", fmt::format("{} contacts ({}) have no Kelvin units", unitless_count, unitless), "rounding"});
   }
   const auto [elastic, elastic_count] =
       pairs_that(scene, prepared, [](const auto& law) { return decltype(law.template step<double>(1.0))::memoryless; });
   if (elastic_count > 0 && fixed && !reference) {
-    out.push_back({"contact states",
-                   fmt::format("{} elastic contacts ({}) of fixed geometry follow from the displacements",
-                               elastic_count, elastic),
-                   "rounding: not summed over the steps"});
+    out.push_back(
+        {"contact states",
+         fmt::format("the forces of {} elastic contacts ({}) with fixed geometry follow from the displacements",
+                     elastic_count, elastic),
+         "rounding: forces are not summed over the steps"});
   }
   const auto [smooth, smooth_count] =
       pairs_that(scene, prepared, []<class L>(const L& law) { return law.alpha == 0 && !coupled_law<L>; });
@@ -50,28 +53,29 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
     out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), none});
   }
   if (!reference && nothing_turns(prepared.network, scene.laws)) {
-    out.push_back({"rotations", "no shear, and every facet is centred: nothing turns a particle",
-                   "first moments below 1e-12 are taken as 0"});
+    out.push_back({"rotations", "there is no shear and every facet is centred, so particles do not rotate",
+                   "first moments below 1e-12 count as 0"});
   }
   if (fixed) {
-    out.push_back({"geometry update", "normals and lever arms are those of the start",
+    out.push_back({"geometry update", "normals and lever arms keep their initial values",
                    strain ? fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
                                         fixed_geometry_error(std::abs(*strain)), *strain)
                           : "grows as the square of the strain: see docs/accuracy.md"});
   }
   if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
-    out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});
+    out.push_back({"second moments", "a facet has one point, so three chains replace six", "rounding"});
   }
   if (const auto n = prepared.network.dropped_area; n > 0) {
-    out.push_back({"tiny facets", fmt::format("{} below area_min", n),
-                   fmt::format("of the order of {:.0e} of |E*|: their share of the facets' area",
-                               prepared.network.dropped_share)});
+    out.push_back(
+        {"tiny facets", fmt::format("{} below area_min", n),
+         fmt::format("about {:.0e} of |E*|, their fraction of the facets' area", prepared.network.dropped_share)});
   }
   if (const auto n = prepared.network.dropped_gap; n > 0) {
-    out.push_back({"open facets", fmt::format("{} wider than gap_max", n), "another model: compare without gap_max"});
+    out.push_back({"open facets", fmt::format("{} wider than gap_max", n),
+                   "this is another model: compare with a run without gap_max"});
   }
   if (!scene.network.lateral_walls)
-    out.push_back({"lateral walls", "the sides are free", "free sides, as the scene has them"});
+    out.push_back({"lateral walls", "the sides are free", "none: the scene asks for free sides"});
   if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", none});
   return out;
 }

@@ -133,13 +133,14 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
     result.backend = backend.get();
   }
   if (!resume && stepped && watcher.warn && is_checkpoint_of(out / checkpoint_name, scene, result.backend))
-    watcher.warn((out / checkpoint_name).string() + ": this run was begun before and begins anew; --resume goes on");
+    watcher.warn((out / checkpoint_name).string() +
+                 ": this run was begun before and now starts again; --resume would continue it");
   if (resumed) require_same_specimen(resumed->file, resumed->checkpoint, prepared);
   if (!damage.empty()) {
     std::error_code error;
     std::filesystem::rename(resumed->file, out / checkpoint_name, error);
     if (error) throw RunError(resumed->file.string() + ": cannot become " + checkpoint_name + ": " + error.message());
-    damage = "the run went on from the checkpoint before the newest, which is missing or damaged: " + damage;
+    damage = "the run continues from the previous checkpoint, because the newest one is missing or damaged: " + damage;
     if (watcher.warn) watcher.warn(damage);
   }
   if (watcher.prepared) watcher.prepared(prepared);
@@ -162,7 +163,8 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   try {
     solution = plan_experiment(scene, prepared, watcher, std::move(resumed), result);
   } catch (const InterruptedError&) {
-    throw InterruptedError("interrupted while planning; nothing was written, what the folder held is as it was");
+    throw InterruptedError(
+        "interrupted while planning; nothing was written, and the files in the folder are unchanged");
   } catch (const RunError&) {
     if (std::filesystem::exists(out / "summary.json")) throw;
     // without older results, the specimen is written all the same, so that the user can look at it
@@ -173,7 +175,7 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   result.warnings.insert(result.warnings.end(), packing.begin(), packing.end());
   if (scene.network.lateral_walls) {
     result.warnings.emplace_back(
-        "the sides are held: moduli are those of a confined specimen, not |E*| or E(t) of a free one");
+        "the sides are held, so the moduli are confined moduli, not |E*| or E(t) of a specimen with free sides");
   }
   // the last point at which an interruption leaves no trace
   if (watcher.progress) watcher.progress("writing the specimen", 0);

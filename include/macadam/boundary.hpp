@@ -50,8 +50,8 @@ struct Boundary {
     for (std::size_t other = 0; other < 3; ++other) {
       if (other == loaded || wall[w].axis[other].by != DrivenBy::force || wall[w].mass == mass) continue;
       char text[96];
-      std::snprintf(text, sizeof text, "found %g kg, expected %g kg, as was said with its axis %c", mass, wall[w].mass,
-                    "xyz"[other]);
+      std::snprintf(text, sizeof text, "found %g kg, expected %g kg, the mass given with its axis %c", mass,
+                    wall[w].mass, "xyz"[other]);
       throw InputError(std::string("boundary: wall ") + wall_names[w] + ": mass: " + text);
     }
     wall[w].axis[loaded] = {DrivenBy::force, std::move(drive)};

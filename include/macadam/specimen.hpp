@@ -153,9 +153,10 @@ struct SpecimenSpec {
   std::optional<MasticSpec> mastic;
   std::optional<VoidSpec> voids;
   SizeLaw size_law = SizeLaw::log_uniform;
-  double spacing = 0;          ///< smallest distance between two aggregates inserted one after the other [m]
-  bool fix_aggregates = true;  ///< hold the aggregates while the mastic relaxes (otherwise |E*| changes by 6–7 %)
-  std::int64_t attempts = 2'000'000;  ///< positions tried for one aggregate before its class is given up
+  double spacing = 0;  ///< smallest distance between two aggregates inserted one after the other [m]
+  bool fix_aggregates =
+      true;  ///< whether aggregates are fixed while the mastic relaxes (otherwise |E*| changes by 6–7 %)
+  std::int64_t attempts = 2'000'000;  ///< number of positions tried for one aggregate before the generator gives up
   std::string source = "specimen";    ///< the scene's file, for messages
   int line = 0;                       ///< line of its section in that file; 0: none
 };

@@ -266,7 +266,7 @@ TEST_F(CommandLine, ACudaDeviceIsChosenByNumber) {
   ASSERT_EQ(run_quick("cpu", "--backend cpu").code, 0);
   const Outcome beside = run_quick("beside", "--backend cpu --device 0");
   EXPECT_EQ(beside.code, 2);
-  EXPECT_TRUE(contains(beside.err, "device: found 0 beside backend cpu, expected backend cuda or auto")) << beside.err;
+  EXPECT_TRUE(contains(beside.err, "device: found 0 with backend cpu, expected backend cuda or auto")) << beside.err;
   const BackendReport report = report_backends();
   const Outcome missing = run_quick("missing", "--device 1023");
   EXPECT_TRUE(contains(missing.err, report.cuda_status)) << missing.err;

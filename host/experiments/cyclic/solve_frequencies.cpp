@@ -49,9 +49,9 @@ std::string described(const Scene& scene, double viscous) {
   std::string out = solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
   if (viscous > 0) out += " and viscous damping";
   if (solver.damping_kind != Damping::none && viscous == 0) {
-    out += fmt::format("; {} damping has no part in it", to_string(solver.damping_kind));
+    out += fmt::format("; {} damping is not used", to_string(solver.damping_kind));
   }
-  if (const std::string unused = unused_settings(scene); !unused.empty()) out += "; no use for " + unused;
+  if (const std::string unused = unused_settings(scene); !unused.empty()) out += "; not used: " + unused;
   return out;
 }
 
@@ -117,7 +117,7 @@ class HarmonicSolution : public Solution {
         }
       } catch (const InterruptedError&) {
         throw InterruptedError("interrupted at " + where +
-                               "; summary.json has those before it; method harmonic keeps no checkpoints");
+                               "; summary.json holds the results before it; method harmonic keeps no checkpoints");
       }
     }
   }
@@ -150,7 +150,9 @@ class HarmonicSolution : public Solution {
                        scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0, s.top, s.seconds);
       f.linear = s.linear;
       if (!s.why_factors.empty()) {
-        result.warnings.push_back(fmt::format("{} Hz: solved with factors: {}", s.frequency_hz, s.why_factors));
+        result.warnings.push_back(
+            fmt::format("{} Hz: solved with the direct solver, because the iterative solver cannot be used: {}",
+                        s.frequency_hz, s.why_factors));
       }
       f.parts = s.parts;
       f.bottom = s.bottom;

@@ -81,7 +81,8 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
   plan.decisions.push_back(
-      fmt::format("laws settled {:.0f} times in the shortest time of load and laws: that costs at most {:.1e}",
+      fmt::format("viscoelastic states are updated {:.0f} times within the shortest time of load and laws, not in "
+                  "every step: the error is at most {:.1e}",
                   std::ceil(blocks), block_error(blocks)));
 }
 
@@ -127,7 +128,8 @@ class Steps : public Solution {
     try {
       stepper_ = make(at_.seconds.size(), std::exchange(at_.state, {}), result);
     } catch (const Error& error) {
-      if (resumed) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
+      if (resumed)
+        throw InputError(checkpoint.string() + ": this machine cannot continue the checkpoint: " + error.what());
       throw;
     }
   }
@@ -145,9 +147,10 @@ class Steps : public Solution {
     found.seconds_planning = at_.seconds_planning;
     result.skips = find_skips(scene_, prepared_, at_.plan.form, at_.plan.geometry, scene_.cyclic().strain_amplitude);
     if (!scene_.output.response) {
-      result.skips.push_back({"observation",
-                              "response.csv is not asked for: only the fitted cycles and the one before are observed",
-                              "none: same bits"});
+      result.skips.push_back(
+          {"observation",
+           "response.csv is not requested, so only the fitted cycles and the cycle before them are sampled",
+           "none: same bits"});
     }
     result.warnings = at_.warnings;
     for (std::size_t i = 0; i < at_.seconds.size(); ++i) finish(i, result);
@@ -317,10 +320,10 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
     at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
     decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
-      at.warnings.push_back(fmt::format(
-          "law {} of {} has no complex stiffness: |E*| and phi are those of the fundamental of the measured "
-          "loops, at this amplitude and after these cycles, and no frequency domain judges them",
-          without->law, to_string(without->pair)));
+      at.warnings.push_back(
+          fmt::format("law {} of {} has no complex stiffness: |E*| and phi describe the fundamental of the measured "
+                      "loops at this amplitude and after these cycles, and no harmonic solution can check them",
+                      without->law, to_string(without->pair)));
     }
     at.seconds_planning = seconds_since(start);
   }

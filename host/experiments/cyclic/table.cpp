@@ -74,7 +74,8 @@ std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
                                                            phase, f.density_scaling, f.steps, f.seconds);
   }
   if (known)
-    out += fmt::format("err: against the harmonic solution at true mass, {} relative, phi in radians\n", modulus);
+    out +=
+        fmt::format("err: difference from the harmonic solution at true mass, {} relative, phi in radians\n", modulus);
   return out;
 }
 

@@ -20,11 +20,12 @@ Creep ExperimentOf<Creep>::read(const scene::Section& section) {
                            poisson_key(out.poisson_ratio),
                            {"stress", Need::required, into(out.stress, modulus, any), "that is held; tension positive"},
                            {"ramp", Need::optional, into(out.ramp, duration, non_negative),
-                            "over which the load grows evenly; 0: at once"},
+                            "time over which the load grows evenly; 0: at once"},
                            {"release", Need::optional, into(out.release, duration, positive),
-                            "from then on the stress goes as it came", "never"},
+                            "time at which the stress begins to be removed, as slowly as it was applied", "never"},
                            {"platen_mass", Need::optional, into(out.platen_mass, mass, positive),
-                            "of the loaded top wall; stepped only", "the least that does not shorten the step"}});
+                            "mass of the loaded top wall, for method \"explicit\"",
+                            "the smallest that does not shorten the time step"}});
   section.read(keys);
   out.times = times.all(section, "times", "s", "time");
   if (out.release && *out.release < out.ramp) {

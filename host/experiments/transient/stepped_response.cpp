@@ -115,13 +115,12 @@ std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
     out += shown_line(words, ratio, p) + fmt::format(" {:>9.1e}", p.error) +
            (found.cracks ? fmt::format(" {:>9}", p.broken_points) : "");
   }
-  return out +
-         fmt::format(
-             "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
-             "error: from the answer without steps, or an estimate where there is none; kinetic energy: {:.1e} of the "
-             "work\n",
-             modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
-             found.kinetic_share);
+  return out + fmt::format(
+                   "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
+                   "error: difference from the response without time steps if that is known, else an estimate; kinetic "
+                   "energy: at most {:.1e} of the work\n",
+                   modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
+                   found.kinetic_share);
 }
 
 }  // namespace macadam

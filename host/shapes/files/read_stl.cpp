@@ -84,7 +84,7 @@ class AsciiStl {
     const bool inner = keyword == Keyword::vertex || keyword == Keyword::endfacet;
     if (keyword == Keyword::none ? !in_facet_ : inner != in_facet_)
       words_.fail(facet_name(soup_.facets()), in_quotes(word),
-                  in_facet_ ? "vertex or endfacet" : "facet or endsolid, as a facet is not open");
+                  in_facet_ ? "vertex or endfacet" : "facet or endsolid, because no facet is open");
     switch (keyword) {
       case Keyword::solid:
       case Keyword::endsolid:
