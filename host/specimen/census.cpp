@@ -6,7 +6,7 @@
 
 #include "host/specimen/composition.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
-#include "host/specimen/sparse_box.hpp"
+#include "host/spheres/sparse_box.hpp"
 #include "host/tessellation/packing_check.hpp"
 
 namespace macadam {
