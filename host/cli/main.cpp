@@ -36,7 +36,9 @@ std::vector<std::string> known_words(const CLI::App& command, bool options) {
 /// Describes what is wrong with a command line. CLI11 itself reports a missing word before an unknown one.
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = reached(app);
-  const std::vector<std::string> unknown = app.remaining(true), commands = known_words(command, false);
+  const std::vector<std::string> commands = known_words(command, false);
+  std::vector<std::string> unknown = app.remaining(true);
+  std::erase(unknown, "--");  // CLI11 lists this mark too, which is never the culprit
   if (unknown.empty()) {
     if (commands.empty()) return error.what();
     return fmt::format("found no command, expected one of {}", fmt::join(commands, ", "));

@@ -6,6 +6,15 @@
 
 namespace macadam::scene {
 
+std::optional<ShapeSpec::Library> shipped_library(const std::string& name) {
+  static const std::map<std::string, ShapeSpec::Library> shipped{
+      {"aggregates", ShapeSpec::Library::aggregates},
+      {"icosahedron", ShapeSpec::Library::icosahedron},
+      {"aggregates and icosahedron", ShapeSpec::Library::aggregates_and_icosahedron}};
+  const auto found = shipped.find(name);
+  return found == shipped.end() ? std::nullopt : std::optional(found->second);
+}
+
 ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folder) {
   constexpr Rule porosity{[](double v) { return v >= -0.5 && v < 1; }, "a porosity from -0.5 to below 1"};
   constexpr Rule gap{[](double v) { return v > 0 && v < 0.5; }, "a fraction above 0 and below 0.5"};
@@ -13,12 +22,8 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
   ShapeSpec out;
   const auto read_library = [&](const Value& value) {
     const std::string name = value.text();
-    const std::map<std::string, ShapeSpec::Library> shipped{
-        {"aggregates", ShapeSpec::Library::aggregates},
-        {"icosahedron", ShapeSpec::Library::icosahedron},
-        {"aggregates and icosahedron", ShapeSpec::Library::aggregates_and_icosahedron}};
-    if (const auto found = shipped.find(name); found != shipped.end()) {
-      out.library = found->second;
+    if (const auto shipped = shipped_library(name)) {
+      out.library = *shipped;
       return;
     }
     out.library = ShapeSpec::Library::folder;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/sections.hpp"
 #include "host/scene/toml.hpp"
 #include "macadam/error.hpp"
 
@@ -92,8 +93,7 @@ void SceneText::move(const std::filesystem::path& from, const std::filesystem::p
     const toml::table root = toml::parse(text_);
     const auto view = shapes ? root["specimen"]["shapes"]["library"] : root["specimen"]["file"];
     const auto name = view.value<std::string>();
-    if (!name || (shapes && (*name == "aggregates" || *name == "icosahedron")) || fs::path(*name).is_absolute())
-      continue;
+    if (!name || (shapes && shipped_library(*name)) || fs::path(*name).is_absolute()) continue;
     const fs::path moved =
         fs::weakly_canonical(fs::absolute(from) / *name).lexically_relative(fs::weakly_canonical(fs::absolute(to)));
     // "./" marks the name as a folder, even if a built-in library has the same name

@@ -180,6 +180,20 @@ TEST_F(FieldFiles, AFullDiskIsAnErrorThatNamesTheFileAndLeavesTheFramesBefore) {
   expect_frames(4, points);
 }
 
+// After a failed frame the same series continues the file: the frames before the failure stay, and none is skipped.
+TEST_F(FieldFiles, AFrameAfterAFailedOneFollowsTheFramesBefore) {
+  constexpr std::size_t points = 20'000;  // 320 kB per frame
+  const auto series = begin(points);
+  for (int k = 0; k < 3; ++k) series->add(k, arrays_at(points, k));
+  {
+    const FileLimit limit(fs::file_size(vtkhdf()) + 100'000);
+    EXPECT_HAS(message_of([&] { series->add(3, arrays_at(points, 3)); }), "row.vtkhdf: cannot be written");
+  }
+  series->add(3, arrays_at(points, 3));
+  EXPECT_EQ(series->size(), 4u);
+  expect_frames(4, points);
+}
+
 TEST_F(FieldFiles, WhatHasNoFirstFrameLeavesNothing) {
   const FileLimit limit(100'000);
   for (const FieldFormat format : {FieldFormat::vtkhdf, FieldFormat::vtp}) {

@@ -64,6 +64,7 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
            {"run " + job + " --devices 1,1", "found \"1,1\", expected all, or different"},
            {"shapes fil", "found \"fil\", expected fill (the nearest of "},
            {"specimen " + job + " more", "found \"more\", expected nothing more"},
+           {"specimen -- " + path("scene.toml"), "--out is required"},
            {"", "found no command, expected one of run, specimen, shapes, fit, calibrate, ct, info"},
            {"shapes fill x --out y --radius 1 --scale 0", "--scale: found \"0\", expected a number from 1e-12 to "}}) {
     const Outcome outcome = macadam(arguments);
