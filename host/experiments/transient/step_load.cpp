@@ -127,7 +127,7 @@ class SteppedLoad : public Solution {
       result.warnings.push_back(warning);
       if (watcher_.warn) watcher_.warn(warning);
     });
-    const LoadWords& words = words_of(test_.kind);
+    const LoadWords& words = load_words(test_.kind);
     LineWriter writer(out / words.file, head(words));
     for (const SteppedPoint& p : at_.points) writer.add(line(words, p));
     std::optional<LineWriter> cracks_writer;

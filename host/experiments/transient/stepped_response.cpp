@@ -65,7 +65,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
                                           nlohmann::ordered_json& summary) {
   using Json = nlohmann::ordered_json;
   if (!found.kind.empty()) {
-    const LoadWords& words = words_of(found.kind);
+    const LoadWords& words = load_words(found.kind);
     Json out = {{"kind", found.kind},
                 {"sides", found.confined ? "held" : "free"},
                 {"modulus", found.confined ? "confined" : "uniaxial"},
@@ -105,7 +105,7 @@ double ResultOf<SteppedResponse>::seconds(const SteppedResponse& found) {
 
 template <>
 std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
-  const LoadWords& words = words_of(found.kind);
+  const LoadWords& words = load_words(found.kind);
   std::string out = measures_strength(found) ? strength_words(found) : "";
   if (found.rupture && measures_strength(found)) out += rupture_words(*found.rupture, *found.cracks) + "\n";
   if (found.cracks) out += cracks_words(*found.cracks) + "\n";

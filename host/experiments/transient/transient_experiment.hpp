@@ -62,8 +62,8 @@ struct LoadWords {
   const char* shown_stepped;        ///< the same in a stepped run, for the ratio of strain and stress of a row
   double unit;                      ///< unit in which people see the ratio
 };
-/// Returns the names of a kind's numbers; those of "relaxation" for an unknown kind.
-const LoadWords& words_of(const std::string& kind);
+/// Returns the names of a kind's numbers. \throws RunError for a kind that is not a test of a load.
+const LoadWords& load_words(const std::string& kind);
 
 /// Return a point for the kind's file, for summary.json and for people, and the lines that stand above points.
 /// @{
