@@ -58,8 +58,8 @@ std::string described(const Scene& scene, double viscous) {
 class HarmonicSolution : public Solution {
  public:
   HarmonicSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
-                   std::vector<HarmonicFrequency>& found)
-      : scene_(scene), prepared_(prepared), watcher_(watcher), found_(found) {
+                   ListOfStates states)
+      : scene_(scene), prepared_(prepared), watcher_(watcher), states_(states) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
     // the reference backend implements time steps only; the direct solver runs on the CPU only
@@ -143,7 +143,7 @@ class HarmonicSolution : public Solution {
 
   void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) {
     for (const HarmonicResult& s : solved) {
-      const std::size_t i = found_.size() % frequencies_.size();
+      const std::size_t i = states_(result).size() % frequencies_.size();
       HarmonicFrequency f;
       static_cast<experiments::Frequency&>(f) =
           frequency_of(scene_, s.frequency_hz, isothermal_.materials.temperature,
@@ -165,7 +165,7 @@ class HarmonicSolution : public Solution {
         const bool several = !temperatures_.empty();
         fields_->write(s, isothermal_.laws, several ? f.temperature_c : std::nullopt);
       }
-      found_.push_back(std::move(f));
+      states_(result).push_back(std::move(f));
     }
     save("running");
   }
@@ -173,7 +173,7 @@ class HarmonicSolution : public Solution {
   const Scene& scene_;
   const Preparation& prepared_;
   const Watcher& watcher_;
-  std::vector<HarmonicFrequency>& found_;
+  ListOfStates states_;
   std::vector<double> frequencies_ = frequencies_of(scene_.experiment),
                       temperatures_ = temperatures_of(scene_.experiment);
   Backend backend_ = Backend::cpu;
@@ -186,8 +186,8 @@ class HarmonicSolution : public Solution {
 }  // namespace
 
 std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                        RunResult& result, std::vector<HarmonicFrequency>& found) {
-  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result, found);
+                                        RunResult& result, ListOfStates states) {
+  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result, states);
 }
 
 }  // namespace macadam
