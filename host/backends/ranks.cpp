@@ -15,7 +15,7 @@ namespace {
 
 Ranks* joined = nullptr;
 
-/// Returns the table of the plugin, or nullptr if there is none; `why` then gets the reason.
+/// Returns the table of the plugin, or nullptr without a plugin; `why` then gets the reason.
 const RanksPlugin* find(std::string& why) {
   const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
   return static_cast<const RanksPlugin*>(find_plugin(asked, why));

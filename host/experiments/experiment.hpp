@@ -54,11 +54,11 @@ struct ResultOf {
   static std::string table(const Result& found);
 };
 
-/// An experiment that is planned, and what is known of its result beforehand.
+/// A planned experiment, and the part of its result that is known before it runs.
 struct Planned {
   std::unique_ptr<Solution> solution;
   RunResult result;               ///< decisions, skips, warnings and the wall time of the planning
-  std::exception_ptr unsolvable;  ///< why there is no solution; nullptr if there is one
+  std::exception_ptr unsolvable;  ///< why the experiment cannot be solved; nullptr if it can
 };
 
 /// Calls `plan` of the scene's experiment. A RunError is returned as `unsolvable`, together with the results until

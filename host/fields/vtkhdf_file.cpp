@@ -231,7 +231,7 @@ class VtkHdfSeries : public FieldSeries {
     }
   }
 
-  /// Opens an existing file and removes the frames from time `until` on, and what a failed frame may have left.
+  /// Opens an existing file and removes the frames from time `until` on, and remains of a failed frame.
   void reopen(double until) {
     const auto refuse = [&](const std::string& found) {
       throw InputError(name_.string(), 0, "fields to continue", found,

@@ -23,7 +23,7 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t user_block = 512;  ///< the smallest size that HDF5 allows
-constexpr std::size_t growth = 1 << 24;  ///< bytes by which HDF5 enlarges a file in memory
+constexpr std::size_t growth = 1 << 24;  ///< bytes by which HDF5 enlarges one file in memory
 
 template <class T>
 StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
@@ -34,8 +34,8 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-/// Returns settings for HDF5's "core" driver, which keeps a file in memory. HDF5 then never meets a full disk, an error
-/// that it does not survive.
+/// Returns settings for HDF5's "core" driver, which keeps one file in memory. HDF5 then never meets a full disk, an
+/// error that it does not survive.
 H5::FileAccPropList in_memory() {
   H5::FileAccPropList access;
   access.setCore(growth, false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// result_folder.cpp  Locks a folder by flock() on the directory.
+// result_folder.cpp  Locks one folder by flock() on the directory.
 #include "host/files/result_folder.hpp"
 
 #include <fcntl.h>

@@ -53,7 +53,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
     out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), none});
   }
   if (!reference && nothing_turns(prepared.network, scene.laws)) {
-    out.push_back({"rotations", "there is no shear and every facet is centred, so particles do not rotate",
+    out.push_back({"rotations", "without shear and with centred facets particles do not rotate",
                    "first moments below 1e-12 count as 0"});
   }
   if (fixed) {

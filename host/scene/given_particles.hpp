@@ -5,7 +5,7 @@
 namespace macadam::scene {
 
 /// The value of `[specimen] file` in such a scene. Reading the scene does not look for the file. A run that is not
-/// given the particles fails, because there is no file of this name.
+/// given the particles fails, because no file has this name.
 inline constexpr const char* given_particles = "particles given in Python";
 
 }  // namespace macadam::scene

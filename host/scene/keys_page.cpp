@@ -55,7 +55,7 @@ std::string usual_of(const KnownKey& key) {
   return key.words.usual.empty() ? "" : code(key.words.usual);
 }
 
-/// Returns a key's row in the table of its section.
+/// Returns the row of a key in the table of its section.
 std::string row(const KnownKey& key) {
   std::string text = key.text;
   if (!key.chosen.empty()) text += fmt::format(" ({} {})", key.chooser, fmt::join(key.chosen, ", "));

@@ -39,7 +39,7 @@ std::string wrapped(const std::string& text, const std::string& before) {
   return out + line + '\n';
 }
 
-/// Returns a line of the scene with its comment: behind it if both fit into the width, otherwise above it.
+/// Returns one line of the scene with its comment: behind it if both fit into the width, otherwise above it.
 std::string line_of(const std::string& line, const std::string& comment) {
   const std::size_t column = std::max(comment_column, line.size() + 2);
   if (column + 2 + comment.size() > width) return wrapped(comment, "# ") + line + '\n';

@@ -58,7 +58,7 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
                               {{"packing", PlacementMethod::packing}, {"insertion", PlacementMethod::insertion}}),
         "packing: all at once, grown while overlaps push them apart; insertion: one by one at random positions"},
        {"allow_short", Need::optional, into(out.allow_short),
-        "insertion: aggregates for which there is no space are left out"},
+        "insertion: whether aggregates that find no space are left out"},
        {"test", Need::optional,
         into<PlacementTest>(out.test, {{"surfaces", PlacementTest::surfaces}, {"spheres", PlacementTest::spheres}}),
         "insertion: objects that must not touch: surfaces of the shapes, or the spheres that fill them"},

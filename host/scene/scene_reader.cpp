@@ -18,7 +18,7 @@ namespace macadam {
 namespace scene {
 namespace {
 
-/// Largest size of a scene file [bytes]. A scene is written by hand; a larger file is not a scene.
+/// Largest size of a scene file [bytes]. People write scenes; a larger file is not a scene.
 constexpr std::uintmax_t longest_file = 1u << 20;
 /// Longest line [bytes]. A dotted key `a.a.a.…` nests one table per dot, and nested tables are destroyed recursively,
 /// so the length of a line limits the depth of the recursion.
@@ -59,7 +59,7 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
   }
 }
 
-/// Limits of a density, whose unit is kg/m³ if none is written. No solid is lighter than the lower limit, so a smaller
+/// Limits of a density, in kg/m³ without a unit. No solid is lighter than the lower limit, so a smaller
 /// number was probably meant in g/cm³.
 constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
                         "10 to 30000 kg/m3; a density in another unit is text with the unit"};

@@ -50,8 +50,8 @@ Change replaced(const std::string& text, const toml::node& node, std::string by)
   return {offset_of(text, node.source().begin), offset_of(text, node.source().end), std::move(by)};
 }
 
-/// Returns the change that sets a key: its value is replaced if the key is there, otherwise the key is added before the
-/// first key of the table.
+/// Returns the change that sets one key: its value is replaced if the key is there, otherwise the key is added before
+/// the first key of the table.
 Change set(const std::string& text, const toml::table& table, const std::string& key, std::string value) {
   if (const toml::node* node = table.get(key)) return replaced(text, *node, std::move(value));
   toml::source_position first{~toml::source_index{0}, 0};
@@ -96,7 +96,7 @@ void SceneText::move(const std::filesystem::path& from, const std::filesystem::p
     if (!name || (shapes && shipped_library(*name)) || fs::path(*name).is_absolute()) continue;
     const fs::path moved =
         fs::weakly_canonical(fs::absolute(from) / *name).lexically_relative(fs::weakly_canonical(fs::absolute(to)));
-    // "./" marks the name as a folder, even if a built-in library has the same name
+    // "./" marks the name as that of a folder, even if a built-in library has the same name
     const Change change = replaced(text_, *view.node(), quoted((shapes ? "./" : "") + moved.string()));
     replace(change.begin, change.end, change.by);
   }

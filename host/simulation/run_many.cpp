@@ -72,8 +72,8 @@ DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   return out;
 }
 
-/// Runs the scenes on worker threads. A scene waits for a part of the cores, is prepared, and then takes a device if it
-/// runs on one. It holds its cores until a device takes its steps, or to its end.
+/// Runs the scenes on worker threads. A scene waits for a part of the cores, is prepared, and then takes one device if
+/// it runs on one. It holds its cores until a device takes its steps, or to its end.
 class Pool {
  public:
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
@@ -136,7 +136,7 @@ class Pool {
     }
   }
 
-  /// Runs one scene after the other until none is left. Each worker thread does this.
+  /// Runs one scene after the other until all are done. Each worker thread does this.
   void work() {
     for (;;) {
       std::size_t job = 0;

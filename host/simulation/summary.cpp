@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// summary.cpp  Writes a run as JSON. The keys of the first level are fixed, because programs read the files of older
+// summary.cpp  Writes one run as JSON. The keys of the first level are fixed, because programs read the files of older
 // runs.
 #include "host/simulation/summary.hpp"
 

@@ -43,7 +43,7 @@ void describe(Specimen& specimen, const std::vector<std::int32_t>& size_class, s
   }
 }
 
-/// Returns the radius of the largest void [m], or 0 if there are none.
+/// Returns the radius of the largest void [m], or 0 without voids.
 double largest(const std::vector<Population>& voids) {
   return voids.empty() || voids.front().radius.empty() ? 0 : voids.front().radius.front();
 }

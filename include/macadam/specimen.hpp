@@ -70,9 +70,9 @@ Specimen with_voids_as_cells(const Specimen& specimen);
 void validate(const Specimen& specimen, const std::string& source);
 
 /// Reads `id,x,y,z,radius,phase,body` (metres; plain text or gzip, detected from the content), in file order, and
-/// validates it. Rows of phase `void` must follow those of all particles.
+/// validates it. Rows of phase `void` must follow the rows of all particles.
 ///
-/// \throws InputError with file, line, what was found and what was expected.
+/// \throws InputError with file, line, the value found and the value expected.
 Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box);
 
 /// Writes the same format, with enough digits to recover each double.

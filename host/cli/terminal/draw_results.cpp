@@ -29,7 +29,7 @@ std::string draw_results(const std::string& script, const fs::path& folder, cons
   const fs::path file = find(script);
   if (file.empty()) return fmt::format("no pictures: share/macadam/{} is not installed beside the program\n", script);
   const std::string python = python_interpreter();
-  // the user's own Python may lack matplotlib although Debian's has it
+  // the user's own Python may lack matplotlib although Debian's Python includes it
   for (const std::string& one : {python, std::string("/usr/bin/python3")})
     if (runs({one, "-B", file.string(), folder.string()})) return fmt::format("pictures: {}\n", pictures);
   return fmt::format(

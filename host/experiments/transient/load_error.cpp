@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error.cpp  Computes the differences from the answer without steps; if there is none, bounds from the ramp, the
+// load_error.cpp  Computes the differences from the answer without steps; without it, bounds from the ramp, the
 // damping and the walls.
 #include "host/experiments/transient/load_error.hpp"
 
@@ -60,10 +60,9 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     const auto law = facts_of(scene.laws)[pair];
     if (!law || law->linear) continue;
-    plan.decisions.push_back(
-        fmt::format("errors are estimates, because law {} of {} is not linear and there is no response without time "
-                    "steps to compare with",
-                    law->name, to_string(static_cast<PairType>(pair))));
+    plan.decisions.push_back(fmt::format(
+        "errors are estimates, because law {} of {} is not linear, and then the response without time steps is unknown",
+        law->name, to_string(static_cast<PairType>(pair))));
     return {};
   }
   SpectrumOptions options;

@@ -81,7 +81,7 @@ void add_load(const TransientExperiment& test, nlohmann::ordered_json& out);
 /// the tables of the material.
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
-/// Plans a test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
+/// Plans one test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
 std::unique_ptr<Solution> plan_load_test(const TransientExperiment& test, const Scene& scene,
                                          const Preparation& prepared, const Watcher& watcher,
                                          std::optional<Resumed> resumed, RunResult& result);

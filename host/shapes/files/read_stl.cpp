@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t header_bytes = 84, record_bytes = 50;
 
-/// Appends a facet of the last three points.
+/// Appends one facet of the last three points.
 void add_triangle(SurfaceSoup& soup) {
   const auto p = static_cast<std::int64_t>(soup.points.size());
   soup.corners.insert(soup.corners.end(), {p - 3, p - 2, p - 1});
