@@ -74,7 +74,7 @@ DeviceSpeed measure_device(int device) {
 
 Backend select_backend(Backend asked, std::string* reason, const DeviceList& devices) {
   if (!devices.empty() && (asked == Backend::cpu || asked == Backend::reference)) {
-    throw InputError("device: found " + to_string(devices) + " beside backend " + to_string(asked) +
+    throw InputError("device: found " + to_string(devices) + " with backend " + to_string(asked) +
                      ", expected backend cuda or auto");
   }
   std::string why = "asked for";
@@ -104,7 +104,7 @@ Backend select_backend(Backend asked, std::string* reason, const DeviceList& dev
 
 Backend kernels::resolved(Backend asked, bool on_device, StepperOptions& options) {
   if (asked == Backend::reference) {
-    throw InputError("backend: found reference, expected cpu, cuda or auto: it knows Macadam's own laws alone");
+    throw InputError("backend: found reference, expected cpu, cuda or auto: it has only Macadam's own laws");
   }
   if (asked == Backend::automatic && options.devices.empty() && !on_device) return Backend::cpu;
   const Backend chosen = select_backend(asked, nullptr, options.devices);

@@ -16,23 +16,36 @@ extern const ProcessorCode macadam_code_v3, macadam_code_v4;
 
 namespace {
 
-/// Returns the newest code that the processor supports, but none newer than MACADAM_PROCESSOR.
-const ProcessorCode& chosen() {
+/// Returns the newest generation that the processor supports, but none newer than MACADAM_PROCESSOR.
+ProcessorGeneration newest_generation() {
 #ifdef MACADAM_ALL_PROCESSORS
   const char* const named = std::getenv("MACADAM_PROCESSOR");
   const std::string_view most = named ? named : "";
   __builtin_cpu_init();
-  if (most != "x86-64" && most != "x86-64-v3" && __builtin_cpu_supports("x86-64-v4")) return macadam_code_v4;
-  if (most != "x86-64" && __builtin_cpu_supports("x86-64-v3")) return macadam_code_v3;
+  if (most != "x86-64" && most != "x86-64-v3" && __builtin_cpu_supports("x86-64-v4")) return ProcessorGeneration::v4;
+  if (most != "x86-64" && __builtin_cpu_supports("x86-64-v3")) return ProcessorGeneration::v3;
 #endif
-  return macadam_code_base;
+  return ProcessorGeneration::base;
 }
 
 }  // namespace
 
+ProcessorGeneration processor_generation() {
+  static const ProcessorGeneration generation = newest_generation();
+  return generation;
+}
+
 const ProcessorCode& processor_code() {
-  static const ProcessorCode& code = chosen();
-  return code;
+  switch (processor_generation()) {
+#ifdef MACADAM_ALL_PROCESSORS
+    case ProcessorGeneration::v4:
+      return macadam_code_v4;
+    case ProcessorGeneration::v3:
+      return macadam_code_v3;
+#endif
+    default:
+      return macadam_code_base;
+  }
 }
 
 }  // namespace macadam

@@ -30,7 +30,7 @@ DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& d
   }
   if (out.size() > 1) {
     decision = fmt::format(
-        "devices {}: several step {} contacts faster, and no process used the others; --devices {} takes one",
+        "devices {}: several devices step {} contacts faster than one, and these were idle; --devices {} uses one",
         to_string(out), contacts, first);
   }
   return out;

@@ -15,7 +15,7 @@ namespace macadam {
 using IdleBeside = std::function<bool(int device, int first)>;
 
 /// Returns the devices that step a specimen with this number of contacts: the first of `devices`, and idle ones besides
-/// if several are worthwhile. `decision` is then set to a sentence for the user. Empty if there are no devices.
+/// if several are worthwhile. `decision` is then set to a sentence for the user. Empty without devices.
 DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& devices, const IdleBeside& idle_beside,
                           std::string& decision);
 /// Likewise, with the devices of this machine.

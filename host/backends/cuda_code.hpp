@@ -9,11 +9,11 @@
 
 namespace macadam {
 
-/// Returns the code of the plugin, or nullptr if there is none; `why` then gets the reason. The plugin is searched for
+/// Returns the code of the plugin, or nullptr without a plugin; `why` then gets the reason. The plugin is searched for
 /// once, in the folders of MACADAM_PLUGIN_PATH (separated by colons) and then in the folder of the library itself.
 const kernels::CudaCode* cuda_code(std::string* why = nullptr);
 
-/// Counting the devices takes some tenths of a second. If there is no device, this is known within the following time.
+/// Counting the devices takes some tenths of a second. The absence of devices is known within the following time.
 inline constexpr std::chrono::milliseconds none_is_known_within{50};
 
 /// Returns the numbers of the devices that `asked` means for backend cuda: all, the first (if `asked` is empty), or the

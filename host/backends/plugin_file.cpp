@@ -52,7 +52,7 @@ const void* find_plugin(const PluginFile& asked, std::string& why) {
     }
     const auto* head = static_cast<const Head*>(dlsym(library, asked.symbol));
     if (!head) {
-      why = file.string() + " is no plugin of Macadam";
+      why = file.string() + " is not a plugin of Macadam";
       return nullptr;
     }
     if (head->interface == asked.interface && std::string(head->version) == version()) return head;

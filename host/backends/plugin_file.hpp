@@ -16,8 +16,8 @@ struct PluginFile {
 };
 
 /// Returns the table of a plugin, which then stays loaded. The plugin is searched for in the folders of
-/// MACADAM_PLUGIN_PATH (separated by colons) and then in the folder of this library. Returns nullptr if the first file
-/// found does not fit or there is none; `why` then gets the reason.
+/// MACADAM_PLUGIN_PATH (separated by colons) and then in the folder of this library. Returns nullptr if no file is
+/// found, or if the first one does not fit; `why` then gets the reason.
 const void* find_plugin(const PluginFile& asked, std::string& why);
 
 }  // namespace macadam

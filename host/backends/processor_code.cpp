@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// processor_code.cpp  Defines the table of functions compiled for one processor generation. CMakeLists.txt compiles
+// processor_code.cpp  Defines the table of the time step compiled for one processor generation. CMakeLists.txt compiles
 // this file once for each generation, with its own MACADAM_CODE as the name of the table.
 #include "host/backends/processor_code.hpp"
 
-#include "host/harmonic/iterative/block_cocg.hpp"
 #include "kernels/contact/precision.hpp"
 #include "kernels/steppers.hpp"
 
@@ -35,7 +34,7 @@ std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& ne
 
 extern "C" {
 extern const ProcessorCode MACADAM_CODE;
-const ProcessorCode MACADAM_CODE{MACADAM_CODE_NAME, make, harmonic::solve_block, harmonic::check_solutions};
+const ProcessorCode MACADAM_CODE{MACADAM_CODE_NAME, make};
 }
 
 }  // namespace macadam

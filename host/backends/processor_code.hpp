@@ -1,38 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file processor_code.hpp  Declares the code whose speed depends on the SIMD registers of the processor. It is
-/// compiled once for each processor generation, and the newest that can run is chosen at run time.
+/// \file processor_code.hpp  Declares the time step on the CPU, whose speed depends on the SIMD registers of the
+/// processor. It is compiled once for each processor generation, and the newest that can run is chosen at run time. The
+/// frequency domain has a table of its own, for the same generation: host/harmonic/harmonic_code.hpp.
 #pragma once
 
-#include <functional>
+#include <cstdint>
 #include <memory>
-#include <vector>
 
-#include "host/harmonic/check_solutions.hpp"
-#include "host/harmonic/linear_solver.hpp"
-#include "kernels/harmonic/linear_system.hpp"
-#include "kernels/layout/layout.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam {
 
-/// Functions compiled for one processor generation: the time step, the iterative solver of the frequency domain, and
-/// the check of its solutions.
+/// Generations of x86-64 processors: base runs on any of them, v3 has AVX2, v4 has AVX-512.
+enum class ProcessorGeneration : std::uint8_t { base, v3, v4 };
+
+/// The time step compiled for one processor generation.
 struct ProcessorCode {
   const char* name;  ///< "native": compiled for this machine; "x86-64", "x86-64-v3" (AVX2), "x86-64-v4" (AVX-512)
   std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                            std::unique_ptr<Stepper> used);
-  void (*solve_block)(const kernels::LinearSystem& system, const std::vector<double>& inverse,
-                      const kernels::Layout& layout, std::vector<harmonic::LinearTask*> tasks,
-                      const std::function<bool()>& stop);
-  std::vector<harmonic::SolutionCheck> (*check_solutions)(const ContactNetwork& network, const Inertia& inertia,
-                                                          const std::vector<const harmonic::LinearTask*>& tasks,
-                                                          double rounding);
 };
 
-/// Returns the code of the newest generation that this processor can run. A build for this machine alone
-/// (MACADAM_NATIVE) has only one. The environment variable MACADAM_PROCESSOR (x86-64, x86-64-v3, x86-64-v4) asks for an
-/// older one.
+/// Returns the newest generation that this processor can run and for which the library has code. A build for this
+/// machine alone (MACADAM_NATIVE) has only `base`. The environment variable MACADAM_PROCESSOR (x86-64, x86-64-v3,
+/// x86-64-v4) asks for an older one.
+ProcessorGeneration processor_generation();
+
+/// Returns the code of that generation.
 const ProcessorCode& processor_code();
 
 }  // namespace macadam

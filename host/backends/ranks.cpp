@@ -15,7 +15,7 @@ namespace {
 
 Ranks* joined = nullptr;
 
-/// Returns the table of the plugin, or nullptr if there is none; `why` then gets the reason.
+/// Returns the table of the plugin, or nullptr without a plugin; `why` then gets the reason.
 const RanksPlugin* find(std::string& why) {
   const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
   return static_cast<const RanksPlugin*>(find_plugin(asked, why));
@@ -38,7 +38,7 @@ DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   // each process may see another device as its only one; if processes share one, NCCL reports the error
   if (devices.size() == 1) return devices;
   if (own >= devices.size()) {
-    throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " on this host beside " +
+    throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " on this host with " +
                      std::to_string(devices.size()) + " devices, expected one for each device");
   }
   return {devices[own]};
@@ -54,11 +54,11 @@ Ranks* join_ranks() {
   if (joined) return joined;
   std::string why;
   const RanksPlugin* const plugin = find(why);
-  if (!plugin) throw RunError("ranks: this process cannot join others: " + why);
+  if (!plugin) throw RunError("ranks: this process cannot join the others: " + why);
   Ranks* const found = plugin->join();
   if (found->count() == 1 && processes_begun() > 1) {
     throw RunError("ranks: found this process alone, expected " + std::to_string(processes_begun()) +
-                   ": they were begun by another MPI than that of libmacadam_ranks.so");
+                   ": they were started by another MPI than libmacadam_ranks.so uses");
   }
   if (found->count() > 1) return joined = found;
   found->leave();

@@ -24,8 +24,8 @@ void make_command_line(CLI::App& app) {
   app.name("macadam");
   app.formatter(std::make_shared<HelpFormatter>());  // commands that are added later take it over
   app.require_subcommand(1);
-  app.set_help_flag("-h,--help", "print this and end; behind a command, what that takes");
-  app.set_version_flag("--version", version(), "print the version and end");
+  app.set_help_flag("-h,--help", "print this help and exit; after a command, the help of that command");
+  app.set_version_flag("--version", version(), "print the version and exit");
   add_examples(app, {"macadam run examples/demo/scene.toml --out results", "macadam run --help"});
   add_run_command(app);
   add_specimen_command(app);

@@ -35,7 +35,7 @@ void restart_with_library_environment(int argc, char** argv) {
   const char* const before = std::getenv(done);
   const std::string process = std::to_string(::getpid());
   if ((before && process == before) || setenv(done, process.c_str(), 1) != 0) return;
-  ::execv("/proc/self/exe", argv);  // if this fails, the program continues with the environment as it was
+  ::execv("/proc/self/exe", argv);  // if this fails, the program continues with its old environment
 }
 
 }  // namespace macadam

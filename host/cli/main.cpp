@@ -36,7 +36,9 @@ std::vector<std::string> known_words(const CLI::App& command, bool options) {
 /// Describes what is wrong with a command line. CLI11 itself reports a missing word before an unknown one.
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = reached(app);
-  const std::vector<std::string> unknown = app.remaining(true), commands = known_words(command, false);
+  const std::vector<std::string> commands = known_words(command, false);
+  std::vector<std::string> unknown = app.remaining(true);
+  std::erase(unknown, "--");  // CLI11 lists this mark too, which is never the culprit
   if (unknown.empty()) {
     if (commands.empty()) return error.what();
     return fmt::format("found no command, expected one of {}", fmt::join(commands, ", "));
@@ -51,7 +53,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // help, version
   say_error("macadam: {}\n", fault_of(app, error));
-  say_error("--help behind a command lists what it takes\n");
+  say_error("--help after a command lists its arguments and options\n");
   return 2;
 }
 

@@ -57,11 +57,9 @@ std::string manual_page(const CLI::App& app) {
       "elements for bituminous mixtures and other bonded granular solids\n.SH SYNOPSIS\n{} \\fICOMMAND\\fR "
       "[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n{}\n",
       plain(version()), bold("macadam"),
-      plain(
-          "Macadam makes a specimen of a mixture, tests it, and gives its complex modulus, its relaxation, its creep "
-          "or "
-          "its curve of stress and strain. A scene, a text file, says what is made and tested: \"macadam new\" writes "
-          "one to begin with, \"macadam run\" runs it."));
+      plain("Macadam makes a specimen of a mixture, tests it, and gives its complex modulus, its relaxation, its creep "
+            "or its curve of stress and strain. A scene is a text file that describes the specimen and its test: "
+            "\"macadam new\" writes one to start from, \"macadam run\" runs it."));
   out += ".SH OPTIONS\n";
   for (const CLI::Option* option : app.get_options()) out += option_entry(*option);
   out += ".SH COMMANDS\n";
@@ -70,11 +68,11 @@ std::string manual_page(const CLI::App& app) {
   out += ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe run failed, or was interrupted\n.TP\n2\nthe input is wrong\n";
   out += ".SH ENVIRONMENT\n";
   for (const auto& [name, text] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"OMP_NUM_THREADS", "threads of the CPU, where neither the scene nor an option says"},
+           {"OMP_NUM_THREADS", "number of threads of the CPU, if neither the scene nor an option gives it"},
            {"OMP_WAIT_POLICY",
-            "how waiting threads of the CPU wait; macadam sets passive, which leaves the core to others, where neither "
-            "this nor GOMP_SPINCOUNT is set"},
-           {"MACADAM_PYTHON", "a Python that has the package macadam, for report and study"},
+            "how idle threads of the CPU wait; if neither this nor GOMP_SPINCOUNT is set, macadam sets passive, which "
+            "leaves their cores to other programs"},
+           {"MACADAM_PYTHON", "Python interpreter with the package macadam, for report and study"},
            {"MACADAM_PLUGIN_PATH", "folder of the CUDA backend's library"}})
     out += fmt::format(".TP\n{}\n{}\n", bold(name), plain(text));
   return out;

@@ -16,9 +16,9 @@ enum class Shell : std::uint8_t { bash, zsh, fish };
 }  // namespace
 
 void add_shell_commands(CLI::App& app) {
-  CLI::App& completion = *app.add_subcommand("completion", "print a script by which a shell completes commands");
+  CLI::App& completion = *app.add_subcommand("completion", "print a script with which a shell completes commands");
   const auto shell = std::make_shared<Shell>(Shell::bash);
-  add_choice(completion, "shell", *shell, "whose script it is",
+  add_choice(completion, "shell", *shell, "the shell for which the script is made",
              {{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}});
   add_examples(completion, {"macadam completion bash", "macadam completion fish"});
   completion.callback([&app, shell] {

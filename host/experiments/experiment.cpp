@@ -25,7 +25,7 @@ Experiment scene::read_experiment(const Section& section) {
     kinds.push_back(experiment);
     names.emplace_back(kind_of(experiment));
   });
-  const auto kind = section.find("kind");  // if it is missing, the reader of the first experiment says so
+  const auto kind = section.find("kind");  // if it is missing, the reader of the first experiment reports it
   return std::visit([&]<class Spec>(const Spec&) -> Experiment { return ExperimentOf<Spec>::read(section); },
                     kinds[kind ? kind->choice(names) : 0]);
 }

@@ -4,6 +4,7 @@
 /// in host/experiments/<kind>/.
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -29,7 +30,9 @@ struct ExperimentOf {
   static Spec read(const scene::Section& loading);
 
   /// Prepares the solution by the scene's method. All checks that can refuse the scene are made here, before any file
-  /// is changed. Scene, preparation and watcher must outlive the solution. \throws InputError, RunError
+  /// is changed. Stores decisions, skips and warnings in `result`, which is empty except for the backend and may be
+  /// moved to another address afterwards. Scene, preparation and watcher must outlive the solution. \throws InputError,
+  /// RunError
   static std::unique_ptr<Solution> plan(const Spec& spec, const Scene& scene, const Preparation& prepared,
                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
 
@@ -51,9 +54,17 @@ struct ResultOf {
   static std::string table(const Result& found);
 };
 
-/// Calls `plan` of the scene's experiment.
-std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                          std::optional<Resumed> resumed, RunResult& result);
+/// A planned experiment, and the part of its result that is known before it runs.
+struct Planned {
+  std::unique_ptr<Solution> solution;
+  RunResult result;               ///< decisions, skips, warnings and the wall time of the planning
+  std::exception_ptr unsolvable;  ///< why the experiment cannot be solved; nullptr if it can
+};
+
+/// Calls `plan` of the scene's experiment. A RunError is returned as `unsolvable`, together with the results until
+/// then. \throws InputError, InterruptedError
+Planned plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                        std::optional<Resumed> resumed, Backend backend);
 
 /// Calls `files` of the scene's experiment.
 std::vector<std::string> files_written(const Scene& scene);

@@ -20,20 +20,21 @@ constexpr double of_a_fluid = 1 - 1e-8;
 std::string comments(const Material& m, const char* mark) {
   return fmt::format(
       "{0} Relaxation of a specimen, {1}; units Pa and s.\n"
-      "{0} Holds from {2:g} to {3:g} s; E(t) of this table differs from the specimen's by {4:.1e} at most there.\n",
+      "{0} Valid from {2:g} to {3:g} s, where E(t) of this table differs from the specimen's by at most {4:.1e}.\n",
       mark, modulus_words(m.confined), m.shortest_s, m.longest_s, m.table_error + m.error());
 }
 
 std::string isotropy(double poisson_ratio, const char* mark) {
   return fmt::format(
-      "{0} Poisson's ratio {1:g} is an assumption, as is that it does not change in time, so that shear and bulk "
-      "moduli\n{0} relax alike. The modulus is that at once; shares are of it.\n",
+      "{0} Poisson's ratio {1:g} is an assumption. It is constant in time, so that shear and bulk moduli relax "
+      "alike.\n{0} The modulus is the instantaneous one, and the fractions refer to it.\n",
       mark, poisson_ratio);
 }
 
 std::string prony_csv(const Material& m) {
   const double at_once = m.relaxation.instantaneous();
-  std::string out = comments(m, "#") + "# E(t) = sum of modulus_pa * exp(-t / time_s); the last row stays.\n" +
+  std::string out = comments(m, "#") +
+                    "# E(t) = sum of modulus_pa * exp(-t / time_s); the last row is the long-term modulus.\n" +
                     "time_s,modulus_pa,share\n";
   for (const auto& u : m.relaxation.units) out += fmt::format("{},{},{}\n", u.time, u.modulus, u.modulus / at_once);
   return out + fmt::format("inf,{},{}\n", m.relaxation.long_term, m.relaxation.long_term / at_once);
@@ -63,7 +64,7 @@ std::string abaqus(const Material& m, double poisson_ratio) {
   out += fmt::format("*MATERIAL, NAME=MIXTURE\n*ELASTIC, MODULI=INSTANTANEOUS\n{:.9e}, {:g}\n",
                      m.relaxation.instantaneous(), poisson_ratio);
   if (m.relaxation.units.empty()) return out;
-  out += "*VISCOELASTIC, TIME=PRONY\n** shear share, bulk share, time\n";
+  out += "*VISCOELASTIC, TIME=PRONY\n** shear fraction, bulk fraction, time\n";
   for (const auto& u : m.relaxation.units) out += fmt::format("{0:.9e}, {0:.9e}, {1:.9e}\n", share(m, u), u.time);
   return out;
 }

@@ -36,8 +36,8 @@ class MaterialSolution : public Solution {
     const SolverSpec& solver = scene.solver;
     if (solver.inertia) {
       throw InputError(scene.file.string(), 0, "inertia in [solver]",
-                       std::string("true beside kind \"") + kind_of(scene.experiment) + "\"",
-                       "false: relaxation times are those of a specimen without inertia");
+                       std::string("true with kind \"") + kind_of(scene.experiment) + "\"",
+                       "false, because relaxation is computed without inertia");
     }
     // As in the frequency domain, the CPU replaces the reference backend, which implements time steps only, and solves
     // for method "direct", which no device can do.
@@ -56,9 +56,9 @@ class MaterialSolution : public Solution {
     save("running");
     options_.told = [&](int solutions, double error) {
       if (watcher_.progress) {
-        watcher_.progress(
-            fmt::format("spectrum: {} solutions, error {:.1e} (asked {:.1e})", solutions, error, options_.tolerance),
-            std::min(1.0, std::log(error) / std::log(options_.tolerance)));
+        watcher_.progress(fmt::format("spectrum: {} solutions, error {:.1e} (tolerance {:.1e})", solutions, error,
+                                      options_.tolerance),
+                          std::min(1.0, std::log(error) / std::log(options_.tolerance)));
       }
     };
     Material material;
@@ -67,7 +67,7 @@ class MaterialSolution : public Solution {
         const InPhase in(result.phases, &PhaseSeconds::harmonic);
         material.spectrum = spectrum_of(prepared_.specimen, prepared_.network, scene_.laws, options_);
       } catch (const InterruptedError&) {
-        throw InterruptedError("interrupted between solutions of the spectrum, which keeps no checkpoints");
+        throw InterruptedError("interrupted while the spectrum was computed, which writes no checkpoints");
       }
     });
     material.shortest_s = options_.shortest, material.longest_s = options_.longest;
@@ -81,7 +81,7 @@ class MaterialSolution : public Solution {
     write_material(out, material, poisson_ratio_);
     if (material.confined) {
       result.warnings.emplace_back(
-          "no tables for finite-element programs are written: they take uniaxial moduli, and the sides are held");
+          "no tables for finite-element programs are written: they need uniaxial moduli, but the sides are held");
     }
     responds_(out, std::move(material), result);
   }
@@ -158,8 +158,8 @@ nlohmann::ordered_json material_json(const char* kind, const Material& m) {
 
 std::string material_lines(const Material& m) {
   return fmt::format(
-      "{}; E(t) from {:g} to {:g} s is known to {:.1e}, by {} solutions in {:.1f} s\n"
-      "Prony series of {} units, Kelvin chain of {}: {:.1e} from it\n",
+      "{}; E(t) from {:g} to {:g} s has a relative error of {:.1e}, from {} solutions in {:.1f} s\n"
+      "Prony series of {} units and Kelvin chain of {} differ from it by {:.1e}\n",
       modulus_words(m.confined), m.shortest_s, m.longest_s, m.error(), m.spectrum.solutions, m.seconds,
       m.relaxation.units.size(), m.creep.units.size(), m.table_error);
 }

@@ -14,7 +14,7 @@ Key poisson_key(double& target) {
   constexpr Rule rule{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
   target = 0.35;
   return {"poisson_ratio", Need::optional, into(target, ratio, rule),
-          "for the tables of finite-element programs; the specimen does not give it"};
+          "Poisson's ratio in the tables for finite-element programs; the specimen does not determine it"};
 }
 
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
@@ -28,12 +28,13 @@ void require_once(const Section& section, const std::string& key, std::vector<do
 
 std::vector<Key> Points::keys(const std::string& key, const Quantity& quantity, Need need) {
   constexpr std::int64_t most = 1000, most_evenly = 1'000'000;
-  const std::string ends = key + ": a list, or the two ends of a range beside points_per_decade or points";
+  const std::string ends = key + ": a list, or the two ends of a range if points_per_decade or points is given";
   return {{key, need, into(given, quantity, positive), ends, need == Need::required ? "" : "strain"},
           {"points_per_decade", Need::optional, into(per_decade, 1, most),
-           "of a range: at least so many, evenly in the logarithm, both ends among them", "a list"},
-          {"points", Need::optional, into(evenly, 2, most_evenly), "of a range: so many, evenly, both ends among them",
-           need == Need::required ? "a list" : "a list; with strain 100"}};
+           "least number of points per decade of a range, evenly spaced in the logarithm, with both ends", "a list"},
+          {"points", Need::optional, into(evenly, 2, most_evenly),
+           "number of points of a range, evenly spaced, with both ends",
+           need == Need::required ? "a list" : "a list; 100 if strain is given"}};
 }
 
 std::vector<double> Points::all(const Section& section, const std::string& key, const char* unit,
@@ -41,10 +42,10 @@ std::vector<double> Points::all(const Section& section, const std::string& key, 
   require_once(section, key, given, unit, what);
   std::vector<double> out = given;
   std::sort(out.begin(), out.end());
-  if (per_decade && evenly) section.refuse("points", "points beside points_per_decade", "one of them");
+  if (per_decade && evenly) section.refuse("points", "points with points_per_decade", "one of them");
   if (!per_decade && !evenly) return out;
   if (out.size() != 2) {
-    section.refuse(key, fmt::format("{} of them beside {}", out.size(), evenly ? "points" : "points_per_decade"),
+    section.refuse(key, fmt::format("{} entries with {}", out.size(), evenly ? "points" : "points_per_decade"),
                    "the two ends of a range");
   }
   const double first = out.front(), last = out.back();

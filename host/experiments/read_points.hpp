@@ -11,9 +11,9 @@
 
 namespace macadam::scene {
 
-/// Returns a key that skips `kind`, which is already known when an experiment reads its section.
+/// Returns the key that skips `kind`, which is already known when an experiment reads its section.
 inline Key kind_key() {
-  return {"kind", Need::required, {[](const Value&) {}, {"one of"}}, "the test; it decides which keys follow"};
+  return {"kind", Need::required, {[](const Value&) {}, {"one of"}}, "kind of the test; it determines the other keys"};
 }
 
 /// Sets the target to its default and returns the key `poisson_ratio` of `[loading]`.

@@ -2,20 +2,29 @@
 // run_experiment.cpp  Runs any experiment and reports its result, through the one list of experiments.
 #include "host/experiments/experiment.hpp"
 
+#include "macadam/error.hpp"
+
 namespace macadam {
 
-std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                          std::optional<Resumed> resumed, RunResult& result) {
-  return std::visit(
-      [&]<class Spec>(const Spec& spec) {
-        return ExperimentOf<Spec>::plan(spec, scene, prepared, watcher, std::move(resumed), result);
-      },
-      scene.experiment);
+Planned plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                        std::optional<Resumed> resumed, Backend backend) {
+  Planned out;
+  out.result.backend = backend;
+  try {
+    out.solution = std::visit(
+        [&]<class Spec>(const Spec& spec) {
+          return ExperimentOf<Spec>::plan(spec, scene, prepared, watcher, std::move(resumed), out.result);
+        },
+        scene.experiment);
+  } catch (const InterruptedError&) { throw; } catch (const RunError&) {
+    out.unsolvable = std::current_exception();
+  }
+  return out;
 }
 
 namespace {
 
-/// Returns f(result), or `nothing` if there is no result.
+/// Returns f(result), or `nothing` without a result.
 template <class T, class F>
 T of_found(const ExperimentResult& found, T nothing, F&& f) {
   return std::visit(

@@ -49,7 +49,7 @@ H5::FileCreatPropList creation() {
 void with_hdf5(const std::filesystem::path& file, const std::function<void()>& f) {
   const QuietHdf5 quiet;
   const auto fail = [&](const std::string& what) {
-    throw RunError(file.string() + ": HDF5 cannot go on with it: " + what + (quiet.failed() ? ": " + quiet.why() : ""));
+    throw RunError(file.string() + ": HDF5 cannot continue it: " + what + (quiet.failed() ? ": " + quiet.why() : ""));
   };
   try {
     f();

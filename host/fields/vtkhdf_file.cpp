@@ -162,12 +162,13 @@ class VtkHdfSeries : public FieldSeries {
  public:
   VtkHdfSeries(const std::filesystem::path& file, FieldMesh mesh, std::optional<double> until)
       : name_(file), mesh_(std::move(mesh)) {
-    if (until && std::filesystem::exists(file)) go_on(*until);
+    if (until && std::filesystem::exists(file)) reopen(*until);
   }
 
   std::size_t size() const override { return steps_; }
 
   void add(double time, const std::vector<FieldArray>& arrays) override {
+    if (!open_ && steps_ > 0) reopen(time);  // the frame before this one failed
     const bool first = !open_;
     try {
       if (first) {
@@ -182,6 +183,7 @@ class VtkHdfSeries : public FieldSeries {
       if (first) open_->keep();
     } catch (const RunError&) {
       open_.reset();  // a file that has no frame yet is removed
+      if (first) steps_ = 0;
       throw;
     }
   }
@@ -229,11 +231,11 @@ class VtkHdfSeries : public FieldSeries {
     }
   }
 
-  /// Opens an existing file and removes the frames from time `until` on.
-  void go_on(double until) {
+  /// Opens an existing file and removes the frames from time `until` on, and remains of a failed frame.
+  void reopen(double until) {
     const auto refuse = [&](const std::string& found) {
-      throw InputError(name_.string(), 0, "fields to go on with", found,
-                       "those of this run; without the file the run goes on, and begins a new one");
+      throw InputError(name_.string(), 0, "fields to continue", found,
+                       "the fields of this run; if the file is removed, the run begins a new one");
     };
     std::vector<double> times;
     std::int64_t points = -1;
@@ -249,13 +251,14 @@ class VtkHdfSeries : public FieldSeries {
         times.resize(std::min(times.size(), static_cast<std::size_t>(std::max<std::int64_t>(0, number))));
         open_->hdf5().openDataSet("VTKHDF/NumberOfPoints").read(&points, type_of(points));
       });
-    } catch (const RunError& error) { refuse("what cannot be read (" + std::string(error.what()) + ")"); }
+    } catch (const RunError& error) { refuse("data that cannot be read (" + std::string(error.what()) + ")"); }
     if (points != static_cast<std::int64_t>(mesh_.point_count())) {
       refuse(fmt::format("{} points, not {}", points, mesh_.point_count()));
     }
     const auto kept = std::lower_bound(times.begin(), times.end(), until) - times.begin();
     if (kept == 0) {
       open_.reset();  // no frame is left: a new file replaces this one
+      steps_ = 0;
     } else {
       set_steps(static_cast<std::size_t>(kept), nullptr);
       open_->write(0, [&](H5::H5File& file) { cut(file); });

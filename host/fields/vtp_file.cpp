@@ -146,8 +146,8 @@ class VtpSeries : public FieldSeries {
     std::ifstream in(list(), std::ios::binary);
     in.exceptions(std::ios::badbit);  // lack of memory must not be taken for a damaged file
     const auto refuse = [&](const std::string& found) {
-      throw InputError(list().string(), 0, "fields to go on with", found,
-                       "those of this run; without the file the run goes on, and begins a new one");
+      throw InputError(list().string(), 0, "fields to continue", found,
+                       "the fields of this run; if the file is removed, the run begins a new one");
     };
     bool ended = false;
     for (std::string line; std::getline(in, line); ended = ended || line == "</VTKFile>") {

@@ -23,7 +23,7 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t user_block = 512;  ///< the smallest size that HDF5 allows
-constexpr std::size_t growth = 1 << 24;  ///< bytes by which HDF5 enlarges a file in memory
+constexpr std::size_t growth = 1 << 24;  ///< bytes by which HDF5 enlarges one file in memory
 
 template <class T>
 StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
@@ -34,8 +34,8 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-/// Returns settings for HDF5's "core" driver, which keeps a file in memory. HDF5 then never meets a full disk, an error
-/// that it does not survive.
+/// Returns settings for HDF5's "core" driver, which keeps one file in memory. HDF5 then never meets a full disk, an
+/// error that it does not survive.
 H5::FileAccPropList in_memory() {
   H5::FileAccPropList access;
   access.setCore(growth, false);
@@ -106,7 +106,7 @@ class Room {
 template <class Values>
 std::string text_in(const std::string& name, const Values& values, Room& room) {
   room.take(name, values, {H5T_STRING});
-  if (values.getSpace().getSimpleExtentNpoints() != 1) Room::refuse(name, "is no single text");
+  if (values.getSpace().getSimpleExtentNpoints() != 1) Room::refuse(name, "is not a single text");
   std::string out;
   if constexpr (std::is_same_v<Values, H5::Attribute>)
     values.read(values.getStrType(), out);
@@ -124,7 +124,7 @@ std::vector<std::string> names_in(const H5::Group& group) {
     H5L_info_t link{};
     if (H5Lget_info(group.getId(), out.back().c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD ||
         group.childObjType(out.back()) != H5O_TYPE_DATASET)
-      Room::refuse(out.back(), "is no dataset");
+      Room::refuse(out.back(), "is not a dataset");
   }
   return out;
 }
@@ -189,7 +189,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& found, const std::string& expected) {
     throw InputError(file.string(), 0, "checkpoint", found, expected);
   };
-  if (!std::filesystem::is_regular_file(file)) refuse("no such file", "one (a run that is done leaves none)");
+  if (!std::filesystem::is_regular_file(file)) refuse("no such file", "a checkpoint (a finished run leaves none)");
   std::ifstream in(file, std::ios::binary);
   std::string header(user_block, '\0');
   in.read(header.data(), static_cast<std::streamsize>(header.size()));
@@ -202,13 +202,14 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   }
   std::string image(bytes - user_block, '\0');
   in.read(image.data(), static_cast<std::streamsize>(image.size()));
-  if (!in || header != user_block_of(image)) refuse("another checksum than it names", "the same: it is damaged");
+  if (!in || header != user_block_of(image))
+    refuse("a checksum that differs from its header's", "the same checksum: the file is damaged");
   try {
     const QuietHdf5 quiet;
     require_memory_for_hdf5(2 * image.size());
     return read_image(std::move(image));
   } catch (const H5::Exception& error) {
-    throw InputError(file.string(), 0, "checkpoint", "what HDF5 cannot read (" + error.getDetailMsg() + ")",
+    throw InputError(file.string(), 0, "checkpoint", "data that HDF5 cannot read (" + error.getDetailMsg() + ")",
                      "texts and arrays");
   }
 }

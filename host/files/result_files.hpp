@@ -11,9 +11,9 @@
 
 namespace macadam {
 
-/// Writes a file under another name and renames it, so that a reader finds either the old bytes or the new ones. A file
-/// that could not be written completely is removed. `to_disk`: waits until the file is on the disk, so that a power
-/// failure, too, leaves either the old or the new file. \throws RunError.
+/// Writes one file under another name and renames it, so that a reader finds either the old bytes or the new ones. A
+/// file that could not be written completely is removed. `to_disk`: waits until the file is on the disk, so that a
+/// power failure, too, leaves either the old or the new file. \throws RunError.
 void write_whole(const std::filesystem::path& file, std::string_view bytes, bool to_disk = false);
 
 /// Returns all bytes of a file. \throws RunError if it cannot be read, std::bad_alloc if memory is the reason.
@@ -39,12 +39,12 @@ class OutputFile {
   int file_;
 };
 
-/// A table that grows during a run. Every line is written as soon as it is measured.
+/// A table that grows during a run. Every line is written at once.
 class LineWriter {
  public:
   /// Starts a new file with `head`, its first lines. \throws RunError if the file cannot be opened.
   LineWriter(const std::filesystem::path& file, std::string_view head);
-  /// Appends a line, which is given without its line end. If the disk does not take the whole line, the part that was
+  /// Appends one line, which is given without its line end. If the disk does not take the whole line, the part that was
   /// written is removed from the file. \throws RunError.
   void add(std::string_view line);
   /// Closes the file after the last line. \throws RunError.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// result_folder.cpp  Locks a folder by flock() on the directory.
+// result_folder.cpp  Locks one folder by flock() on the directory.
 #include "host/files/result_folder.hpp"
 
 #include <fcntl.h>
@@ -58,12 +58,12 @@ ResultFolder::ResultFolder(const fs::path& folder) {
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(file_);
       throw InputError(folder.string(), 0, "folder of the results", "another command that is writing into it",
-                       "to be the only one; wait for it, or choose another folder");
+                       "no other command; wait until it has finished, or choose another folder");
     }
     if (is_same(file_, whole)) return;
     ::close(file_);
   }
-  throw RunError(folder.string() + ": cannot make the result folder: others remove it again and again");
+  throw RunError(folder.string() + ": cannot make the result folder: another process removes it repeatedly");
 }
 
 ResultFolder::~ResultFolder() {

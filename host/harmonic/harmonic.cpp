@@ -13,7 +13,7 @@
 
 #include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
-#include "host/backends/processor_code.hpp"
+#include "host/harmonic/harmonic_code.hpp"
 #include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
@@ -190,7 +190,7 @@ class Harmonic::Implementation {
     std::vector<const LinearTask*> tasks;
     for (const Work* w : works) tasks.push_back(&w->task);
     const auto checked = [&](double rounding) {
-      return processor_code().check_solutions(network_, inertia_, tasks, rounding);
+      return harmonic_code().check_solutions(network_, inertia_, tasks, rounding);
     };
     std::vector<SolutionCheck> found = checked(0);
     bool within = true;

@@ -15,7 +15,7 @@ std::vector<GradationRow> gradation_of(const MixDesign& design, const std::vecto
   const MixVolumes volumes = volumes_of(design);
   if (composition.size() < volumes.classes.size() + 1)
     throw InputError(design.source, design.line, "composition", fmt::format("{} classes", composition.size()),
-                     fmt::format("{} and the mastic, those of the recipe", volumes.classes.size()));
+                     fmt::format("the {} classes of the recipe and the mastic", volumes.classes.size()));
   // Dry fine aggregate and filler per 1 m³ of the box [kg]: the mastic contains them in the proportions of the design.
   const double fines = (volumes.mastic_fine_mass + volumes.mastic_filler_mass) * volumes.bulk_density /
                        volumes.mastic_volume * composition[volumes.classes.size()].fraction;

@@ -141,17 +141,17 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
   const auto alone = [&](bool wrong, const std::string& found, const std::string& expected) {
     if (wrong) throw InputError(design.source, design.line, "[specimen.recipe]", found, expected);
   };
-  alone(!spec.mastic, "no mastic beside it", "[specimen.mastic] with its radii");
-  alone(!spec.aggregate.empty(), "classes of aggregate beside it", "none: they follow from the recipe");
-  alone(spec.mastic->porosity || spec.mastic->count, "a porosity or count of the mastic beside it",
+  alone(!spec.mastic, "no [specimen.mastic]", "[specimen.mastic] with its radii");
+  alone(!spec.aggregate.empty(), "classes of aggregate together with it", "none: they follow from the recipe");
+  alone(spec.mastic->porosity || spec.mastic->count, "a porosity or count of the mastic together with it",
         "none: both follow from the recipe");
-  alone(spec.voids && spec.voids->count, "a count of voids beside it", "a fraction of voids, or neither");
+  alone(spec.voids && spec.voids->count, "a count of voids together with it", "a fraction of voids, or neither");
   if (spec.voids && !spec.voids->fraction) spec.voids->fraction = volumes.air_voids;
   const double of_voids = spec.voids ? *spec.voids->fraction : 0;  // fraction of the box
   alone(of_voids > volumes.air_voids + 1e-9,
         fmt::format("voids of {} of the box, and {} of air voids in the mix", in_percent(of_voids),
                     in_percent(volumes.air_voids)),
-        "at most as much in [specimen.voids]");
+        "at most this fraction in [specimen.voids]");
   // Air that is not in voids with cells of their own.
   spec.mastic->porosity = (volumes.air_voids - of_voids) / (1 - of_voids);
   for (const MixClass& c : volumes.classes) {

@@ -56,8 +56,8 @@ struct ReferenceContact {
   /// the step.
   void follow_pair(const Vector3d& centres, const Vector3d& mean_turn);
 
-  /// Moves the frame to a particle whose centre is now at `distance` from its wall. The normal remains that of the
-  /// wall. The wall does not spin, so `mean_turn` is ½·ω_A·Δt.
+  /// Moves the frame to a particle whose centre is now at `distance` from its wall. The normal of the wall does not
+  /// change. The wall does not spin, so `mean_turn` is ½·ω_A·Δt.
   void follow_wall(double distance, const Vector3d& mean_turn);
 
  private:
@@ -65,7 +65,7 @@ struct ReferenceContact {
   void spin_frame(const Vector3d& mean_turn);
 };
 
-/// Returns a contact of a network with its points, at rest. `units`: numbers that each chain keeps in its `stretch`.
+/// Returns one contact of a network with its points, at rest. `units`: numbers that each chain keeps in its `stretch`.
 ReferenceContact make_reference_contact(const ContactNetwork& network, const Contact& contact, std::size_t units);
 
 }  // namespace macadam::reference

@@ -294,7 +294,7 @@ class ReferenceStepper : public Stepper {
       }
       for (int axis = 0; axis < 3 && !law.point; ++axis) {
         const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contact.initial_distance;
-        // without area, shear stiffness (α = 0) or modulus there is no force and no chain to advance
+        // without area, shear stiffness (α = 0) or modulus no force acts and no chain is advanced
         if (scale * law.E_m != 0) advance_chain(law, scale, options_.dt, local[axis], point.chain[axis]);
       }
       // The chains resist the motion of B away from A: they pull A towards B, and B back.

@@ -56,7 +56,7 @@ std::pair<std::string, std::string> first_difference(const std::string& found, c
   throw InputError(file.string(), 0, "checkpoint of another " + what, found, expected + ", as in this run");
 }
 
-/// \throws InputError if the texts of a checkpoint differ from those of a run.
+/// \throws InputError if a checkpoint and a run have different texts.
 void require_same_run(const std::filesystem::path& file, const Checkpoint& checkpoint, const Scene& scene,
                       Backend backend) {
   for (const auto& [what, expected] : identity(scene, backend)) {
@@ -166,14 +166,15 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
     }
     last_ = Clock::now();
   }
-  if (!stopping && !failure.empty()) warn_(fmt::format("no checkpoint at {}: {}", where, failure));
+  if (!stopping && !failure.empty())
+    warn_(fmt::format("the checkpoint at {} could not be written: {}", where, failure));
   if (!stopping) return;
-  std::string resumable = file_.string() + " is written: the same command with --resume goes on from it";
+  std::string resumable = file_.string() + " is written: the same command with --resume continues from it";
   if (!kept) resumable = "it cannot be resumed: " + why_not;
   if (!failure.empty()) {
     const bool older = own_ && std::filesystem::exists(file_);
-    resumable = fmt::format("its checkpoint is not there: {}; {}", failure,
-                            older ? "--resume goes on from the one before" : "it cannot be resumed");
+    resumable = fmt::format("its checkpoint could not be written: {}; {}", failure,
+                            older ? "--resume continues from the previous checkpoint" : "it cannot be resumed");
   }
   throw InterruptedError(fmt::format("interrupted at {}, t = {:.6g} s; {}", where, stepper.observe().time, resumable));
 }
@@ -212,7 +213,7 @@ void Checkpoints::keep_previous() const {
   if (!error) fs::rename(aside, previous, error);
   if (!error) return;
   fs::remove(aside, ignored);
-  warn_(fmt::format("{}: the checkpoint before the newest cannot be kept: {}", previous.string(), error.message()));
+  warn_(fmt::format("{}: the previous checkpoint cannot be kept: {}", previous.string(), error.message()));
 }
 
 }  // namespace macadam

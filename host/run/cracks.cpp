@@ -51,9 +51,9 @@ CrackWatch::CrackWatch(const Scene& scene, const Preparation& prepared, const st
     const bool known =
         event.contact < network_.contacts.size() && event.point < broken_.size() && !broken_[event.point];
     if (!known || (event.how != Break::tension && event.how != Break::shear)) {
-      throw InputError(
-          fmt::format("checkpoint: found a break of point {} of contact {}, expected one of the specimen's",
-                      event.point, event.contact));
+      throw InputError(fmt::format(
+          "checkpoint: found a break of point {} of contact {}, expected a point of the specimen that can break",
+          event.point, event.contact));
     }
     add(event);
   }
@@ -166,7 +166,7 @@ nlohmann::ordered_json rupture_json(const experiments::Rupture& r, const Cracks&
 std::string rupture_words(const experiments::Rupture& r, const Cracks& cracks) {
   return fmt::format(
       "The specimen broke between t = {:.4g} s and {:.4g} s (strain {:.4g} to {:.4g}): no intact contact path joins "
-      "bottom and top wall any more, and the test ends there. {}.",
+      "the bottom and the top wall, and the test ends there. {}.",
       r.time_before_s, r.time_s, r.strain_before, r.strain, of_breakable(cracks));
 }
 

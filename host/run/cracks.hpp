@@ -70,7 +70,7 @@ nlohmann::ordered_json rupture_json(const experiments::Rupture& rupture, const e
 /// Returns the sentence that says when and why a test ended early.
 std::string rupture_words(const experiments::Rupture& rupture, const experiments::Cracks& cracks);
 
-/// Returns a line of text with the number of broken points, to be printed.
+/// Returns one line of text with the number of broken points, to be printed.
 std::string cracks_words(const experiments::Cracks& cracks);
 
 }  // namespace macadam

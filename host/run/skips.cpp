@@ -40,12 +40,12 @@ std::vector<Skip> geometry_skips(Geometry geometry, std::optional<double> strain
 std::vector<Skip> asked_skips(const Scene& scene) {
   std::vector<Skip> out;
   if (!scene.network.lateral_walls)
-    out.push_back({"lateral walls", "the sides are free", "free sides, as the scene has them"});
-  if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", same_bits});
+    out.push_back({"lateral walls", "the sides are free", "none: the scene asks for free sides"});
+  if (!scene.output.contacts) out.push_back({"contacts.csv", "not requested", same_bits});
   const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
   if (cyclic && scene.solver.method == SolverMethod::explicit_ && !scene.output.response) {
     out.push_back({"observation",
-                   "response.csv is not asked for: only the fitted cycles and the cycle before them are observed",
+                   "response.csv is not requested, so only the fitted cycles and the cycle before them are sampled",
                    same_bits});
   }
   return out;
@@ -59,15 +59,17 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   const auto append = [&](const std::vector<Skip>& more) { out.insert(out.end(), more.begin(), more.end()); };
   const auto [unitless, unitless_count] = pairs_that(scene, prepared, [](const auto& law) { return law.units() == 0; });
   if (unitless_count > 0) {
-    out.push_back({"Kelvin units", fmt::format("{} contacts ({}) have none", unitless_count, unitless), "rounding"});
+    out.push_back(
+        {"Kelvin units", fmt::format("{} contacts ({}) have no Kelvin units", unitless_count, unitless), "rounding"});
   }
   const auto [elastic, elastic_count] =
       pairs_that(scene, prepared, [](const auto& law) { return decltype(law.template step<double>(1.0))::memoryless; });
   if (elastic_count > 0 && fixed && !reference) {
-    out.push_back({"contact states",
-                   fmt::format("{} elastic contacts ({}) of fixed geometry follow from the displacements",
-                               elastic_count, elastic),
-                   "rounding: not summed over the steps"});
+    out.push_back(
+        {"contact states",
+         fmt::format("the forces of {} elastic contacts ({}) with fixed geometry follow from the displacements",
+                     elastic_count, elastic),
+         "rounding: forces are not summed over the steps"});
   }
   const auto [smooth, smooth_count] =
       pairs_that(scene, prepared, []<class L>(const L& law) { return law.alpha == 0 && !coupled_law<L>; });
@@ -75,20 +77,21 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
     out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), same_bits});
   }
   if (!reference && nothing_turns(prepared.network, scene.laws)) {
-    out.push_back({"rotations", "no shear, and every facet is centred: nothing turns a particle",
-                   "first moments below 1e-12 are taken as 0"});
+    out.push_back({"rotations", "without shear and with centred facets particles do not rotate",
+                   "first moments below 1e-12 count as 0"});
   }
   append(geometry_skips(geometry, strain));
   if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
-    out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});
+    out.push_back({"second moments", "a facet has one point, so three chains replace six", "rounding"});
   }
   if (const auto n = prepared.network.dropped_area; n > 0) {
-    out.push_back({"tiny facets", fmt::format("{} below area_min", n),
-                   fmt::format("of the order of {:.0e} of |E*|: their share of the facets' area",
-                               prepared.network.dropped_share)});
+    out.push_back(
+        {"tiny facets", fmt::format("{} below area_min", n),
+         fmt::format("about {:.0e} of |E*|, their fraction of the facets' area", prepared.network.dropped_share)});
   }
   if (const auto n = prepared.network.dropped_gap; n > 0) {
-    out.push_back({"open facets", fmt::format("{} wider than gap_max", n), "another model: compare without gap_max"});
+    out.push_back({"open facets", fmt::format("{} wider than gap_max", n),
+                   "this is another model: compare with a run without gap_max"});
   }
   append(asked_skips(scene));
   return out;

@@ -55,7 +55,7 @@ std::string usual_of(const KnownKey& key) {
   return key.words.usual.empty() ? "" : code(key.words.usual);
 }
 
-/// Returns a key's row in the table of its section.
+/// Returns the row of a key in the table of its section.
 std::string row(const KnownKey& key) {
   std::string text = key.text;
   if (!key.chosen.empty()) text += fmt::format(" ({} {})", key.chooser, fmt::join(key.chosen, ", "));
@@ -69,11 +69,11 @@ std::string keys_page() {
   const std::vector<KnownKey> keys = known_keys();
   std::string out =
       "# Every key of a scene\n\n"
-      "This page is what the reader of scenes itself knows, printed by `macadam info --keys markdown`. [Scene "
+      "This page lists the keys that the scene reader knows. `macadam info --keys markdown` prints it. [Scene "
       "files](scene.md)\n"
-      "explains the keys and how they act together. A number has the SI unit that stands here, or is text with a unit "
-      "of its\n"
-      "own, as `\"12.5 mm\"`. A number without a unit may be text in %.\n";
+      "explains the keys and how they act together. A number is in the SI unit given here, or it is text with a unit, "
+      "such as\n"
+      "`\"12.5 mm\"`. A number without a unit may be text in %.\n";
   for (const KnownKey& section : keys) {
     if (!is_section(section)) continue;
     const std::string title = title_of(section);
@@ -81,8 +81,8 @@ std::string keys_page() {
                        cell(section.text.substr(1)));
     out += section.need == Need::required ? ". Required." : fmt::format(". Without it: {}.", section.usual);
     out +=
-        "\n\n<!-- by hand: printed by the program -->\n\n| key | value | without it | what it is "
-        "|\n|---|---|---|---|\n";
+        "\n\n<!-- by hand: printed by the program -->\n\n| key | value | without it | meaning |"
+        "\n|---|---|---|---|\n";
     for (const KnownKey& key : keys)
       if (key.section == title && !is_section(key)) out += row(key);
   }

@@ -31,7 +31,7 @@ class Collector {
   /// Thrown to leave the reader of a section once its keys are known, before it looks at their values.
   struct Done {};
 
-  /// Adds a key. If it is a section, calls `enter`, which reads the keys of the section, once for every value that
+  /// Adds one key. If it is a section, calls `enter`, which reads the keys of the section, once for every value that
   /// choose() can take there.
   void add(const std::string& section, const std::string& named, const Key& key, const std::function<void()>& enter);
   /// The reader calls this function for a key, such as "kind", whose value decides which other keys its section has.

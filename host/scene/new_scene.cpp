@@ -39,7 +39,7 @@ std::string wrapped(const std::string& text, const std::string& before) {
   return out + line + '\n';
 }
 
-/// Returns a line of the scene with its comment: behind it if both fit into the width, otherwise above it.
+/// Returns one line of the scene with its comment: behind it if both fit into the width, otherwise above it.
 std::string line_of(const std::string& line, const std::string& comment) {
   const std::size_t column = std::max(comment_column, line.size() + 2);
   if (column + 2 + comment.size() > width) return wrapped(comment, "# ") + line + '\n';
@@ -96,7 +96,7 @@ std::vector<Part> specimen_by_volume(bool shapes) {
   if (shapes)
     out.push_back({"[specimen.shapes]",
                    {{"library", R"("aggregates")"}, {"radius", R"(["0.75 mm", "1 mm"])"}, {"porosity", "0.12"}},
-                   "Without this section an aggregate is one sphere."});
+                   "Without this section every aggregate is one sphere."});
   out.push_back(
       {"[[specimen.aggregate]]",
        {{"sieve", R"(["4.75 mm", "9.5 mm"])"}, {"volume_fraction", "0.24"}},
@@ -108,7 +108,7 @@ std::vector<Part> specimen_by_volume(bool shapes) {
       {"[[specimen.aggregate]]", {{"sieve", R"(["2 mm", "4.75 mm"])"}, {"volume_fraction", "0.19"}}, "", false});
   out.push_back({"[specimen.mastic]",
                  {{"radius", R"(["0.75 mm", "1 mm"])"}, {"porosity", "0.05"}},
-                 "The smaller these spheres, the more of them, and the longer a run.",
+                 "Smaller spheres mean more spheres and a longer run.",
                  true,
                  {"count"}});
   return out;
@@ -143,27 +143,27 @@ Given chain(const char* key, const char* value) { return {key, value}; }
 
 std::vector<Part> contacts_of(NewKind kind) {
   const std::string kelvin = R"("generalised_kelvin")", elastic = R"("elastic")";
-  std::vector<Part> out{{"[[contacts]]",
-                         {{"pair", R"("M-M")"},
-                          {"law", kelvin},
-                          chain("E_m", "1.115e10"),
-                          chain("C_m", "2.515e9"),
-                          chain("E", "[3.799e8, 1.600e9, 4.308e10]"),
-                          chain("C", "[8.950e9, 5.695e9, 1.114e9]"),
-                          {"alpha", "0.1"}},
-                         "Contact laws, one for each pair that meets. The values are published ones of an AC 14 "
-                         "mixture; macadam fit makes "
-                         "those of your own mastic from measured moduli, macadam calibrate those of your own mixture."},
-                        {"[[contacts]]",
-                         {{"pair", R"("M-A")"},
-                          {"law", kelvin},
-                          chain("E_m", "3.511e10"),
-                          chain("C_m", "7.921e9"),
-                          chain("E", "[1.197e9, 5.039e9, 1.357e11]"),
-                          chain("C", "[2.819e10, 1.794e10, 3.510e9]"),
-                          {"alpha", "0.1"}},
-                         "",
-                         false}};
+  std::vector<Part> out{
+      {"[[contacts]]",
+       {{"pair", R"("M-M")"},
+        {"law", kelvin},
+        chain("E_m", "1.115e10"),
+        chain("C_m", "2.515e9"),
+        chain("E", "[3.799e8, 1.600e9, 4.308e10]"),
+        chain("C", "[8.950e9, 5.695e9, 1.114e9]"),
+        {"alpha", "0.1"}},
+       "Contact laws, one per pair of materials. These are published values of an AC 14 mixture; macadam fit computes "
+       "values of your own mastic from measured moduli, macadam calibrate values of your own mixture."},
+      {"[[contacts]]",
+       {{"pair", R"("M-A")"},
+        {"law", kelvin},
+        chain("E_m", "3.511e10"),
+        chain("C_m", "7.921e9"),
+        chain("E", "[1.197e9, 5.039e9, 1.357e11]"),
+        chain("C", "[2.819e10, 1.794e10, 3.510e9]"),
+        {"alpha", "0.1"}},
+       "",
+       false}};
   const auto add = [&](const char* pair, const char* modulus, const char* alpha, const char* remark) {
     out.push_back({"[[contacts]]",
                    {{"pair", '"' + std::string(pair) + '"'}, {"law", elastic}, {"E", modulus}, {"alpha", alpha}},
@@ -172,7 +172,7 @@ std::vector<Part> contacts_of(NewKind kind) {
   };
   add("A-A", "1.151e11", "0.05", "");
   if (kind == NewKind::shapes || kind == NewKind::file) add("inner", "1.116e11", "0.05", "Spheres of one aggregate.");
-  add("A-W", "1.151e11", "0.0", "Walls, which do not hold the specimen sideways.");
+  add("A-W", "1.151e11", "0.0", "Walls without shear stiffness, along which the specimen slides freely.");
   add("M-W", "3.511e10", "0.0", "");
   return out;
 }
@@ -213,15 +213,15 @@ std::string new_scene(NewKind kind, const std::string& test) {
           loading_of(test),
           {"[solver]",
            {{"method", R"("harmonic")"}},
-           "A line that begins with # is a key that is left as it is: take the # away and change it.",
+           "A line that begins with # is a key that is not set: remove the # and give it a value.",
            true,
            {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",
             "precision"}},
           {"[output]", {}, "", true, {"every", "format"}}});
   std::string out =
-      "# A scene of Macadam. Numbers are in SI units, or text with a unit, as \"12.5 mm\". docs/scene.md explains "
+      "# A scene of Macadam. Numbers are in SI units, or text with a unit, such as \"12.5 mm\". docs/scene.md explains "
       "scenes,\n"
-      "# docs/keys.md lists every key that there is.\n";
+      "# docs/keys.md lists every key.\n";
   const std::vector<KnownKey> keys = known_keys();
   for (const Part& part : parts) out += written(keys, part);
   return out;

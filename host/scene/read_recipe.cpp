@@ -12,7 +12,7 @@ namespace {
 
 // Values with the rule `any` are checked together with the design, whose error shows the sum that a wrong value spoils.
 constexpr Rule share{[](double v) { return v >= 0 && v <= 1; },
-                     "a share from 0 to 1, or text from \"0 %\" to \"100 %\""};
+                     "a fraction from 0 to 1, or text from \"0 %\" to \"100 %\""};
 
 /// Returns the entries of a row: a size, then fractions of the aggregate's mass. \throws InputError if the row does not
 /// have `count` entries.
@@ -49,32 +49,33 @@ MixDesign read_recipe(const Section& section) {
   const std::vector<Key> keys = {
       {"gradation",
        Need::required,
-       {[&](const Value& v) { read_gradation(v, out.gradation); }, {"list of [sieve, share]", &length}},
-       "share of the aggregate's mass that passes each sieve, coarsest first, which all pass"},
+       {[&](const Value& v) { read_gradation(v, out.gradation); }, {"list of [sieve, fraction]", &length}},
+       "fraction of the aggregate's mass that passes each sieve, coarsest first; all of it passes the coarsest sieve"},
       {"cut", Need::optional, into(out.cut, length, positive),
-       "sieve of the curve: what it retains becomes particles, what passes is mastic, with the binder"},
+       "sieve of the curve: aggregate retained on it becomes particles; finer aggregate and the binder are mastic"},
       {"binder", Need::required, into(out.binder, ratio, any), "binder content by mass, absorbed binder included"},
       {"binder_of", Need::required,
        into<BinderOf>(out.binder_of, {{"mix", BinderOf::mix}, {"aggregate", BinderOf::aggregate}}),
-       "the mass that binder is a share of"},
+       "the mass of which binder is a fraction"},
       {"aggregate_density",
        Need::required,
        {read_densities, {"number or list of numbers", &density}},
-       "particle density with the pores: one, or one for what lies between every two sieves, coarsest first"},
-      {"filler_density", Need::optional, into(out.filler_density, density, any), "of what passes the finest sieve",
-       "the last of aggregate_density"},
+       "particle density including pores: one number, or one per interval between two sieves, coarsest first"},
+      {"filler_density", Need::optional, into(out.filler_density, density, any),
+       "density of the aggregate that passes the finest sieve", "the last of aggregate_density"},
       {"binder_density", Need::required, into(out.binder_density, density, any), "density of the binder"},
       {"absorbed_binder", Need::optional, into(out.absorbed_binder, ratio, any),
-       "binder in the pores of the aggregate, share of the aggregate's mass", "0"},
+       "binder in the pores of the aggregate, as a fraction of the aggregate's mass", "0"},
       {"maximum_density", Need::optional, into(out.maximum_density, density, any),
-       "in place of absorbed_binder: as measured; the absorbed binder follows", "none"},
-      {"air_voids", Need::optional, into(out.air_voids, ratio, any), "share of the bulk volume", "by bulk_density"},
+       "measured maximum density, in place of absorbed_binder, which is computed from it", "none"},
+      {"air_voids", Need::optional, into(out.air_voids, ratio, any), "fraction of the bulk volume",
+       "computed from bulk_density"},
       {"bulk_density", Need::optional, into(out.bulk_density, density, any),
-       "in place of air_voids: as measured; the air voids follow", "none"},
+       "measured bulk density, in place of air_voids, which are computed from it", "none"},
       {"envelope",
        Need::optional,
        {[&](const Value& v) { read_envelope(v, out.envelope); }, {"list of [sieve, least, most]", &length}},
-       "what a specification lets pass; it is drawn and compared, leaving it is no error",
+       "limits of a specification for the gradation, which are drawn and compared; exceeding them is not an error",
        "none"}};
   section.read(keys);
   for (const Key& key : keys) {

@@ -19,10 +19,10 @@ void read_damping(const Section& section, SolverSpec& spec) {
   if (value) {
     spec.damping = spec.damping_kind == Damping::local ? value->number(ratio, chi) : value->number(rate, non_negative);
   } else if (kind && spec.damping_kind != Damping::none) {
-    section.refuse("damping", "nothing", "its value, as damping_kind is " + kind->shown());
+    section.refuse("damping", "nothing", "its value, because damping_kind is " + kind->shown());
   }
   if (spec.damping_kind == Damping::none && spec.damping > 0) {
-    section.refuse("damping", value->shown(), "0, as damping_kind is \"none\"");
+    section.refuse("damping", value->shown(), "0, because damping_kind is \"none\"");
   }
   if (spec.damping == 0) spec.damping_kind = Damping::none;
 }
@@ -44,11 +44,11 @@ DeviceList read_devices(const Value& value, int most) {
   if (value.shown() == "\"all\"") return {every_device};
   if (!value.is_array()) return {number(value)};
   DeviceList out;
-  for (const Value& entry : value.entries("an array of numbers of devices")) {
+  for (const Value& entry : value.entries("an array of device numbers")) {
     out.push_back(number(entry));
     if (std::count(out.begin(), out.end(), out.back()) > 1) entry.refuse(entry.shown(), "each device once");
   }
-  if (out.empty()) value.refuse("no entry", "one device at least");
+  if (out.empty()) value.refuse("no entry", "at least one device");
   return out;
 }
 
@@ -62,7 +62,8 @@ SolverSpec usual_solver(const Experiment& experiment) {
 
 SolverSpec read_solver(const Section& section, const Experiment& experiment) {
   const std::vector<double> frequencies = frequencies_of(experiment);
-  constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a share of the critical step, above 0 and at most 1"};
+  constexpr Rule share{[](double v) { return v > 0 && v <= 1; },
+                       "a fraction of the critical step, above 0 and at most 1"};
   // errors are measured against the harmonic solution, which itself is not accurate enough for errors below 1e-7
   constexpr Rule error{[](double v) { return v >= 1e-7 && v <= 0.1; }, "an error from 1e-7 to 0.1"};
   constexpr std::int64_t most_threads = 65'536, most_devices = 1023;
@@ -70,9 +71,10 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
   section.read(
       {{"method", Need::optional,
         into<SolverMethod>(spec.method, {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}}),
-        "stepped in time, or solved in the frequency domain", "cyclic: \"explicit\"; other tests: \"harmonic\""},
+        "step in time, or solve in the frequency domain", "cyclic: \"explicit\"; other tests: \"harmonic\""},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error),
-        "largest error of |E*| (relative) and of phi [rad]: the program chooses what is not given, and says so",
+        "largest error of |E*| (relative) and of phi [rad]; the program chooses and reports the settings that are not "
+        "given",
         "none"},
        {"density_scaling",
         Need::optional,
@@ -80,74 +82,74 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
            spec.density_scaling = read_density_scaling(v, std::max<std::size_t>(1, frequencies.size()));
          },
          {"number or list of numbers", &ratio, positive.words}},
-        "factor on mass and inertia, one or one a frequency: the step grows by its root",
-        "1; by tolerance, where that is given"},
-       {"safety", Need::optional, into(spec.safety, ratio, share), "share of the computed critical step",
-        "0.8; with tolerance 0.95"},
-       {"time_step", Need::optional, into(spec.time_step, duration, positive), "in place of the computed step",
-        "computed"},
+        "factor on mass and inertia, one number or one per frequency; the time step grows with its square root",
+        "1; chosen if tolerance is given"},
+       {"safety", Need::optional, into(spec.safety, ratio, share),
+        "time step as a fraction of the computed critical time step", "0.8; with tolerance 0.95"},
+       {"time_step", Need::optional, into(spec.time_step, duration, positive),
+        "time step, in place of the computed one", "computed"},
        {"damping_kind", Need::optional,
         into<Damping>(spec.damping_kind,
                       {{"local", Damping::local}, {"viscous", Damping::viscous}, {"none", Damping::none}}),
-        "which damping", "\"local\" beside damping, else none"},
+        "kind of damping", "\"local\" if damping is given, else \"none\""},
        {"damping",
         Need::optional,
         {[](const Value&) {}, {"number", &rate}},  // read_damping() reads it, once the kind is known
         "chi of local damping (a number below 1), or beta of viscous damping [1/s]",
-        "0; a stepped relaxation, creep or constant rate chooses"},
+        "0; chosen for stepped relaxation, creep and constant rates"},
        {"form", Need::optional,
         into<ContactForm>(spec.form, {{"condensed", ContactForm::condensed}, {"points", ContactForm::points}}),
-        "six generalised displacements a contact, or three a contact point",
-        "\"condensed\"; \"points\" where a law is not linear"},
+        "six generalised displacements per contact, or three per contact point",
+        "\"condensed\"; \"points\" if a law is not linear"},
        {"geometry", Need::optional,
         into<Geometry>(spec.geometry, {{"updated", Geometry::updated}, {"fixed", Geometry::fixed}}),
-        "normals and lever arms follow the particles, or stay those of the start",
-        "\"updated\"; by tolerance, where that is given"},
+        "normals and lever arms follow the particles, or keep their initial values",
+        "\"updated\"; chosen if tolerance is given"},
        {"precision", Need::optional,
         into<Precision>(spec.precision,
                         {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}}),
-        "of the steps", "\"double\"; by tolerance, where that is given"},
+        "precision of the time steps", "\"double\"; chosen if tolerance is given"},
        {"backend", Need::optional,
         into<Backend>(spec.backend, {{"auto", Backend::automatic},
                                      {"cpu", Backend::cpu},
                                      {"cuda", Backend::cuda},
                                      {"reference", Backend::reference}}),
-        "what steps and iterates: auto is a CUDA device if there is one, else the CPU"},
+        "backend that steps and iterates: auto is a CUDA device if there is one, else the CPU"},
        {"linear", Need::optional,
         into<LinearMethod>(spec.linear, {{"auto", LinearMethod::automatic},
                                          {"iterative", LinearMethod::iterative},
                                          {"direct", LinearMethod::direct}}),
-        "how harmonic solutions are found: without factors, or with factors on the CPU"},
+        "solver of the frequency domain: iterative, or direct by factorisation on the CPU"},
        {"threads", Need::optional, into(spec.threads, 0, most_threads),
-        "of the CPU; results do not depend on it; 0: all"},
+        "number of threads of the CPU; results do not depend on it; 0: all"},
        {"device",
         Need::optional,
         {[&](const Value& v) { spec.devices = read_devices(v, most_devices); },
          {"whole number, list of them or \"all\"", nullptr, fmt::format("from 0 to {}", most_devices)}},
-        "the CUDA device, as macadam info numbers them, or those that share the specimen",
-        "the first that can run; of 300,000 contacts or more, stepped, idle ones like it too"},
-       {"inertia", Need::optional, into(spec.inertia), "method \"harmonic\": with the inertia of the particles"}});
+        "number of the CUDA device as in macadam info, or of several that share the specimen",
+        "the first that can run; a stepped run of 300,000 contacts or more also uses idle ones of the same type"},
+       {"inertia", Need::optional, into(spec.inertia), "method \"harmonic\": whether particles have inertia"}});
   read_damping(section, spec);
 
   if (spec.method == SolverMethod::explicit_ && stepping_of(experiment) == experiments::Stepping::never) {
-    section.refuse("method", fmt::format("\"explicit\" beside kind = \"{}\" in [loading]", kind_of(experiment)),
-                   "\"harmonic\": it is not stepped in time");
+    section.refuse("method", fmt::format("\"explicit\" with kind = \"{}\" in [loading]", kind_of(experiment)),
+                   "\"harmonic\", because this kind is not stepped in time");
   }
   if (spec.inertia && spec.method == SolverMethod::explicit_) {
-    section.refuse("inertia", "true beside method \"explicit\", which always has inertia",
+    section.refuse("inertia", "true with method \"explicit\", which always has inertia",
                    "false, or method = \"harmonic\"");
   }
   if (!spec.devices.empty() && (spec.backend == Backend::cpu || spec.backend == Backend::reference)) {
-    section.refuse("device", to_string(spec.devices), "none beside a backend other than \"cuda\" or \"auto\"");
+    section.refuse("device", to_string(spec.devices), "no device with a backend other than \"cuda\" or \"auto\"");
   }
   // The fit of the fundamental with offset and trend needs at least eight samples per cycle, and a sample takes at
   // least one step.
   constexpr double fewest_steps = 8;
   const double fastest = frequencies.empty() ? 0 : *std::max_element(frequencies.begin(), frequencies.end());
   if (spec.time_step && *spec.time_step * fastest * fewest_steps > 1) {
-    section.refuse(
-        "time_step", fmt::format("{} s", *spec.time_step),
-        fmt::format("at most {} s: {} steps a cycle at {} Hz", 1 / (fewest_steps * fastest), fewest_steps, fastest));
+    section.refuse("time_step", fmt::format("{} s", *spec.time_step),
+                   fmt::format("at most {} s, which is {} steps per cycle at {} Hz", 1 / (fewest_steps * fastest),
+                               fewest_steps, fastest));
   }
   return spec;
 }

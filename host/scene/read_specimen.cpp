@@ -48,12 +48,12 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a fraction above 0 and at most 1"};
   AggregateClass out;
   out.line = section.line();
-  section.read(
-      {{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max),
-        "least and greatest diameter (D^I of shapes)"},
-       {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share),
-        "share of the solid volume, aggregates and mastic", "count"},
-       {"count", Need::optional, into(out.count, 1, most_particles), "in place of volume_fraction: so many", "none"}});
+  section.read({{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max),
+                 "smallest and largest diameter (D^I of shapes)"},
+                {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share),
+                 "fraction of the solid volume (aggregates and mastic)", "count"},
+                {"count", Need::optional, into(out.count, 1, most_particles),
+                 "number of aggregates, in place of volume_fraction", "none"}});
   need_one_of(section, "volume_fraction", "count");
   need_to_fit(section, "sieve", out.sieve_max, box);
   return out;
@@ -63,15 +63,15 @@ MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
   constexpr Rule porosity{[](double v) { return v > -1 && v < 1; }, "a porosity between -1 and 1"};
   MasticSpec out;
   out.line = section.line();
-  section.read(
-      {{"radius", Need::required, range_into(out.radius_min, out.radius_max),
-        "least and greatest radius of the spheres"},
-       {"porosity", Need::optional, into(out.porosity, ratio, porosity),
-        "1 - sum of the solid spheres' volumes / (box - voids)", "count, or the recipe"},
-       {"count", Need::optional, into(out.count, 1, most_particles), "in place of porosity: so many", "none"}});
+  section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max),
+                 "smallest and largest radius of the spheres"},
+                {"porosity", Need::optional, into(out.porosity, ratio, porosity),
+                 "1 - sum of the solid spheres' volumes / (box - voids)", "count, or the recipe"},
+                {"count", Need::optional, into(out.count, 1, most_particles), "number of spheres, in place of porosity",
+                 "none"}});
   for (const char* key : {"porosity", "count"}) {
     if (by_mass && section.has(key))
-      section.refuse(key, "this key beside [specimen.recipe]", "the recipe alone: its air voids are the porosity");
+      section.refuse(key, "this key with [specimen.recipe]", "the recipe alone: its air voids are the porosity");
   }
   if (!by_mass) need_one_of(section, "porosity", "count");
   need_to_fit(section, "radius", 2 * out.radius_max, box);
@@ -83,10 +83,11 @@ VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
   VoidSpec out;
   out.line = section.line();
   section.read(
-      {{"radius", Need::required, range_into(out.radius_min, out.radius_max), "least and greatest radius of the voids"},
-       {"fraction", Need::optional, into(out.fraction, ratio, share), "share of the box",
+      {{"radius", Need::required, range_into(out.radius_min, out.radius_max),
+        "smallest and largest radius of the voids"},
+       {"fraction", Need::optional, into(out.fraction, ratio, share), "fraction of the volume of the box",
         "count, or the recipe's air voids"},
-       {"count", Need::optional, into(out.count, 0, most_particles), "in place of fraction: so many", "none"}});
+       {"count", Need::optional, into(out.count, 0, most_particles), "number of voids, in place of fraction", "none"}});
   if (!by_mass || section.has("count")) need_one_of(section, "fraction", "count");
   need_to_fit(section, "radius", 2 * out.radius_max, box);
   return out;
@@ -110,11 +111,11 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
   if (!(box > 0)) section.refuse("voids", "voids as large as the box", "smaller or fewer ones");
   if (fractions > 0 && !spec.mastic) {
     section.refuse("aggregate", "volume_fraction without [specimen.mastic]",
-                   "count, as the solid volume is not known without mastic");
+                   "count, because only mastic determines the solid volume");
   }
   if (spec.mastic && fractions >= 1) {
     section.refuse("aggregate", fmt::format("volume fractions with the sum {}", fractions),
-                   "a sum below 1, as the mastic takes the rest of the solid volume");
+                   "a sum below 1, because the mastic fills the rest of the solid volume");
   }
   // If the mastic is given by count, mastic and aggregates given by count fill the part 1 − Σ fractions of the solid
   // volume, which gives the solid volume. Their smallest radii are used, so `solid` is a lower bound.
@@ -139,7 +140,7 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
   const double aggregates = counted + fractions * solid;
   if (aggregates >= box) {
     section.refuse("aggregate", fmt::format("aggregates of at least {:.4g} m3", aggregates),
-                   fmt::format("less than the box, {:.4g} m3, as aggregates do not overlap", box));
+                   fmt::format("less than the box, {:.4g} m3, because aggregates do not overlap", box));
   }
   if (spec.mastic && aggregates >= solid) {
     section.refuse("aggregate", fmt::format("aggregates of at least {:.4g} m3", aggregates),
@@ -154,7 +155,7 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
 /// Takes aggregate classes and porosity from the recipe. `section` is `[specimen]`.
 void follow_recipe(const Section& section, const MixDesign& recipe, SpecimenSpec& spec) {
   if (section.has("aggregate"))
-    section.refuse("aggregate", "classes of aggregate beside [specimen.recipe]", "one of the two");
+    section.refuse("aggregate", "classes of aggregate with [specimen.recipe]", "one of the two");
   if (!spec.mastic)
     section.refuse("recipe", "[specimen.recipe] without [specimen.mastic]", "[specimen.mastic] with its radius");
   follow(recipe, spec);
@@ -202,32 +203,35 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
        {"file",
         Need::optional,
         {read_file, {"text"}},
-        "a specimen that is there: CSV id,x,y,z,radius,phase,body, relative to the scene's folder",
-        "a mixture that is generated"},
-       {"seed", Need::optional, into(spec.seed, 0), "another seed is another specimen of the same mixture"},
+        "an existing specimen: CSV id,x,y,z,radius,phase,body; the path is relative to the scene's folder",
+        "the specimen is generated"},
+       {"seed", Need::optional, into(spec.seed, 0),
+        "seed of the generator: another seed gives another specimen of the same mixture"},
        {"size_law", Need::optional,
         into<SizeLaw>(spec.size_law, {{"log_uniform", SizeLaw::log_uniform},
                                       {"uniform", SizeLaw::uniform},
                                       {"volume_uniform", SizeLaw::volume_uniform}}),
-        "how diameters lie between two sieves"},
+        "distribution of the diameters between two sieves"},
        {"spacing", Need::optional, into(spec.spacing, length, non_negative),
-        "least distance of an aggregate from those inserted before it"},
-       {"fix_aggregates", Need::optional, into(spec.fix_aggregates), "hold the aggregates while the mastic relaxes"},
+        "smallest distance between an aggregate and those inserted before it"},
+       {"fix_aggregates", Need::optional, into(spec.fix_aggregates),
+        "whether aggregates are fixed while the mastic relaxes"},
        {"attempts", Need::optional, into(spec.attempts, 1),
-        "positions tried for one aggregate before its class is given up"},
+        "number of positions tried for one aggregate before the generator gives up"},
        {"aggregate", Need::optional, sections_by(read_classes), "a class of aggregates, between two sieves", "none"},
        {"shapes", Need::optional, section_by([&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }),
         "aggregates of real shape, filled with spheres", "an aggregate is a sphere"},
        {"recipe", Need::optional, section_by([&](const Value& v) { recipe = read_recipe(v.section()); }),
         "a mix design by mass, in place of [[specimen.aggregate]] and of the mastic's content", "none"},
-       {"mastic", Need::optional, section_by(read_the_mastic), "the mastic: spheres that fill the rest", "none"},
+       {"mastic", Need::optional, section_by(read_the_mastic), "the mastic: spheres that fill the remaining volume",
+        "none"},
        {"voids", Need::optional,
         section_by([&](const Value& v) { spec.voids = read_voids(v.section(), spec.box, section.has("recipe")); }),
         "air voids with cells of their own", "none"}});
   if (spec.file) {
     for (const char* key : {"recipe", "aggregate", "shapes", "mastic", "voids", "seed", "size_law", "spacing",
                             "fix_aggregates", "attempts"}) {
-      if (section.has(key)) section.refuse(key, "this key of the generator beside file", "one of the two");
+      if (section.has(key)) section.refuse(key, "this key of the generator with file", "one of the two");
     }
   } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
     section.refuse("file", "neither a file nor aggregate or mastic to generate", "one of the two");
@@ -240,9 +244,9 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
       section.refuse("spacing", "a spacing with placement = \"packing\"",
                      "gap in [specimen.shapes], or placement = \"insertion\" there");
     if (spec.shapes && !spec.fix_aggregates)
-      section.refuse("fix_aggregates", "false with shapes", "true, as the spheres of a shape would part");
+      section.refuse("fix_aggregates", "false with shapes", "true, because the spheres of a shape would move apart");
     if (spec.voids && !spec.fix_aggregates)
-      section.refuse("fix_aggregates", "false with voids", "true, as voids would move too");
+      section.refuse("fix_aggregates", "false with voids", "true, because voids would move too");
   }
   return spec;
 }

@@ -18,7 +18,7 @@ namespace macadam {
 namespace scene {
 namespace {
 
-/// Largest size of a scene file [bytes]. A scene is written by hand; a larger file is not a scene.
+/// Largest size of a scene file [bytes]. People write scenes; a larger file is not a scene.
 constexpr std::uintmax_t longest_file = 1u << 20;
 /// Longest line [bytes]. A dotted key `a.a.a.…` nests one table per dot, and nested tables are destroyed recursively,
 /// so the length of a line limits the depth of the recursion.
@@ -59,7 +59,7 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
   }
 }
 
-/// Limits of a density, whose unit is kg/m³ if none is written. No solid is lighter than the lower limit, so a smaller
+/// Limits of a density, in kg/m³ without a unit. No solid is lighter than the lower limit, so a smaller
 /// number was probably meant in g/cm³.
 constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
                         "10 to 30000 kg/m3; a density in another unit is text with the unit"};
@@ -69,14 +69,15 @@ Materials read_materials(const Section& section, Need need) {
   Materials materials;
   const auto phase = [need](double& target) {
     return section_by([&target, need](const Value& value) {
-      value.section().read({{"density", need, positive_into(target, density, in_kg_m3), "of the spheres",
-                             "from [specimen.recipe], where that is"}});
+      value.section().read({{"density", need, positive_into(target, density, in_kg_m3), "density of the spheres",
+                             "computed from [specimen.recipe] if that is given"}});
     });
   };
-  section.read({{"aggregate", Need::optional, phase(materials.aggregate), "what aggregates are of", "none"},
-                {"mastic", Need::optional, phase(materials.mastic), "what mastic is of", "none"},
-                {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
-                 "of the whole specimen; laws with a shift follow it", "the laws' reference temperatures"}});
+  section.read(
+      {{"aggregate", Need::optional, phase(materials.aggregate), "material of the aggregates", "none"},
+       {"mastic", Need::optional, phase(materials.mastic), "material of the mastic", "none"},
+       {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
+        "temperature of the whole specimen, which laws with a shift follow", "the laws' reference temperatures"}});
   return materials;
 }
 
@@ -86,9 +87,9 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped},
                                                      {"exact", Quadrature::exact},
                                                      {"one_point", Quadrature::one_point}}),
-                  "area moments of a contact: of its points, of the polygon, of one point at the centroid"});
+                  "area moments of a contact: from its points, from its polygon, or from one point at the centroid"});
   keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
-                  "the four sides are walls too: |E*| is a confined modulus"});
+                  "whether the four sides are walls too; |E*| is then a confined modulus"});
   section.read(keys);
 }
 
@@ -97,7 +98,7 @@ void read_output(const Section& section, OutputSpec& spec) {
   keys.push_back({"contacts", Need::optional, into(spec.contacts), "write contacts.csv"});
   keys.push_back({"response", Need::optional, into(spec.response), "write response.csv"});
   keys.push_back({"sensitivities", Need::optional, into(spec.sensitivities),
-                  "method \"harmonic\": derivatives of |E*| and phi by every parameter, in summary.json"});
+                  "method \"harmonic\": derivatives of |E*| and phi with respect to every parameter, in summary.json"});
   keys.push_back({"checkpoint", Need::optional, into(spec.checkpoint, duration, non_negative),
                   "wall time between two checkpoints of a stepped run; 0: only when it is interrupted", "\"10 min\""});
   section.read(keys);
@@ -108,15 +109,15 @@ void read_output(const Section& section, OutputSpec& spec) {
 void check_together(const Scene& scene, const Section& root) {
   if (scene.network.quadrature == Quadrature::exact && scene.solver.backend == Backend::reference &&
       scene.solver.method == SolverMethod::explicit_) {
-    root.find("network")->section().refuse("quadrature", "\"exact\" beside backend = \"reference\" in [solver]",
-                                           "\"lumped\": the reference works per point");
+    root.find("network")->section().refuse("quadrature", "\"exact\" with backend = \"reference\" in [solver]",
+                                           "\"lumped\", because the reference works point by point");
   }
   if (scene.network.quadrature == Quadrature::exact && scene.solver.form == ContactForm::points) {
-    root.find("network")->section().refuse("quadrature", "\"exact\" beside form = \"points\" in [solver]",
+    root.find("network")->section().refuse("quadrature", "\"exact\" with form = \"points\" in [solver]",
                                            "\"lumped\", or form = \"condensed\"");
   }
   if (scene.output.fields.any() && !has_fields(scene)) {
-    root.find("output")->section().refuse("fields", "this key beside a test that has no motion of particles to show",
+    root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
                                           "kind = \"cyclic\" or \"sweep\", or method = \"explicit\" in [solver]");
   }
   const auto need_density = [&](bool generated, double density, const std::string& phase) {
@@ -194,23 +195,23 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   std::optional<SolverSpec> solver;
   root.read({{"specimen", Need::required, section_by(read_the_specimen),
-              "what is tested: a file, or a mixture that is generated"},
+              "the specimen, which is read from a file or generated"},
              {"materials", densities,
               section_by([&](const Value& v) { out.materials = read_materials(v.section(), densities); }),
-              "densities, and the temperature", "from [specimen.recipe], where that is"},
+              "densities, and the temperature", "computed from [specimen.recipe] if that is given"},
              {"contacts", Need::required, sections_by([&](const Value& v) {
                 out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network);
               }),
-              "one for each pair of materials that meets"},
+              "contact law of a pair of materials; one section per pair"},
              {"network", Need::optional, section_by([&](const Value& v) { read_network(v.section(), out.network); }),
               "which facets of the tessellation are contacts", "every facet"},
              {"loading", Need::required,
               section_by([&](const Value& v) { out.experiment = read_experiment(v.section()); }), "the test"},
              {"solver", Need::optional,
               section_by([&](const Value& v) { solver = read_solver(v.section(), out.experiment); }),
-              "how the test is stepped or solved", "as each key says"},
+              "how the test is stepped or solved", "the defaults of its keys"},
              {"output", Need::optional, section_by([&](const Value& v) { read_output(v.section(), out.output); }),
-              "what is written besides the results", "as each key says"}});
+              "files that are written besides the results", "the defaults of its keys"}});
   out.solver = solver.value_or(usual_solver(out.experiment));
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   check_together(out, root);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/sections.hpp"
 #include "host/scene/toml.hpp"
 #include "macadam/error.hpp"
 
@@ -49,8 +50,8 @@ Change replaced(const std::string& text, const toml::node& node, std::string by)
   return {offset_of(text, node.source().begin), offset_of(text, node.source().end), std::move(by)};
 }
 
-/// Returns the change that sets a key: its value is replaced if the key is there, otherwise the key is added before the
-/// first key of the table.
+/// Returns the change that sets one key: its value is replaced if the key is there, otherwise the key is added before
+/// the first key of the table.
 Change set(const std::string& text, const toml::table& table, const std::string& key, std::string value) {
   if (const toml::node* node = table.get(key)) return replaced(text, *node, std::move(value));
   toml::source_position first{~toml::source_index{0}, 0};
@@ -92,11 +93,10 @@ void SceneText::move(const std::filesystem::path& from, const std::filesystem::p
     const toml::table root = toml::parse(text_);
     const auto view = shapes ? root["specimen"]["shapes"]["library"] : root["specimen"]["file"];
     const auto name = view.value<std::string>();
-    if (!name || (shapes && (*name == "aggregates" || *name == "icosahedron")) || fs::path(*name).is_absolute())
-      continue;
+    if (!name || (shapes && shipped_library(*name)) || fs::path(*name).is_absolute()) continue;
     const fs::path moved =
         fs::weakly_canonical(fs::absolute(from) / *name).lexically_relative(fs::weakly_canonical(fs::absolute(to)));
-    // "./" marks the name as a folder, even if a built-in library has the same name
+    // "./" marks the name as that of a folder, even if a built-in library has the same name
     const Change change = replaced(text_, *view.node(), quoted((shapes ? "./" : "") + moved.string()));
     replace(change.begin, change.end, change.by);
   }

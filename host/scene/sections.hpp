@@ -26,6 +26,9 @@ MixDesign read_recipe(const Section& section);
 /// \throws InputError if the scene gives other densities.
 void take_densities(const MixDesign& recipe, const Section& root, Materials& materials);
 
+/// Returns the library of shapes that is shipped under a name; nothing if the name is a folder's.
+std::optional<ShapeSpec::Library> shipped_library(const std::string& name);
+
 /// Reads `[specimen.shapes]`. Relative paths start from `folder`.
 /// \throws InputError
 ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folder);

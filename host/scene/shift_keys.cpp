@@ -22,17 +22,17 @@ std::vector<Key> ShiftKeys::keys() {
            {[this](const Value& value) { kind_ = value.choice(kinds); }, {"one of", nullptr, "", "", kinds}},
            "how temperature multiplies every viscosity by a_T",
            "none"},
-          {"C1", Need::optional, into(wlf_.C1, ratio, positive), "of shift \"wlf\": its first constant", "none"},
-          {"C2", Need::optional, into(wlf_.C2, temperature_difference, positive),
-           "of shift \"wlf\": its second constant", "none"},
+          {"C1", Need::optional, into(wlf_.C1, ratio, positive), "first constant of shift \"wlf\"", "none"},
+          {"C2", Need::optional, into(wlf_.C2, temperature_difference, positive), "second constant of shift \"wlf\"",
+           "none"},
           {"activation_energy", Need::optional, into(arrhenius_.activation_energy, molar_energy, positive),
-           "of shift \"arrhenius\": activation energy", "none"},
+           "activation energy of shift \"arrhenius\"", "none"},
           {"reference_temperature", Need::optional, into(reference_, temperature, celsius),
-           "temperature at which the law holds as it is written", "none"},
+           "temperature at which the values of the law hold", "none"},
           {"temperatures", Need::optional, into(table_.temperatures, temperature, celsius),
-           "of shift \"table\": rising temperatures", "none"},
+           "ascending temperatures of shift \"table\"", "none"},
           {"log10_a_T", Need::optional, into(table_.log10_a_T, ratio, any),
-           "of shift \"table\": log10 of a_T at each of them, linear in between", "none"}};
+           "log10 of a_T at each temperature of shift \"table\", linear in between", "none"}};
 }
 
 laws::Shift ShiftKeys::shift(const Section& section) const {
@@ -40,13 +40,13 @@ laws::Shift ShiftKeys::shift(const Section& section) const {
     for (const std::string& key : taken[kind]) {
       const bool wanted = kind_ && std::count(taken[*kind_].begin(), taken[*kind_].end(), key) > 0;
       if (kind_ == kind && !section.has(key)) {
-        section.refuse(key, "nothing", fmt::format("this key, which shift = \"{}\" takes", kinds[kind]));
+        section.refuse(key, "nothing", fmt::format("this key, which shift = \"{}\" needs", kinds[kind]));
       }
       if (!wanted && section.has(key)) {
         section.refuse(
             key, "this key",
-            kind_ ? fmt::format("{}, which shift = \"{}\" takes", fmt::join(taken[*kind_], ", "), kinds[*kind_])
-                  : "a key shift beside it");
+            kind_ ? fmt::format("{}, the keys of shift = \"{}\"", fmt::join(taken[*kind_], ", "), kinds[*kind_])
+                  : "this key only together with shift");
       }
     }
   }
@@ -56,7 +56,7 @@ laws::Shift ShiftKeys::shift(const Section& section) const {
   const std::vector<double>& t = table_.temperatures;
   if (t.empty()) section.refuse("temperatures", "none", "at least one");
   if (std::adjacent_find(t.begin(), t.end(), [](double a, double b) { return a >= b; }) != t.end()) {
-    section.refuse("temperatures", fmt::format("[{}]", fmt::join(t, ", ")), "rising ones, each once");
+    section.refuse("temperatures", fmt::format("[{}]", fmt::join(t, ", ")), "ascending temperatures, each once");
   }
   if (table_.log10_a_T.size() != t.size()) {
     section.refuse("log10_a_T", fmt::format("{} numbers for {} temperatures", table_.log10_a_T.size(), t.size()),

@@ -56,7 +56,8 @@ class FileForecast {
       return sample_line * samples;
     }
     if (name == "sweep.csv") return 200 + sweep_line * frequencies;
-    return name == words_of(load_test_of(scene_).kind).file ? 200 + load_line * points : material_file;
+    const std::string kind = load_test_of(scene_).kind;
+    return !kind.empty() && name == load_words(kind).file ? 200 + load_line * points : material_file;
   }
 
   /// Returns the number of broken points that the run lists. The load decides it, so this is the order of magnitude for

@@ -24,14 +24,14 @@ bool is_in(const std::filesystem::path& file, const std::filesystem::path& folde
   return std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), folder, error);
 }
 
-/// Removes a file of an older result, whose name a new file will have.
+/// Removes one file of an older result, whose name a new file will have.
 void replace(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::remove(file, error);
   if (error) throw RunError(file.string() + ": cannot be replaced: " + error.message());
 }
 
-/// Removes a file of an older specimen, if it is there.
+/// Removes one file of an older specimen, if it is there.
 void remove_older(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);

@@ -14,34 +14,34 @@ namespace macadam {
 void require_combination(const Scene& scene) {
   if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
     throw InputError(scene.file.string(), 0, "method",
-                     std::string("\"explicit\" beside kind \"") + kind_of(scene.experiment) + "\"",
-                     "\"harmonic\": it is not stepped in time");
+                     std::string("\"explicit\" with kind \"") + kind_of(scene.experiment) + "\"",
+                     "\"harmonic\", because this kind is not stepped in time");
   }
   if (scene.solver.method == SolverMethod::explicit_ && scene.solver.inertia) {
-    throw InputError(scene.file.string(), 0, "inertia", "true beside method \"explicit\", which always has inertia",
+    throw InputError(scene.file.string(), 0, "inertia", "true with method \"explicit\", which always has inertia",
                      "false, or method \"harmonic\"");
   }
   if (scene.solver.method == SolverMethod::explicit_ && scene.output.sensitivities) {
-    throw InputError(scene.file.string(), 0, "sensitivities in [output]", "true beside method \"explicit\"",
+    throw InputError(scene.file.string(), 0, "sensitivities in [output]", "true with method \"explicit\"",
                      "false, or method \"harmonic\"");
   }
   if (scene.solver.method == SolverMethod::explicit_ && !temperatures_of(scene.experiment).empty()) {
     throw InputError(scene.file.string(), 0, "temperatures in [loading]",
-                     fmt::format("{} of them beside method \"explicit\"", temperatures_of(scene.experiment).size()),
+                     fmt::format("{} of them with method \"explicit\"", temperatures_of(scene.experiment).size()),
                      "method \"harmonic\", or one as temperature in [materials]");
   }
   if (scene.output.fields.any() && !has_fields(scene)) {
     throw InputError(scene.file.string(), 0, "fields in [output]",
-                     std::string("some beside method \"harmonic\" of kind \"") + kind_of(scene.experiment) + "\"",
-                     "none, or method \"explicit\"");
+                     std::string("fields with method \"harmonic\" of kind \"") + kind_of(scene.experiment) + "\"",
+                     "no fields, or method \"explicit\"");
   }
   if (scene.solver.method == SolverMethod::harmonic) {
     if (const auto without = first_without_stiffness(scene.laws)) {
       const bool linear = facts_of(scene.laws)[static_cast<std::size_t>(without->pair)]->linear;
       throw InputError(
-          scene.file.string(), 0, std::string("law of ") + to_string(without->pair) + " beside method \"harmonic\"",
+          scene.file.string(), 0, std::string("law of ") + to_string(without->pair) + " with method \"harmonic\"",
           std::string(without->law) + ", which has no complex stiffness" + (linear ? "" : ": it is not linear"),
-          "a law that has one, or method = \"explicit\", where the test can be stepped");
+          "a law that has one, or method = \"explicit\" if the test can be stepped");
     }
     return;
   }
@@ -57,7 +57,8 @@ void require_combination(const Scene& scene) {
   if (scene.solver.precision.value_or(Precision::double_) != Precision::double_) {
     refuse("precision", to_string(*scene.solver.precision), "double");
   }
-  if (scene.network.quadrature == Quadrature::exact) refuse("quadrature", "exact", "lumped: it works per point");
+  if (scene.network.quadrature == Quadrature::exact)
+    refuse("quadrature", "exact", "lumped, because the reference works point by point");
 }
 
 }  // namespace macadam

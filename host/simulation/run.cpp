@@ -97,107 +97,167 @@ class FoundBackend {
   std::future<Backend> waking_;
 };
 
+/// The course of one run. Each step returns its result or stores it in a member that no other step changes.
+class SceneRun {
+ public:
+  SceneRun(Scene scene, const std::filesystem::path& out, const Watcher& watcher, bool resume, const RunParts& parts,
+           const Preparation* given)
+      : scene_(std::move(scene)), out_(out), watcher_(watcher), resume_(resume), parts_(parts), given_(given) {}
+
+  RunResult run() {
+    begin();
+    if (!given_) made_ = make_preparation();
+    if (given_) require_laws(scene_, given_->specimen, given_->network);
+    const Backend backend = wait_for_backend();
+    const std::vector<std::string> warnings = checkpoint_warnings(backend);
+    if (watcher_.prepared) watcher_.prepared(prepared());
+    const std::vector<std::string> packing = packing_warnings(prepared().specimen, prepared().tessellation);
+    if (watcher_.warn) std::ranges::for_each(packing, watcher_.warn);
+    const std::vector<std::string> decisions = assign_devices(backend);
+    Planned planned = plan(backend);
+    RunResult result = std::move(planned.result);
+    result.phases.start += start_.start;
+    const auto append = [](std::vector<std::string>& list, const std::vector<std::string>& more) {
+      list.insert(list.end(), more.begin(), more.end());
+    };
+    append(result.decisions, decisions);
+    append(result.warnings, warnings);
+    append(result.warnings, packing);
+    if (scene_.network.lateral_walls) {
+      result.warnings.emplace_back(
+          "the sides are held, so the moduli are confined moduli, not |E*| or E(t) of a specimen with free sides");
+    }
+    write_specimen(result.phases);
+    solve(planned, result);
+    if (is_stepped()) remove_own_checkpoint(out_, scene_, result.backend, planned.solution->owns_checkpoint());
+    return result;
+  }
+
+ private:
+  const Preparation& prepared() const { return given_ ? *given_ : *made_; }
+  bool is_stepped() const { return scene_.solver.method == SolverMethod::explicit_; }
+
+  /// Looks for the backend, locks the folder and reads the checkpoint.
+  void begin() {
+    const InPhase starting(start_, &PhaseSeconds::start);
+    backend_.emplace(scene_.solver, parts_.place ? std::chrono::milliseconds(0) : none_is_known_within);
+    if (resume_) require_resumable(scene_);
+    folder_.emplace(out_);
+    if (!resume_) return;
+    FoundCheckpoint found = find_checkpoint(out_, scene_, backend_->get());
+    resumed_ = Resumed{std::move(found.checkpoint), found.file};
+    damage_ = std::move(found.damage);
+  }
+
+  Preparation make_preparation() {
+    const Progress look_too = [&](const std::string& stage, double share) {
+      backend_->look();
+      if (watcher_.progress) watcher_.progress(stage, share);
+    };
+    return parts_.prepare ? parts_.prepare(scene_, look_too) : prepare(scene_, look_too);
+  }
+
+  Backend wait_for_backend() {
+    const InPhase waiting(start_, &PhaseSeconds::start);
+    return backend_->get();
+  }
+
+  /// Checks that the checkpoint belongs to the specimen. If the newest checkpoint is damaged, the previous one takes
+  /// its place. Returns the warnings for the result.
+  std::vector<std::string> checkpoint_warnings(Backend backend) {
+    const std::filesystem::path newest = out_ / checkpoint_name;
+    if (!resume_ && is_stepped() && watcher_.warn && is_checkpoint_of(newest, scene_, backend)) {
+      watcher_.warn(newest.string() + ": this run was begun before and now starts again; --resume would continue it");
+    }
+    if (resumed_) require_same_specimen(resumed_->file, resumed_->checkpoint, prepared());
+    if (damage_.empty()) return {};
+    std::error_code error;
+    std::filesystem::rename(resumed_->file, newest, error);
+    if (error) throw RunError(resumed_->file.string() + ": cannot become " + checkpoint_name + ": " + error.message());
+    const std::string warning =
+        "the run continues from the previous checkpoint, because the newest one is missing or damaged: " + damage_;
+    if (watcher_.warn) watcher_.warn(warning);
+    return {warning};
+  }
+
+  /// Chooses the devices of the scene, if its backend is cuda. Returns the decisions about them.
+  std::vector<std::string> assign_devices(Backend backend) {
+    if (backend != Backend::cuda) return {};
+    std::string decision;
+    if (parts_.place) {
+      parts_.place(scene_.solver);
+    } else if (is_stepped() && scene_.solver.devices.empty()) {
+      scene_.solver.devices = choose_devices(prepared().network.contacts.size(), decision);
+    }
+    return decision.empty() ? std::vector<std::string>{} : std::vector{decision};
+  }
+
+  /// Plans the experiment. Without older results a plan without a solution is returned too, so that the specimen is
+  /// written and the user can look at it.
+  Planned plan(Backend backend) {
+    try {
+      Planned out = plan_experiment(scene_, prepared(), watcher_, std::move(resumed_), backend);
+      if (out.unsolvable && std::filesystem::exists(out_ / "summary.json")) std::rethrow_exception(out.unsolvable);
+      return out;
+    } catch (const InterruptedError&) {
+      throw InterruptedError(
+          "interrupted while planning; nothing was written, and the files in the folder are unchanged");
+    }
+  }
+
+  /// Replaces older results by the files of the specimen.
+  void write_specimen(PhaseSeconds& phases) const {
+    // the last point at which an interruption leaves no trace
+    if (watcher_.progress) watcher_.progress("writing the specimen", 0);
+    const InPhase writing(phases, &PhaseSeconds::writing);
+    write_preparation(scene_, prepared(), out_, [&] {
+      remove_results(out_);
+      if (!resume_) remove_fields(out_);
+    });
+  }
+
+  /// Runs the experiment and saves summary.json, also after an error.
+  void solve(const Planned& planned, RunResult& result) const {
+    const Saving save = [&](const std::string& status) {
+      const InPhase writing(result.phases, &PhaseSeconds::writing);
+      write_whole(out_ / "summary.json", summary_json(scene_, prepared(), result, status));
+    };
+    try {
+      if (planned.unsolvable) std::rethrow_exception(planned.unsolvable);
+      if (watcher_.planned) watcher_.planned(result);
+      planned.solution->solve(out_, SparingSave(save), result);
+    } catch (const std::exception& error) {
+      try {
+        save(status_of(error));
+      } catch (
+          const std::exception&) {  // a full disk may be the reason for the first error, which is the one to report
+      }
+      throw;
+    }
+    save("done");
+  }
+
+  Scene scene_;
+  const std::filesystem::path& out_;
+  const Watcher& watcher_;
+  const bool resume_;
+  const RunParts& parts_;
+  const Preparation* const given_;
+  PhaseSeconds start_;  ///< wall time before the planning
+  std::optional<FoundBackend> backend_;
+  std::optional<ResultFolder> folder_;
+  std::optional<Resumed> resumed_;
+  std::string damage_;  ///< of the newest checkpoint
+  std::optional<Preparation> made_;
+};
+
 }  // namespace
 
 RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher& watcher, bool resume,
                     const RunParts& parts, const Preparation* given) {
   require_combination(scene);
   const ThreadLimit threads(scene.solver.threads);
-  RunResult result;
-  std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
-  const bool stepped = scene.solver.method == SolverMethod::explicit_;
-  FoundBackend backend(scene.solver, parts.place ? std::chrono::milliseconds(0) : none_is_known_within);
-  if (resume) require_resumable(scene);
-  const ResultFolder folder(out);
-  std::optional<Resumed> resumed;
-  std::string damage;  // of the newest checkpoint
-  if (resume) {
-    FoundCheckpoint found = find_checkpoint(out, scene, backend.get());
-    resumed = Resumed{std::move(found.checkpoint), found.file};
-    damage = std::move(found.damage);
-  }
-  starting.reset();
-  std::optional<Preparation> made;
-  if (given) {
-    require_laws(scene, given->specimen, given->network);
-  } else {
-    const Progress look_too = [&](const std::string& stage, double share) {
-      backend.look();
-      if (watcher.progress) watcher.progress(stage, share);
-    };
-    made = parts.prepare ? parts.prepare(scene, look_too) : prepare(scene, look_too);
-  }
-  const Preparation& prepared = given ? *given : *made;
-  {
-    const InPhase waiting(result.phases, &PhaseSeconds::start);
-    result.backend = backend.get();
-  }
-  if (!resume && stepped && watcher.warn && is_checkpoint_of(out / checkpoint_name, scene, result.backend))
-    watcher.warn((out / checkpoint_name).string() + ": this run was begun before and begins anew; --resume goes on");
-  if (resumed) require_same_specimen(resumed->file, resumed->checkpoint, prepared);
-  if (!damage.empty()) {
-    std::error_code error;
-    std::filesystem::rename(resumed->file, out / checkpoint_name, error);
-    if (error) throw RunError(resumed->file.string() + ": cannot become " + checkpoint_name + ": " + error.message());
-    damage = "the run went on from the checkpoint before the newest, which is missing or damaged: " + damage;
-    if (watcher.warn) watcher.warn(damage);
-  }
-  if (watcher.prepared) watcher.prepared(prepared);
-  const std::vector<std::string> packing = packing_warnings(prepared.specimen, prepared.tessellation);
-  if (watcher.warn) std::ranges::for_each(packing, watcher.warn);
-  std::string devices_decision;
-  if (result.backend == Backend::cuda) {
-    if (parts.place)
-      parts.place(scene.solver);
-    else if (stepped && scene.solver.devices.empty())
-      scene.solver.devices = choose_devices(prepared.network.contacts.size(), devices_decision);
-  }
-
-  const Saving save = [&](const std::string& status) {
-    const InPhase writing(result.phases, &PhaseSeconds::writing);
-    write_whole(out / "summary.json", summary_json(scene, prepared, result, status));
-  };
-  std::unique_ptr<Solution> solution;
-  std::exception_ptr unsolvable;
-  try {
-    solution = plan_experiment(scene, prepared, watcher, std::move(resumed), result);
-  } catch (const InterruptedError&) {
-    throw InterruptedError("interrupted while planning; nothing was written, what the folder held is as it was");
-  } catch (const RunError&) {
-    if (std::filesystem::exists(out / "summary.json")) throw;
-    // without older results, the specimen is written all the same, so that the user can look at it
-    unsolvable = std::current_exception();
-  }
-  if (!devices_decision.empty()) result.decisions.push_back(devices_decision);
-  if (!damage.empty()) result.warnings.push_back(damage);
-  result.warnings.insert(result.warnings.end(), packing.begin(), packing.end());
-  if (scene.network.lateral_walls) {
-    result.warnings.emplace_back(
-        "the sides are held: moduli are those of a confined specimen, not |E*| or E(t) of a free one");
-  }
-  // the last point at which an interruption leaves no trace
-  if (watcher.progress) watcher.progress("writing the specimen", 0);
-  {
-    const InPhase writing(result.phases, &PhaseSeconds::writing);
-    write_preparation(scene, prepared, out, [&] {
-      remove_results(out);
-      if (!resume) remove_fields(out);
-    });
-  }
-  try {
-    if (unsolvable) std::rethrow_exception(unsolvable);
-    if (watcher.planned) watcher.planned(result);
-    solution->solve(out, SparingSave(save), result);
-  } catch (const std::exception& error) {
-    try {
-      save(status_of(error));
-    } catch (const std::exception&) {  // a full disk may be the reason for the first error, which is the one to report
-    }
-    throw;
-  }
-  save("done");
-  if (stepped) remove_own_checkpoint(out, scene, result.backend, solution->owns_checkpoint());
-  return result;
+  return SceneRun(std::move(scene), out, watcher, resume, parts, given).run();
 }
 
 namespace {

@@ -72,8 +72,8 @@ DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   return out;
 }
 
-/// Runs the scenes on worker threads. A scene waits for a part of the cores, is prepared, and then takes a device if it
-/// runs on one. It holds its cores until a device takes its steps, or to its end.
+/// Runs the scenes on worker threads. A scene waits for a part of the cores, is prepared, and then takes one device if
+/// it runs on one. It holds its cores until a device takes its steps, or to its end.
 class Pool {
  public:
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
@@ -136,7 +136,7 @@ class Pool {
     }
   }
 
-  /// Runs one scene after the other until none is left. Each worker thread does this.
+  /// Runs one scene after the other until all are done. Each worker thread does this.
   void work() {
     for (;;) {
       std::size_t job = 0;
@@ -263,7 +263,8 @@ class Pool {
     out.planned = [begun](const RunResult&) { *begun = true; };
     out.progress = [this, job, begun](const std::string& stage, double share) {
       if (!*begun && options_.stop && options_.stop())
-        throw InterruptedError("interrupted at: " + stage + "; nothing was written, what the folder held is as it was");
+        throw InterruptedError("interrupted at: " + stage +
+                               "; nothing was written, and the files in the folder are unchanged");
       const std::lock_guard lock(mutex_);
       if (options_.progress) options_.progress(job, stage, share);
     };
@@ -299,8 +300,9 @@ class Pool {
 
 std::vector<JobOutcome> run_many(const std::vector<SceneJob>& jobs, const ManyOptions& options) {
   if (const Ranks* team = ranks()) {
-    throw InputError("scenes: found several beside " + std::to_string(team->count()) +
-                     " ranks, expected one: a process alone runs them side by side on all devices of its host");
+    throw InputError(
+        "scenes: found several with " + std::to_string(team->count()) +
+        " ranks, expected one: a single process runs several scenes side by side on all devices of its host");
   }
   require_folders_differ(jobs);
   if (jobs.empty()) return {};

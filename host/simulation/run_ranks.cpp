@@ -36,10 +36,10 @@ ScratchFolder::~ScratchFolder() {
 }
 
 Scene scene_of_rank(const Ranks& team, Scene scene) {
-  const std::string beside = fmt::format(" beside {} ranks", team.count());
+  const std::string beside = fmt::format(" with {} ranks", team.count());
   if (scene.solver.method != SolverMethod::explicit_) {
     throw InputError(scene.file.string(), 0, "method", "\"harmonic\"" + beside,
-                     "\"explicit\": one process solves the frequency domain, on all devices of its host");
+                     "\"explicit\", because one process solves the frequency domain, on all devices of its host");
   }
   if (scene.solver.backend == Backend::cpu || scene.solver.backend == Backend::reference) {
     throw InputError(scene.file.string(), 0, "backend", to_string(scene.solver.backend) + beside, "cuda");

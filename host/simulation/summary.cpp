@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// summary.cpp  Writes a run as JSON. The keys of the first level are fixed, because programs read the files of older
+// summary.cpp  Writes one run as JSON. The keys of the first level are fixed, because programs read the files of older
 // runs.
 #include "host/simulation/summary.hpp"
 
@@ -111,14 +111,14 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
 void require_no_run(const std::filesystem::path& out) {
   const auto refuse = [&](const std::string& found) {
     throw InputError(out.string(), 0, "folder of the specimen", found,
-                     "none: its files would replace those of the run; choose another folder");
+                     "a folder without a run, whose files these would replace; choose another folder");
   };
   if (has_checkpoint(out)) refuse("the checkpoint of a run");
   const std::filesystem::path file = out / "summary.json";
   if (!std::filesystem::exists(file)) return;
   const Json summary = Json::parse(read_whole(file), nullptr, false);
   const auto status = summary.is_object() ? summary.find("status") : summary.end();
-  if (!summary.is_object() || status == summary.end()) refuse("a summary.json that is none of Macadam's");
+  if (!summary.is_object() || status == summary.end()) refuse("a summary.json that Macadam did not write");
   if (*status != "prepared") refuse(fmt::format("a run in it (summary.json: {})", status->dump()));
 }
 

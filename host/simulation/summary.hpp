@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file summary.hpp  Writes summary.json: the preparation, the scene, the run and its results.
+/// \file summary.hpp  Writes summary.json: specimen, request, settings and results of a run.
 #pragma once
 
 #include <filesystem>

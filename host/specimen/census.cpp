@@ -6,8 +6,8 @@
 
 #include "host/specimen/composition.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
-#include "host/specimen/sparse_box.hpp"
 #include "macadam/tessellation.hpp"
+#include "host/spheres/sparse_box.hpp"
 
 namespace macadam {
 namespace {

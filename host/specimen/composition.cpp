@@ -161,7 +161,7 @@ Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const S
   }
   if (of_aggregates > volume_beside_voids(spec))
     refuse(Origin(spec), "aggregate: volume", percent(of_aggregates / box) + " of the box",
-           "less than the box, beside the voids: they do not overlap");
+           "less than the box without the voids, because aggregates and voids do not overlap");
   if (recipe.mastic) {
     recipe.mastic->volume = recipe.mastic->count ? recipe.mastic->counted_volume() : solid - of_aggregates;
     if (!(recipe.mastic->volume >= 0))

@@ -43,7 +43,7 @@ void describe(Specimen& specimen, const std::vector<std::int32_t>& size_class, s
   }
 }
 
-/// Returns the radius of the largest void [m], or 0 if there are none.
+/// Returns the radius of the largest void [m], or 0 without voids.
 double largest(const std::vector<Population>& voids) {
   return voids.empty() || voids.front().radius.empty() ? 0 : voids.front().radius.front();
 }
@@ -122,8 +122,9 @@ GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
   specimen.box = spec.box;
   specimen.source = spec.line > 0 ? "specimen generated from " + spec.source : "generated specimen";
   if ((spec.shapes || spec.voids) && !spec.fix_aggregates)
-    throw InputError(spec.source, spec.line, "fix_aggregates", "false",
-                     spec.shapes ? "true, as the spheres of a shape would part" : "true, as voids would move too");
+    throw InputError(
+        spec.source, spec.line, "fix_aggregates", "false",
+        spec.shapes ? "true, because the spheres of a shape would move apart" : "true, because voids would move too");
   Enclosure wall;
   auto [placement, first_void, end_of_voids] =
       spec.shapes ? with_shapes(spec, result, wall, progress) : with_spheres(spec, result, placing);

@@ -134,8 +134,8 @@ void Placement::no_room_for_mastic() const {
                  " attempts; ask for less aggregate");
 }
 
-/// Returns a random centre for a sphere inside the box, clear of all placed spheres; nothing if there is none in
-/// attempts_ trials.
+/// Returns a random centre for a sphere inside the box, clear of all placed spheres; nothing if all attempts_ trials
+/// fail.
 std::optional<Vec3d> Placement::position_for(double radius, double spacing) {
   const Vec3d low{radius, radius, radius}, high = specimen_.box.size - low;
   const std::int64_t plain = std::min(attempts_, plain_attempts);

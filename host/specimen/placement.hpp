@@ -25,7 +25,7 @@ class Placement {
             std::function<bool(const Vec3d&)> taken = {}, double largest_void = 0);
 
   /// Adds all aggregates inside the box and at least `spacing` [m] apart, largest first over all classes. Returns the
-  /// class of each. \throws RunError naming the class for which there was no room, and how much of it was placed.
+  /// class of each. \throws RunError naming the class that does not fit, and how much of it was placed.
   std::vector<std::int32_t> place_aggregates(const std::vector<Population>& classes, double spacing,
                                              const std::function<void(double share)>& progress);
 

@@ -60,7 +60,8 @@ class Lines {
     }
     if (line.empty()) return false;
     // If the file were cut off within its last number, it could be read as a different valid file.
-    throw InputError(name_, number_, "last line", "no newline at its end", "one: without it the file may be cut off");
+    throw InputError(name_, number_, "last line", "no newline at its end",
+                     "a newline, because without one the file may be cut off");
   }
 
   /// Returns the number of the last line, counted from 1.
@@ -162,8 +163,9 @@ class CsvReader {
     const auto id = number<std::int64_t>(field[0], "id", "an integer of 0 or more");
     if (id < 0) fail("column id", in_quotes(field[0]), "an integer of 0 or more");
     if (const auto [earlier, is_new] = line_of_id_.try_emplace(id, lines_.number()); !is_new)
-      fail("column id", in_quotes(field[0]) + ", that of line " + std::to_string(earlier->second),
-           "a number of its own");
+      fail("column id",
+           in_quotes(field[0]) + ", which is already the number of line " + std::to_string(earlier->second),
+           "a number that occurs once");
     const Vec3d centre{number<double>(field[1], "x", finite), number<double>(field[2], "y", finite),
                        number<double>(field[3], "z", finite)};
     const auto radius = number<double>(field[4], "radius", "a finite positive number");
@@ -174,7 +176,7 @@ class CsvReader {
       return;
     }
     if (!specimen_.voids.empty())
-      fail("column phase", in_quotes(field[5]) + " behind a void", "void: voids stand behind all particles");
+      fail("column phase", in_quotes(field[5]) + " after a void", "void, because voids must follow all particles");
     specimen_.centre.push_back(centre);
     specimen_.radius.push_back(radius);
     specimen_.body.push_back(body);

@@ -20,7 +20,8 @@ constexpr int most_levels = 40;
 constexpr std::size_t block = 64;  // consecutive spheres whose lists share memory and are made by one thread
 // Lists up to this length are sorted by counting the smaller keys, which is faster.
 constexpr std::size_t ranked_up_to = 64;
-constexpr std::size_t few = 24;           // all lists are made again when more than one sphere in `few` has strayed
+constexpr std::size_t few =
+    24;  // all lists are made again when more than one sphere in `few` has moved by more than half of the skin
 constexpr std::size_t worth_waking = 16;  // strayed spheres; with fewer, one thread is faster
 constexpr std::uint32_t spare = 2;        // capacity in a list for spheres that come near later
 

@@ -35,8 +35,8 @@ class Neighbours {
 
   /// Makes all lists for the present centres.
   void rebuild();
-  /// Updates the lists after some spheres have strayed, that is, moved by more than half of the skin; `strayed` has
-  /// their indices in ascending order. If many have strayed, makes all lists again. Other spheres may have moved too,
+  /// Updates the lists after some spheres have moved by more than half of the skin; `strayed` has
+  /// their indices in ascending order. If these are many, makes all lists again. Other spheres may have moved too,
   /// but by less than half of the skin.
   void relist(std::span<const std::int32_t> strayed);
 

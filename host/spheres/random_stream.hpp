@@ -8,7 +8,7 @@
 namespace macadam {
 
 /// Random stream number `stream` of a seed; the streams of a seed are independent. The C++ standard fixes the output of
-/// the engine but not that of its distributions, so the distributions are implemented here.
+/// the engine but leaves its distributions open, so the distributions are implemented here.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::uint64_t stream) : engine_(mixed(mixed(seed) + stream)) {}

@@ -22,8 +22,8 @@ constexpr double longest_move = 0.1;  // per iteration, in mean mastic radii
 // Skin of the neighbour lists in mean mastic radii. With a smaller one lists are made too often, with a larger one they
 // are too long.
 constexpr double skin_share = 1.15;
-// Stiffness of a contact between two aggregates, or between an aggregate and a box wall, divided by that of a mastic
-// contact. It is larger so that aggregates overlap less than mastic.
+// Stiffness of a contact between two aggregates, or between an aggregate and a box wall, divided by the stiffness of a
+// mastic contact. It is larger so that aggregates overlap less than mastic.
 constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // the energy has stalled if it falls by less than this fraction in one window
@@ -113,7 +113,7 @@ class Relaxation {
     return balls;
   }
 
-  /// Returns the mean radius of the mastic, or of the aggregates if there is no mastic.
+  /// Returns the mean radius of the mastic, or of the aggregates without mastic.
   double mean_radius() const {
     const std::size_t from = first_mastic_ < s_.size() ? first_mastic_ : 0;
     double sum = 0;
@@ -225,7 +225,7 @@ class Relaxation {
     return sum;
   }
 
-  /// Moves all spheres by one step and updates the neighbour lists of those that strayed.
+  /// Moves all spheres by one step and updates the neighbour lists of spheres that moved too far.
   void move(double dt, double mixing, double v_per_a) {
     strayed_.resize(number_of_ranges(on_threads()));
     for_each_range(moving(), on_threads(), [&](std::size_t number, std::size_t from, std::size_t to) {
@@ -268,7 +268,7 @@ class Relaxation {
   std::vector<Dots> dots_;                          ///< terms of the sums, with the velocity before the move
   std::vector<Dots> by_number_;                     ///< dots_ of the moving spheres, in the order of numbers
   std::vector<std::int32_t> place_;                 ///< places of the moving spheres, in the order of numbers
-  std::vector<std::vector<std::int32_t>> strayed_;  ///< places that strayed, per range, ascending
+  std::vector<std::vector<std::int32_t>> strayed_;  ///< indices of spheres that moved too far, per range, ascending
 };
 
 }  // namespace

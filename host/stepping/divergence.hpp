@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// `of`: name of what is stepped, for the message; may be empty. \throws DivergenceError naming the first particle
+/// `of`: name of the stepped object, for the message; may be empty. \throws DivergenceError naming the first particle
 /// whose motion is out of range, or the top wall.
 void require_convergence(const Sample& sample, const std::string& of);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sample.cpp  Samples a run at even intervals and checks in each sample that it has not diverged.
+// sample.cpp  Samples one run at even intervals and checks in each sample that it has not diverged.
 #include <fmt/format.h>
 
 #include <cmath>

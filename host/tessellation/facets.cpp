@@ -149,8 +149,8 @@ class FacetMaker {
     add(a, -1 - k, wall.normal(), nearest);
   }
 
-  /// Simplifies polygon_ and stores it as a facet. Returns false if it has no area. Lengths below 1e-10 of `scale`, the
-  /// distance of the centres, count as rounding of the input. Lattices written in decimals have such short edges,
+  /// Simplifies polygon_ and stores it as one facet. Returns false if it has no area. Lengths below 1e-10 of `scale`,
+  /// the distance of the centres, count as rounding of the input. Lattices written in decimals have such short edges,
   /// slivers, split facets, and vertices in the middle of an edge; the contact points of a facet must not depend on
   /// them.
   bool add(std::int32_t a, std::int32_t b, const Vec3d& normal, double scale) {

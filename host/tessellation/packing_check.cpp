@@ -18,7 +18,7 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "host/specimen/sparse_box.hpp"
+#include "host/spheres/sparse_box.hpp"
 #include "kernels/base/parallel.hpp"
 
 namespace macadam {

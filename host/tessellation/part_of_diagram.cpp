@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// part_of_diagram.cpp  Triangulates a part of the particles and inserts further particles until its tetrahedra are
-// those of the whole triangulation.
+// part_of_diagram.cpp  Triangulates a part of the particles and inserts further particles until its tetrahedra equal
+// those in the whole triangulation.
 #include "host/tessellation/part_of_diagram.hpp"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ class Part {
     while (!taken_.empty()) {
       const std::vector<std::int32_t> fresh = std::exchange(taken_, {});
       triangulation.insert(fresh);
-      all = {};  // frees the memory first: for a large specimen the old tetrahedra take as much as the new ones
+      all = {};  // frees the memory first: for a large specimen the old tetrahedra take the same memory as the new ones
       all = triangulation.tetrahedra();
       for (const Tetrahedron& t : all)
         if (is_own(t) && is_new(t)) take_in_conflict(t);
@@ -85,7 +85,7 @@ class Part {
     return std::ranges::any_of(t.site, [&](std::int32_t i) { return i >= 0 && state_[i] == State::taken; });
   }
 
-  /// Marks a particle for insertion.
+  /// Marks one particle for insertion.
   void take(std::int32_t i) {
     if (state_[i] != State::away) return;
     state_[i] = State::taken;

@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// The code that computes a run. `automatic`: cuda if possible, else cpu.
+/// The code that computes one run. `automatic`: cuda if possible, else cpu.
 enum class Backend : std::uint8_t { automatic, cpu, cuda, reference };
 /// The quantities that are in double precision. `double_`: all; `mixed`: the states of contacts and particles, and
 /// displacements; `single`: only displacements.
@@ -44,7 +44,7 @@ struct BackendReport {
   bool cuda_compiled = false;
   std::vector<DeviceInfo> devices;               ///< usable devices
   std::vector<DeviceInfo> devices_without_code;  ///< devices that cannot run the code of this build
-  std::string cuda_status;                       ///< in words: why there is no usable device, or how many there are
+  std::string cuda_status;                       ///< in words: the number of usable devices, or why no device is usable
   int threads = 1;                               ///< OpenMP's largest number of threads
   /// Processors that the CPU code which runs here was compiled for: "native" (this machine), "x86-64", "x86-64-v3"
   /// (AVX2) or "x86-64-v4" (AVX-512).
@@ -62,7 +62,7 @@ struct DeviceSpeed {
   double clock = 0;   ///< clock frequency of the multiprocessors under load [Hz]
 };
 
-/// Measures a device. \throws RunError if the device does not exist.
+/// Measures one device. \throws RunError if the device does not exist.
 DeviceSpeed measure_device(int device);
 
 /// Returns what this build can run here. Creates no context on any device. Never throws.
@@ -76,10 +76,10 @@ inline constexpr int every_device = -1;
 /// Returns "0, 1 and 3", "all", or an empty text for an empty list.
 std::string to_string(const DeviceList& devices);
 
-/// Resolves `automatic` to cuda if this build has it and a device answers, else to cpu; `reason` (optional) receives
-/// why. If `devices` names devices, `automatic` is cuda. Creates a context on these devices or, without numbers, on the
-/// first usable one. \throws RunError if cuda is asked for but not available; InputError for a number that no usable
-/// device has, or for numbers together with another backend.
+/// Resolves `automatic` to cuda if this build includes CUDA and a device answers, else to cpu; `reason` (optional)
+/// receives why. If `devices` names devices, `automatic` is cuda. Creates a context on these devices or, without
+/// numbers, on the first usable one. \throws RunError if cuda is asked for but not available; InputError for a number
+/// that no usable device has, or for numbers together with another backend.
 Backend select_backend(Backend asked, std::string* reason = nullptr, const DeviceList& devices = {});
 
 }  // namespace macadam

@@ -23,7 +23,7 @@ enum class DrivenBy : std::uint8_t { rest, displacement, force };
 /// One axis of a wall.
 struct WallAxis {
   DrivenBy by = DrivenBy::rest;
-  std::shared_ptr<const Drive> drive;  ///< its dt() is that of the stepper; null if the axis is at rest
+  std::shared_ptr<const Drive> drive;  ///< its dt() equals the stepper's time step; null if the axis is at rest
 };
 
 /// One wall: its axes x, y, z, and the mass with which it follows forces [kg], without density scaling.
@@ -50,8 +50,8 @@ struct Boundary {
     for (std::size_t other = 0; other < 3; ++other) {
       if (other == loaded || wall[w].axis[other].by != DrivenBy::force || wall[w].mass == mass) continue;
       char text[96];
-      std::snprintf(text, sizeof text, "found %g kg, expected %g kg, as was said with its axis %c", mass, wall[w].mass,
-                    "xyz"[other]);
+      std::snprintf(text, sizeof text, "found %g kg, expected %g kg, the mass given with its axis %c", mass,
+                    wall[w].mass, "xyz"[other]);
       throw InputError(std::string("boundary: wall ") + wall_names[w] + ": mass: " + text);
     }
     wall[w].axis[loaded] = {DrivenBy::force, std::move(drive)};

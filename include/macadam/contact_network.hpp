@@ -26,7 +26,7 @@ const char* to_string(PairType pair);
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
-/// Limits within which a facet between two particles is a contact. Without limits, every facet is a contact.
+/// Limits within which a facet between two particles becomes a contact. Without limits, every facet does.
 struct FacetLimits {
   std::optional<double> gap_max;   ///< largest surface gap, over the mean of the two radii
   std::optional<double> area_min;  ///< smallest facet area, over the mean area of facets between particles

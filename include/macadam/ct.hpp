@@ -89,7 +89,7 @@ enum class VoxelPhase : std::uint8_t { air_void, mastic, aggregate, outside = 25
 /// Grey values of the phases of a scan.
 struct GreyLevels {
   double air = 0, mastic = 0, aggregate = 0;  ///< mean values, with air < mastic < aggregate
-  double deviation = 0;                       ///< standard deviation within each phase, in the scan as it is segmented
+  double deviation = 0;                       ///< standard deviation within each phase, in the scan that is segmented
   bool has_air = false;                       ///< whether there is air; if not, `air` has no meaning
   double contrast() const { return aggregate - mastic; }
 };
@@ -193,7 +193,7 @@ struct ScanFile {
 /// does not fit.
 Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory);
 
-/// Returns the memory that may be used: what is free on the machine, or what this process is allowed [bytes].
+/// Returns the memory that may be used: the free memory of the machine, or the limit of this process [bytes].
 double memory_available();
 
 /// Returns the side of the smallest square opening that a surface passes in its best orientation [m].

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file error.hpp  Defines the exceptions. A message says where the fault is, what was found and what was expected.
+/// \file error.hpp  Defines the exceptions. A message says where the fault is, the value found and the value expected.
 #pragma once
 
 #include <stdexcept>
@@ -13,8 +13,8 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The input is wrong (command line exit code 2). The message names file and line, or the particle, and says what was
-/// found and what was expected.
+/// The input is wrong (command line exit code 2). The message names file and line, or the particle, and says the value
+/// found and the value expected.
 class InputError : public Error {
  public:
   using Error::Error;

@@ -31,7 +31,7 @@ inline constexpr std::size_t largest_direct = 100'000;
 
 /// Options of the solver.
 struct HarmonicOptions {
-  /// Largest relative residual ‖f − K·u‖ / ‖f‖, in excess of what the rounding of u alone causes in K·u.
+  /// Largest relative residual ‖f − K·u‖ / ‖f‖, in excess of the part that the rounding of u alone causes in K·u.
   double tolerance = 1e-11;
   LinearMethod linear = LinearMethod::automatic;
   /// Backend of the iterative solver, cpu or cuda (automatic: as select_backend()). Everything else runs on the CPU.
@@ -83,7 +83,7 @@ class Harmonic {
            const HarmonicOptions& options, double typical_frequency);
   ~Harmonic();
 
-  /// Returns the steady state at one frequency. With `density_scaling` 0 there is no inertia. Otherwise the equations
+  /// Returns the steady state at one frequency. `density_scaling` 0 means without inertia. Otherwise the equations
   /// contain density_scaling·(s² + s·β)·M, with the viscous damping β [1/s], as in a stepped run with this density
   /// scaling and damping.
   ///

@@ -55,7 +55,7 @@ struct GrainGap {
   double gap = 0;  ///< between their surfaces [m]
 };
 
-/// A scan and its truth. Coordinates are those of the specimen, with one corner of its box at the origin.
+/// A scan and its truth. Coordinates are the specimen's, with one corner of its box at the origin.
 struct Phantom {
   Image<std::uint16_t> scan;
   Image<std::uint32_t> labels;  ///< 0: no grain

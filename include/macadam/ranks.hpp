@@ -76,10 +76,10 @@ struct RanksPlugin {
 /// Version of the interface; increases with every change of Ranks.
 inline constexpr int ranks_interface = 1;
 
-/// Joins the processes that `mpirun` or a similar program started together with this one. Each of them calls this; from
-/// then on they run scenes together. Returns the processes, or null if this one was started alone. \throws RunError if
-/// libmacadam_ranks.so, which needs MPI and NCCL, is missing or fails, or was built with another MPI than the one that
-/// started the processes.
+/// Joins the processes that `mpirun` or a similar program started together with this one. Each of them calls this;
+/// afterwards they run scenes together. Returns the processes, or null if this one was started alone. \throws RunError
+/// if libmacadam_ranks.so, which needs MPI and NCCL, is missing or fails, or was built with another MPI than the one
+/// that started the processes.
 Ranks* join_ranks();
 
 /// Returns the processes that join_ranks() has joined; null if this one is alone.

@@ -50,7 +50,7 @@ struct MixDesign {
   double binder_density = 0;  ///< [kg/m³]
   /// Binder in the pores, fraction of the aggregate's mass, which adds no volume; or ….
   std::optional<double> absorbed_binder;
-  /// … measured density [kg/m³], from which it follows; if neither is given, none is absorbed.
+  /// … measured density [kg/m³], from which it follows; if neither is given, no binder is absorbed.
   std::optional<double> maximum_density;
   std::optional<double> air_voids;      ///< fraction of the bulk volume, or …
   std::optional<double> bulk_density;   ///< … measured density [kg/m³], from which it follows
@@ -96,8 +96,8 @@ struct MixVolumes {
 
 /// Checks a mix design and computes its volumes.
 ///
-/// \throws InputError for impossible or contradictory numbers. The message gives the sum, the place, what was found and
-/// what was expected.
+/// \throws InputError for impossible or contradictory numbers. The message gives the sum, the place, the value found
+/// and the value expected.
 MixVolumes volumes_of(const MixDesign& design);
 
 /// Sets the classes and the porosity of a specimen from a mix design. `spec.mastic` must be set, with its radii.
@@ -110,8 +110,8 @@ struct GradationRow {
   double asked = 0, reached = 0;
 };
 
-/// Returns the curve of a generated specimen, from the volumes that its classes and its mastic reached. Below the cut
-/// there are no particles; the mastic holds its fines in the proportions of the design.
+/// Returns the curve of a generated specimen, from the volumes that its classes and its mastic reached. No particle is
+/// smaller than the cut; the mastic holds its fines in the proportions of the design.
 ///
 /// \throws InputError if the composition does not have the classes of the design.
 std::vector<GradationRow> gradation_of(const MixDesign& design, const std::vector<CompositionRow>& composition);

@@ -114,7 +114,7 @@ bool has_fields(const Scene& scene);
 /// Reads a TOML scene and checks everything that can be checked without building the specimen: unknown keys (names the
 /// nearest known one), wrong types, impossible values, missing sections, units ("12.5 mm", "35 GPa").
 ///
-/// \throws InputError with file, line, what was found, what was expected.
+/// \throws InputError with file, line, the value found, the value expected.
 Scene read_scene(const std::filesystem::path& file);
 /// Reads a scene from `text` instead of the file's contents. Messages name `file`, and paths are relative to its
 /// folder. Without `lines`, messages do not name lines, because the user has not seen the text.

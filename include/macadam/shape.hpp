@@ -21,11 +21,11 @@ struct Surface {
   std::string name;                                 ///< name of the file without its ending, or of the generator
   std::vector<Vec3d> points;                        ///< [m]
   std::vector<std::array<std::int32_t, 3>> facets;  ///< point numbers
-  /// Changes that read_surface() made, in words: "cut 6 polygons into triangles"; empty if there are none.
+  /// Changes that read_surface() made, in words: "cut 6 polygons into triangles"; otherwise empty.
   std::string reading{};
 };
 
-/// Faults of a surface, each with the facets (or points) concerned; empty lists if there is no fault.
+/// Faults of a surface, each with the facets (or points) concerned; empty lists without a fault.
 struct SurfaceVerdict {
   std::vector<std::int32_t> stray;              ///< points of no facet, which would distort a shape's dimensions
   std::vector<std::int32_t> degenerate;         ///< facets without area, or with the same point twice
@@ -78,7 +78,7 @@ struct SurfaceRepair {
 
   /// Largest relative change of volume and area that is accepted without `wrap`.
   static constexpr double bound = 0.01;
-  /// Largest part of the area that may fill holes without `wrap`: the shape of what is missing is a guess.
+  /// Largest part of the area that may fill holes without `wrap`: the shape of the missing part is a guess.
   static constexpr double most_filled = 0.25;
   /// Returns whether volume and area changed by at most `bound`, and filled holes are at most `most_filled`.
   bool within_bound() const;
@@ -171,12 +171,12 @@ struct FillReport {
   double d_long = 0, d_intermediate = 0, d_short = 0;  ///< of the cluster, including the spheres' surfaces [m]
 };
 
-/// Fills a shape with spheres that touch its surface from inside: as many as the porosity requires, placed at random
-/// and relaxed until they are evenly spread. If that is fewer than `least`, places one sphere at the centroid. Every
-/// sphere has a Laguerre cell among the others. Spheres are pressed into the surface by about a tenth of a radius;
-/// where the shape is thinner than a sphere, the sphere is in the middle and protrudes on both sides. The same surface
-/// and spec give the same bits, for any number of threads. \throws InputError for an impossible spec or a faulty
-/// surface; RunError if a sphere remains without a cell.
+/// Fills a shape with spheres that touch its surface from inside: in the number that the porosity requires, placed at
+/// random and relaxed until they are evenly spread. If that is fewer than `least`, places one sphere at the centroid.
+/// Every sphere has a Laguerre cell among the others. Spheres are pressed into the surface by about a tenth of a
+/// radius; where the shape is thinner than a sphere, the sphere is in the middle and protrudes on both sides. The same
+/// surface and spec give the same bits, for any number of threads. \throws InputError for an impossible spec or a
+/// faulty surface; RunError if a sphere remains without a cell.
 MultiSphere fill_shape(const Surface& surface, const FillSpec& spec);
 
 /// Measures how well a cluster represents its shape.

@@ -39,8 +39,8 @@ struct Skip {
   std::string effect;  ///< effect on the result: "none: same bits", or its size
 };
 
-/// Wall time of the phases of a run in this process [s], in addition to those of its Preparation. Every moment belongs
-/// to exactly one phase.
+/// Wall time of the phases of a run in this process [s], in addition to the times of its Preparation. Every moment
+/// belongs to exactly one phase.
 struct PhaseSeconds {
   double start = 0;           ///< finding a device and waiting for it, reading a checkpoint
   double planning = 0;        ///< explicit: critical step and settings
@@ -85,8 +85,8 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
 /// contacts.csv (if the scene asks for it), section_*.csv of the planes, and summary.json without results. Nothing is
 /// written before the work is done.
 ///
-/// \throws InputError also if the folder holds a run, whose results these files would replace, or if another command is
-/// writing into it; RunError.
+/// \throws InputError also if the folder holds a run, whose results these files would replace, or if another command
+/// is writing into it; RunError.
 Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
                          const std::vector<SectionPlane>& sections = {}, const Progress& progress = {});
 
@@ -122,8 +122,8 @@ struct Watcher {
 ///
 /// A stepped run of a scene that was read from a file writes `checkpoint.h5` as it goes (OutputSpec::checkpoint). The
 /// file is replaced by renaming, and the previous checkpoint is kept as `checkpoint-previous.h5`. A checkpoint that
-/// cannot be written causes a warning. At the end the run removes its own checkpoints and those of the same scene, but
-/// no others; its first checkpoint replaces an existing one. Backend reference writes none.
+/// cannot be written causes a warning. At the end the run removes its own checkpoints and older ones of the same scene,
+/// but no others; its first checkpoint replaces an existing one. Backend reference writes none.
 ///
 /// `resume` continues from the checkpoint to the same bits as a run that was never interrupted. If the newest
 /// checkpoint is missing or damaged, there is a warning, and the run continues from the previous one.

@@ -84,9 +84,9 @@ Specimen with_voids_as_cells(const Specimen& specimen);
 void validate(const Specimen& specimen, const std::string& source);
 
 /// Reads `id,x,y,z,radius,phase,body` (metres; plain text or gzip, detected from the content), in file order, and
-/// validates it. Rows of phase `void` must follow those of all particles.
+/// validates it. Rows of phase `void` must follow the rows of all particles.
 ///
-/// \throws InputError with file, line, what was found and what was expected.
+/// \throws InputError with file, line, the value found and the value expected.
 Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box);
 
 /// Writes the same format, with enough digits to recover each double.
@@ -172,9 +172,10 @@ struct SpecimenSpec {
   std::optional<MasticSpec> mastic;
   std::optional<VoidSpec> voids;
   SizeLaw size_law = SizeLaw::log_uniform;
-  double spacing = 0;          ///< smallest distance between two aggregates inserted one after the other [m]
-  bool fix_aggregates = true;  ///< hold the aggregates while the mastic relaxes (otherwise |E*| changes by 6–7 %)
-  std::int64_t attempts = 2'000'000;  ///< positions tried for one aggregate before its class is given up
+  double spacing = 0;  ///< smallest distance between two aggregates inserted one after the other [m]
+  bool fix_aggregates =
+      true;  ///< whether aggregates are fixed while the mastic relaxes (otherwise |E*| changes by 6–7 %)
+  std::int64_t attempts = 2'000'000;  ///< number of positions tried for one aggregate before the generator gives up
   std::string source = "specimen";    ///< the scene's file, for messages
   int line = 0;                       ///< line of its section in that file; 0: none
 };

@@ -245,9 +245,9 @@ inline bool nothing_turns(const ContactNetwork& network, const LawTable& laws) {
 }
 
 /// Makes the stepper of a backend (resolves `automatic` first). `used`: a stepper made of the same specimen and network
-/// that is no longer needed. If the laws are of the same kinds and have the same alpha, its data that do not depend on
-/// time step, masses, loading and start are kept. The new stepper takes the same steps, to the bit, as without `used`.
-/// \throws RunError if the backend is not available; InputError if an option does not fit the backend.
+/// that is not needed any more. If the laws are of the same kinds and have the same alpha, its data that do not depend
+/// on time step, masses, loading and start are kept. The new stepper takes the same steps, to the bit, as without
+/// `used`. \throws RunError if the backend is not available; InputError if an option does not fit the backend.
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                       std::unique_ptr<Stepper> used = nullptr);

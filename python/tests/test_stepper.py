@@ -154,7 +154,7 @@ def test_boundaries(specimen, dt):
 @pytest.mark.parametrize(("change", "message"), [
     ({"precision": "half"}, r'precision: found "half", expected one of double\|mixed\|single'),
     ({"form": "x"}, "form"), ({"geometry": "x"}, "geometry"), ({"damping_kind": "x"}, "damping_kind"),
-    ({"backend": "x"}, "backend"), ({"device": 0}, "device: found 0 beside backend cpu"), ({"dt": -1.0}, "step|dt"),
+    ({"backend": "x"}, "backend"), ({"device": 0}, "device: found 0 with backend cpu"), ({"dt": -1.0}, "step|dt"),
 ])
 def test_options_are_refused_by_name(change, message, specimen, dt):
     with pytest.raises(mc.InputError, match=message):
@@ -166,7 +166,7 @@ def test_wrong_drives_and_walls(specimen, dt):
     for call, message in ((lambda: mc.Boundary().move("top", "z", ramp), r'wall: found "top"'),
                           (lambda: mc.Boundary().move("+z", "w", ramp), "axis"),
                           (lambda: mc.drives.Table(dt, [0.0, 1.0, 0.5], [0.0, 1.0, 2.0]), "row 3"),
-                          (lambda: mc.drives.Table(dt, [0.0], [0.0]), "two at least"),
+                          (lambda: mc.drives.Table(dt, [0.0], [0.0]), "at least two"),
                           (lambda: mc.drives.Table(0, [0.0, 1.0], [0.0, 1.0]), "dt: found 0"),
                           (lambda: mc.drives.Cyclic(1e-6, 10, 0), "steps_per_period: found 0"),
                           (lambda: mc.drives.Cyclic(1e-6, 0, 10), "frequency: found 0"),

@@ -65,8 +65,8 @@ TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
   EXPECT_EQ(decision, "");
   EXPECT_EQ(chosen(300'000, {}), (DeviceList{1, 2}));
   EXPECT_EQ(asked, std::vector{2});
-  EXPECT_HAS(decision, "devices 1 and 2: several step 300000 contacts faster");
-  EXPECT_HAS(decision, "--devices 1 takes one");
+  EXPECT_HAS(decision, "devices 1 and 2: several devices step 300000 contacts faster");
+  EXPECT_HAS(decision, "--devices 1 uses one");
   EXPECT_EQ(chosen(300'000, {2}), (DeviceList{1, 4}));
   EXPECT_EQ(chosen(1'000'000, {}), (DeviceList{1, 2, 4}));
   EXPECT_EQ(chosen(1'000'000, {2, 4}), DeviceList{1});
@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(All, Motion,
 
 TEST(DeviceChoice, BesideAnotherBackendIsRefused) {
   for (const Backend backend : {Backend::cpu, Backend::reference}) {
-    EXPECT_HAS(message_of([&] { select_backend(backend, nullptr, {0}); }), "device: found 0 beside backend");
+    EXPECT_HAS(message_of([&] { select_backend(backend, nullptr, {0}); }), "device: found 0 with backend");
     EXPECT_THROW(select_backend(backend, nullptr, {0}), InputError);
     EXPECT_EQ(select_backend(backend), backend);
   }

@@ -63,7 +63,7 @@ TEST_F(Plugin, AnotherFileIsNone) {
 
 TEST_F(Plugin, ALibraryOfSomebodyElseIsNone) {
   const Outcome info = with(FAKE_EMPTY_PLUGIN);
-  EXPECT_TRUE(contains(info.out, "is no plugin of Macadam")) << info.out;
+  EXPECT_TRUE(contains(info.out, "is not a plugin of Macadam")) << info.out;
 }
 
 }  // namespace

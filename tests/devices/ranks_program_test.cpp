@@ -96,7 +96,7 @@ TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
   ended = true;
   told.join();
   EXPECT_EQ(two.code, 1) << two.out << two.err;
-  EXPECT_THAT(two.err, HasSubstr("--resume goes on from it"));
+  EXPECT_THAT(two.err, HasSubstr("--resume continues from it"));
   EXPECT_EQ(count(two.err, "interrupted at"), 1u) << two.err;
   ASSERT_TRUE(fs::exists(folder_ / "two" / "checkpoint.h5"));
   EXPECT_TRUE(scratch_is_gone());
@@ -120,12 +120,12 @@ TEST_F(RanksProgram, FailsAsOne) {
   const Outcome processor =
       together(fmt::format("run {} --ranks --backend cpu --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(processor.code, 2) << processor.err;
-  EXPECT_THAT(processor.err, HasSubstr("cpu beside 2 ranks, expected cuda"));
+  EXPECT_THAT(processor.err, HasSubstr("cpu with 2 ranks, expected cuda"));
   fs::copy_file(folder_ / "scene.toml", folder_ / "other.toml");
   const Outcome several =
       together(fmt::format("run {} {} --ranks --out {}", path("scene.toml"), path("other.toml"), path("two")));
   EXPECT_EQ(several.code, 2) << several.err;
-  EXPECT_THAT(several.err, HasSubstr("found several beside 2 ranks, expected one"));
+  EXPECT_THAT(several.err, HasSubstr("found several with 2 ranks, expected one"));
   use(FAKE_PLUGIN);
   const Outcome paper = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(paper.code, 1) << paper.err;
@@ -155,7 +155,7 @@ TEST_F(RanksProgram, RefusesDifferentScenes) {
                                            path("scene.toml"), path("other.toml"), path("two"), MACADAM_PROGRAM));
   EXPECT_EQ(two.code, 1) << two.err;
   EXPECT_THAT(two.err, HasSubstr("ranks: checksum of "));
-  EXPECT_THAT(two.err, HasSubstr("they no longer run the same scene"));
+  EXPECT_THAT(two.err, HasSubstr("they do not run the same scene"));
 }
 
 TEST_F(RanksProgram, SaysWhatItNeeds) {
@@ -164,7 +164,7 @@ TEST_F(RanksProgram, SaysWhatItNeeds) {
   fs::copy_file(folder_ / "t8.csv", plugins_ / "libmacadam_ranks.so");
   const Outcome two = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(two.code, 1) << two.err;
-  EXPECT_THAT(two.err, HasSubstr("ranks: this process cannot join others: "));
+  EXPECT_THAT(two.err, HasSubstr("ranks: this process cannot join the others: "));
   setenv("MACADAM_PLUGIN_PATH", plugins_.c_str(), 1);
   EXPECT_THAT(macadam("info").out, HasSubstr("ranks      no: " + (plugins_ / "libmacadam_ranks.so").string()));
   unsetenv("MACADAM_PLUGIN_PATH");

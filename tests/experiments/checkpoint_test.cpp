@@ -230,7 +230,8 @@ TEST_F(CheckpointedRun, WhereTheNewestIsDamagedTheOneBeforeIsGoneOnWith) {
     watcher.warn = [&](const std::string& warning) { warnings.push_back(warning); };
     const RunResult result = run(scene, out("out"), watcher, true);
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_HAS(warnings[0], "checkpoint before the newest, which is missing or damaged: " + file("out").string());
+    EXPECT_HAS(warnings[0],
+               "previous checkpoint, because the newest one is missing or damaged: " + file("out").string());
     EXPECT_EQ(result.warnings, warnings);
     EXPECT_TRUE(read(out("out") / "response.csv") == read(out("one") / "response.csv"));
     for (const fs::path& gone : {file("out"), previous}) EXPECT_FALSE(fs::exists(gone)) << gone;
@@ -265,8 +266,8 @@ TEST_F(CheckpointedRun, ForgedCountsAndLinksAreRefused) {
   refused([&](auto& texts, auto&) { texts.createDataSet("t", H5::PredType::NATIVE_INT, H5::DataSpace()); },
           "\"t\" is of another type");
   refused([&](auto&, auto& arrays) { H5Lcreate_soft("/arrays", arrays.getId(), "x", H5P_DEFAULT, H5P_DEFAULT); },
-          "\"x\" is no dataset");
-  refused([&](auto&, auto& arrays) { arrays.createGroup("x"); }, "\"x\" is no dataset");
+          "\"x\" is not a dataset");
+  refused([&](auto&, auto& arrays) { arrays.createGroup("x"); }, "\"x\" is not a dataset");
 }
 
 /// Writing is atomic: after a kill during writing the checkpoint is complete.
@@ -311,7 +312,7 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
 
     int warned = 0;
     Watcher watcher;
-    watcher.warn = [&](const std::string& warning) { warned += warning.find("no checkpoint at") == 0; };
+    watcher.warn = [&](const std::string& warning) { warned += warning.find("the checkpoint at") == 0; };
     const RunResult result = run(often, out("limited"), watcher);
     EXPECT_GT(warned, 0);
     EXPECT_EQ(static_cast<int>(result.warnings.size()), warned);
@@ -323,7 +324,8 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
     watcher.stop = [&] { return planned && ++asked > 20; };
     EXPECT_HAS(message_of([&] { run(scene, out("stopped"), watcher); }), "it cannot be resumed");
     EXPECT_EQ(summary("stopped").at("status"), "interrupted");
-    EXPECT_HAS(message_of([&] { run(scene, out("out"), watcher, true); }), "--resume goes on from the one before");
+    EXPECT_HAS(message_of([&] { run(scene, out("out"), watcher, true); }),
+               "--resume continues from the previous checkpoint");
     EXPECT_EQ(summary("out").at("status"), "interrupted");
   }
   run(often, out("free"));
@@ -343,7 +345,7 @@ TEST_F(CheckpointedRun, KeepsItsWarningsWhereItGoesOn) {
   watcher.stop = [&] { return !warned.empty(); };
   EXPECT_THROW(run(often, out("out"), watcher), InterruptedError);
   ASSERT_EQ(warned.size(), 1u);
-  EXPECT_HAS(warned[0], "no checkpoint at");
+  EXPECT_HAS(warned[0], "the checkpoint at");
   EXPECT_EQ(run(often, out("out"), {}, true).warnings, warned);
 }
 
@@ -386,7 +388,7 @@ TEST_F(CheckpointedRun, AnotherMachinesCheckpointIsRefusedBeforeAnythingIsTouche
   }
   write_checkpoint(file("out"), checkpoint);
   const std::string response = read(out("out") / "response.csv"), all = read(out("out") / "summary.json");
-  EXPECT_HAS(refusal(scene, "out"), "checkpoint of another machine");
+  EXPECT_HAS(refusal(scene, "out"), "this machine cannot continue the checkpoint");
   EXPECT_TRUE(read(out("out") / "response.csv") == response);
   EXPECT_TRUE(read(out("out") / "summary.json") == all);
 }
@@ -459,10 +461,11 @@ TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
   const fs::path copy = out("copy");
   fs::copy(out("out"), copy);
   ASSERT_EQ(end_of(start("copy", false)), 0);
-  EXPECT_HAS(read(folder_ / "stderr.txt"), "this run was begun before and begins anew; --resume goes on");
+  EXPECT_HAS(read(folder_ / "stderr.txt"),
+             "this run was begun before and now starts again; --resume would continue it");
   EXPECT_FALSE(fs::exists(file("copy")));
   ASSERT_EQ(end_of(start("out", true)), 0) << read(folder_ / "stderr.txt");
-  EXPECT_EQ(read(folder_ / "stderr.txt").find("begins anew"), std::string::npos);
+  EXPECT_EQ(read(folder_ / "stderr.txt").find("starts again"), std::string::npos);
   expect_same("out", "one");
   EXPECT_EQ(end_of(start("out", true)), 2);
   EXPECT_HAS(read(folder_ / "stderr.txt"), "no such file");

@@ -156,7 +156,7 @@ TEST_F(LoadError, IsEstimatedWhereALawIsNotLinear) {
       EXPECT_LE(truth[i], 1.1 * found.points[i].error) << c.name << ", row " << i;
       EXPECT_LE(found.points[i].error, largest_estimate(c, i, truth[i])) << c.name << ", row " << i;
     }
-    EXPECT_HAS(read(out("out") / (found.kind + ".csv")), "error: estimate for the ");
+    EXPECT_HAS(read(out("out") / (found.kind + ".csv")), "error: estimated relative error of the ");
     bool said = false;
     for (const std::string& d : result.decisions)
       said |= d.starts_with("errors are estimates, because brittle_bond of ");
@@ -171,9 +171,9 @@ TEST_F(LoadError, NamesItsCause) {
   };
   const std::vector<Case> all = cases();
   EXPECT_HAS(warning(all[2]), "the error is above 1 % in 4 of 4 rows, largest at t = 0.02 s");
-  EXPECT_HAS(warning(all[2]), "inertia and the drag of damping: a longer ramp, less density_scaling (it is 3e+06)");
+  EXPECT_HAS(warning(all[2]), "inertia and the drag of damping; a longer ramp, a smaller density_scaling (now 3e+06)");
   EXPECT_HAS(warning(all[3]), "less damping (it is 300000)");
-  EXPECT_HAS(warning(all[6]), "in place of a load at once");
+  EXPECT_HAS(warning(all[6]), "in place of an instantaneous load");
 }
 
 // The stated error does not include the effect of the ramp: E(t) after a ramp differs from E(t) after a step. This

@@ -59,11 +59,11 @@ TEST_F(NonlinearScene, TheFrequencyDomainNamesPairLawAndWayOut) {
 
 TEST_F(NonlinearScene, WhatRestsOnLinearityIsRefused) {
   scene(cyclic, "tolerance = 1e-3\n");
-  EXPECT_HAS(refusal(), "tolerance in [solver]: found 0.001 beside law brittle_bond of M-M, expected none");
+  EXPECT_HAS(refusal(), "tolerance in [solver]: found 0.001 with law brittle_bond of M-M, expected no tolerance");
   scene(cyclic, "form = \"condensed\"\n");
-  EXPECT_HAS(refusal(), "form in [solver]: found \"condensed\" beside law brittle_bond of M-M, expected \"points\"");
+  EXPECT_HAS(refusal(), "form in [solver]: found \"condensed\" with law brittle_bond of M-M, expected \"points\"");
   scene(cyclic, "", "1 MPa", "[network]\nquadrature = \"exact\"\n");
-  EXPECT_HAS(refusal(), "quadrature in [network]: found \"exact\" beside law brittle_bond of M-M, expected \"lumped\"");
+  EXPECT_HAS(refusal(), "quadrature in [network]: found \"exact\" with law brittle_bond of M-M, expected \"lumped\"");
 }
 
 // Such a scene is stepped by contact points, from rest, even if the scene asks for neither, and a warning explains the

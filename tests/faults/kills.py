@@ -107,7 +107,7 @@ def refused(outcome, out, files):
 
 def gone_on(outcome, out, expected):
     complaints = [] if outcome.code == 0 else [f"exit code {outcome.code}, expected 0"]
-    if "from the checkpoint before the newest" not in outcome.err:
+    if "from the previous checkpoint" not in outcome.err:
         complaints.append("no word of the damage")
     found = Result(out)
     if isinstance(found.summary, dict):

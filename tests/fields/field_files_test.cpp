@@ -180,6 +180,20 @@ TEST_F(FieldFiles, AFullDiskIsAnErrorThatNamesTheFileAndLeavesTheFramesBefore) {
   expect_frames(4, points);
 }
 
+// After a failed frame the same series continues the file: the frames before the failure stay, and none is skipped.
+TEST_F(FieldFiles, AFrameAfterAFailedOneFollowsTheFramesBefore) {
+  constexpr std::size_t points = 20'000;  // 320 kB per frame
+  const auto series = begin(points);
+  for (int k = 0; k < 3; ++k) series->add(k, arrays_at(points, k));
+  {
+    const FileLimit limit(fs::file_size(vtkhdf()) + 100'000);
+    EXPECT_HAS(message_of([&] { series->add(3, arrays_at(points, 3)); }), "row.vtkhdf: cannot be written");
+  }
+  series->add(3, arrays_at(points, 3));
+  EXPECT_EQ(series->size(), 4u);
+  expect_frames(4, points);
+}
+
 TEST_F(FieldFiles, WhatHasNoFirstFrameLeavesNothing) {
   const FileLimit limit(100'000);
   for (const FieldFormat format : {FieldFormat::vtkhdf, FieldFormat::vtp}) {
@@ -250,9 +264,9 @@ TEST_F(FieldFiles, AListOfFramesIsGoneOnWithToo) {
 TEST_F(FieldFiles, WhatIsNoSeriesOfTheRunIsRefused) {
   const auto refused = [&](FieldFormat format) { return message_of([&] { begin(10, format, 1.0); }); };
   write(vtkhdf(), "not HDF5");
-  EXPECT_HAS(refused(FieldFormat::vtkhdf), "row.vtkhdf: fields to go on with: found what cannot be read");
+  EXPECT_HAS(refused(FieldFormat::vtkhdf), "row.vtkhdf: fields to continue: found what cannot be read");
   write(pvd(), "<DataSet timestep=\"x\n");
-  EXPECT_HAS(refused(FieldFormat::vtp), "row.pvd: fields to go on with: found <DataSet timestep=\"x");
+  EXPECT_HAS(refused(FieldFormat::vtp), "row.pvd: fields to continue: found <DataSet timestep=\"x");
   write(pvd(), "another text\n");
   EXPECT_HAS(refused(FieldFormat::vtp), "a list without its end");
   begin(20)->add(0, arrays_at(20, 0));

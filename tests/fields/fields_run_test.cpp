@@ -131,7 +131,7 @@ TEST_F(RunFields, WithoutItsFileAResumedRunBeginsAnother) {
   fs::remove(out("out") / "fields/particles_20Hz.vtkhdf");
   const RunResult result = run(asked, out("out"), {}, true);
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_HAS(result.warnings[0], "particles_20Hz had no frame to go on with; it begins at t = 0.0");
+  EXPECT_HAS(result.warnings[0], "particles_20Hz had no frame from which it could continue; it begins at t = 0.0");
   const H5::H5File file = open_hdf5(out("out") / "fields/particles_20Hz.vtkhdf");
   EXPECT_GT(numbers(file, "VTKHDF/Steps/Values").front(), 0.01);
   EXPECT_EQ(numbers(file, "VTKHDF/Steps/Values").back(), 0.05);

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "host/harmonic/check_solutions.hpp"
-#include "host/backends/processor_code.hpp"
+#include "host/harmonic/harmonic_code.hpp"
 #include "tests/support/stepper_cases.hpp"
 #include "tests/support/test_networks.hpp"
 
@@ -64,7 +64,8 @@ TEST(CheckSolutions, FindsWhatContactsSayOneByOne) {
     std::vector<const LinearTask*> asked;
     for (int f = 0; f < count; ++f) tasks.push_back(any_task(scene, f));
     for (const LinearTask& task : tasks) asked.push_back(&task);
-    const std::vector<SolutionCheck> found = processor_code().check_solutions(scene.network, scene.inertia, asked, 0);
+    const std::vector<SolutionCheck> found =
+        harmonic::harmonic_code().check_solutions(scene.network, scene.inertia, asked, 0);
     ASSERT_EQ(found.size(), tasks.size());
     for (std::size_t f = 0; f < tasks.size(); ++f) {
       const SolutionCheck expected = one_by_one(scene, tasks[f]);
@@ -93,7 +94,8 @@ TEST(CheckSolutions, TheSameBitsForAnyNumberOfThreads) {
   std::vector<SolutionCheck> found;
   for (const int threads : {1, 2, 5}) {
     omp_set_num_threads(threads);
-    found.push_back(processor_code().check_solutions(scene.network, scene.inertia, {&task, &task}, 1e-16).back());
+    found.push_back(
+        harmonic::harmonic_code().check_solutions(scene.network, scene.inertia, {&task, &task}, 1e-16).back());
   }
   omp_set_num_threads(before);
   for (const SolutionCheck& f : found) {
@@ -128,7 +130,8 @@ TEST(CheckSolutions, RoundingIsAShareOfLoadsThatDoNotCancel) {
   }
   for (const std::size_t count : {1, 2}) {
     const std::vector<const LinearTask*> asked(count, &task);
-    const SolutionCheck found = processor_code().check_solutions(made.network, made.inertia, asked, rounding).back();
+    const SolutionCheck found =
+        harmonic::harmonic_code().check_solutions(made.network, made.inertia, asked, rounding).back();
     EXPECT_LT(found.beyond_rounding, 0.999 * found.residual);
     EXPECT_NEAR(found.beyond_rounding, std::sqrt(squares), 1e-14 * found.residual);  // sums of about ten products
   }

@@ -365,7 +365,7 @@ TEST(BoundaryInput, IsRefusedByName) {
     ADD_FAILURE() << "a platen has one mass";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "boundary: wall +z: mass: found 2e-06 kg, expected 1e-06 kg, as was said with its axis x");
+                 "boundary: wall +z: mass: found 2e-06 kg, expected 1e-06 kg, the mass given with its axis x");
   }
   EXPECT_NE(
       message(Boundary().move(wall_x_hi, 0,

@@ -83,7 +83,7 @@ TEST_F(CommandHelp, IsForPeople) {
 TEST_F(CommandHelp, SaysChoicesDefaultsAndWhatIsRequired) {
   const std::string run = help_of(*app_.get_subcommand("run"));
   for (const char* words : {"Usage: macadam run scene... --out FOLDER [OPTIONS]", "--backend auto|cuda|cpu|reference",
-                            "Instead of the scene's own:", "(required)"})
+                            "Options that replace keys of the scene:", "(required)"})
     EXPECT_NE(run.find(words), std::string::npos) << words << "\n" << run;
   const std::string fill = help_of(*app_.get_subcommand("shapes")->get_subcommand("fill"));
   for (const char* words : {"--single intermediate|circumscribed|volume", "[intermediate]", "[8]"})

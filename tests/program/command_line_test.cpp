@@ -64,6 +64,7 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
            {"run " + job + " --devices 1,1", "found \"1,1\", expected all, or different"},
            {"shapes fil", "found \"fil\", expected fill (the nearest of "},
            {"specimen " + job + " more", "found \"more\", expected nothing more"},
+           {"specimen -- " + path("scene.toml"), "--out is required"},
            {"", "found no command, expected one of run, specimen, shapes, fit, calibrate, ct, info"},
            {"shapes fill x --out y --radius 1 --scale 0", "--scale: found \"0\", expected a number from 1e-12 to "}}) {
     const Outcome outcome = macadam(arguments);
@@ -266,7 +267,7 @@ TEST_F(CommandLine, ACudaDeviceIsChosenByNumber) {
   ASSERT_EQ(run_quick("cpu", "--backend cpu").code, 0);
   const Outcome beside = run_quick("beside", "--backend cpu --device 0");
   EXPECT_EQ(beside.code, 2);
-  EXPECT_TRUE(contains(beside.err, "device: found 0 beside backend cpu, expected backend cuda or auto")) << beside.err;
+  EXPECT_TRUE(contains(beside.err, "device: found 0 with backend cpu, expected backend cuda or auto")) << beside.err;
   const BackendReport report = report_backends();
   const Outcome missing = run_quick("missing", "--device 1023");
   EXPECT_TRUE(contains(missing.err, report.cuda_status)) << missing.err;

@@ -112,7 +112,7 @@ TEST_F(NewCommand, WritesWhatItSaysAndReplacesNothing) {
   EXPECT_EQ(read(folder_ / "mix.toml"), scene::new_scene(NewKind::spheres, "sweep"));
   const Outcome second = macadam("new " + path("mix.toml"));
   EXPECT_EQ(second.code, 2);
-  EXPECT_TRUE(contains(second.err, "a file that is there")) << second.err;
+  EXPECT_TRUE(contains(second.err, "an existing file")) << second.err;
   EXPECT_EQ(read(folder_ / "mix.toml"), scene::new_scene(NewKind::spheres, "sweep"));
   EXPECT_EQ(macadam("new " + path("nowhere/mix.toml")).code, 1);
 }

@@ -198,7 +198,7 @@ TEST(Recipe, IsFollowedByASpecimen) {
   expect_hand(*spec.aggregate[0].volume_fraction, 0.1358262 / 0.95);
   EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "none: they follow from the recipe");
   spec.aggregate.clear();
-  EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "a porosity or count of the mastic beside it");
+  EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "a porosity or count of the mastic together with it");
 }
 
 /// If half of the first class is missing, 1 kg of aggregate lacks 0.0815 kg.

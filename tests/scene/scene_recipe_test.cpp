@@ -199,10 +199,10 @@ INSTANTIATE_TEST_SUITE_P(
         {"ClassesBeside",
          {{19, "[[specimen.aggregate]]\nsieve = [0.002, 0.005]\ncount = 3"}},
          19,
-         "beside [specimen.recipe]",
+         "with [specimen.recipe]",
          "one of the two"},
-        {"PorosityBeside", {{19, "porosity = 0.05"}}, 19, "beside [specimen.recipe]", "air voids are the porosity"},
-        {"CountBeside", {{19, "count = 5"}}, 19, "beside [specimen.recipe]", "the recipe alone"},
+        {"PorosityBeside", {{19, "porosity = 0.05"}}, 19, "with [specimen.recipe]", "air voids are the porosity"},
+        {"CountBeside", {{19, "count = 5"}}, 19, "with [specimen.recipe]", "the recipe alone"},
         {"NoMastic", {{17, ""}, {18, ""}}, 3, "without [specimen.mastic]", "with its radius"},
         {"LargerThanTheBox",
          {{2, "box = [0.03, 0.01, 0.03]"}},
@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(SceneRecipe, NoneBesideAFile) {
   write(folder_ / "some.csv", "id,x,y,z,radius,phase,body\n");
-  EXPECT_HAS(refused({{2, "box = [0.03, 0.03, 0.03]\nfile = \"some.csv\""}}), "this key of the generator beside file");
+  EXPECT_HAS(refused({{2, "box = [0.03, 0.03, 0.03]\nfile = \"some.csv\""}}), "this key of the generator with file");
 }
 
 }  // namespace

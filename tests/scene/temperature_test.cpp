@@ -130,10 +130,10 @@ TEST_F(Temperature, WhatMeansNothingIsRefused) {
   const std::string table = "shift = \"table\"\ntemperatures = [0, 10, 20]\nlog10_a_T = [1.5, 0, -1]\n";
   EXPECT_EQ(said(table, "temperature = 15\n", ""), "nothing was thrown");
   EXPECT_HAS(said(table, "temperature = 21\n", ""), "where the shift of M-M has no value, expected 0 to 20, as in its");
-  EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 0]\nlog10_a_T = [1, 0]\n", "", ""), "rising ones");
+  EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 0]\nlog10_a_T = [1, 0]\n", "", ""), "ascending temperatures");
   EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 1]\nlog10_a_T = [1]\n", "", ""), "1 numbers for 2");
   EXPECT_HAS(said("shift = \"wlf\"\nC1 = 14\nreference_temperature = 1\n", "", ""), "C2: found nothing");
-  EXPECT_HAS(said("C1 = 14\n", "", ""), "a key shift beside it");
+  EXPECT_HAS(said("C1 = 14\n", "", ""), "this key only together with shift");
   EXPECT_HAS(said(std::string(wlf) + "activation_energy = 1e5\n", "", ""),
              "C1, C2, reference_temperature, which shift");
   EXPECT_HAS(said("shift = \"WLF\"\n", "", ""), "one of \"wlf\"");
@@ -141,7 +141,7 @@ TEST_F(Temperature, WhatMeansNothingIsRefused) {
   scene(wlf, "", "temperatures = [20]\n", "20", "explicit");
   const Outcome stepped = run_quick("stepped");
   EXPECT_EQ(stepped.code, 2);
-  EXPECT_HAS(stepped.err, "temperatures in [loading]: found 1 of them beside method \"explicit\"");
+  EXPECT_HAS(stepped.err, "temperatures in [loading]: found 1 of them with method \"explicit\"");
 }
 
 }  // namespace

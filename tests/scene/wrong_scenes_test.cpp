@@ -134,8 +134,8 @@ const std::vector<Wrong> wrong_scenes = {
     {"UnknownSizeLaw", {{3, "size_law = \"normal\""}}, 3, "\"normal\"", "\"log_uniform\""},
     // Conditions between keys
     {"PairTwice", {{23, "pair = \"M-M\""}}, 23, "\"M-M\" again", "once"},
-    {"KelvinUnitsUnequal", {{20, "C = [8.95e9]"}}, 20, "1 viscosities for the 2 moduli", "as many"},
-    {"KelvinWithoutDashpots", {{20, ""}}, 14, "0 viscosities for the 2 moduli", "as many"},
+    {"KelvinUnitsUnequal", {{20, "C = [8.95e9]"}}, 20, "1 viscosities for the 2 moduli", "the same number"},
+    {"KelvinWithoutDashpots", {{20, ""}}, 14, "0 viscosities for the 2 moduli", "the same number"},
     {"TooManyKelvinUnits",
      {{19, "E = [1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]"}, {20, "C = [1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]"}},
      19, "17 Kelvin units", "at most 16"},
@@ -156,12 +156,12 @@ const std::vector<Wrong> wrong_scenes = {
     {"FrequencyTwice", {{31, "frequencies = [5, 2, \"5000 mHz\"]"}}, 31, "5 Hz twice", "once"},
     {"FrequenciesEmpty", {{31, "frequencies = []"}, {37, ""}}, 31, "none", "at least one"},
     {"ScalingForTooFew", {{37, "density_scaling = [100]"}}, 37, "1 entries", "an array of 2"},
-    {"RampAsLongAsTheRun", {{34, "ramp_cycles = 4.5"}}, 34, "4.5", "at most 3: the last 2 of 5 cycles are fitted"},
+    {"RampAsLongAsTheRun", {{34, "ramp_cycles = 4.5"}}, 34, "4.5", "at most 3, because the last 2 of 5 cycles are fitted"},
     {"NoLawForAPairThatIsGenerated", {{48, "pair = \"inner\""}}, 14, "no law for M-W", "pair = \"M-W\""},
     {"NoLawOfMasticToAggregate", {{44, "pair = \"inner\""}}, 14, "no law for M-A", "pair = \"M-A\""},
     {"ExactQuadratureOfTheReference", {{28, "quadrature = \"exact\""}, {39, "backend = \"reference\""}},
      28, "\"reference\"", "\"lumped\""},
-    {"FitLongerThanTheRun", {{34, "fit_cycles = 6"}}, 34, "6", "at most cycles, 5"},
+    {"FitLongerThanTheRun", {{34, "fit_cycles = 6"}}, 34, "6", "at most the number of cycles, 5"},
     {"ExactQuadratureOfPoints", {{28, "quadrature = \"exact\""}, {39, "form = \"points\""}},
      28, "form = \"points\"", "\"lumped\""},
     {"InertiaOfAnExplicitRun", {{36, "inertia = true"}}, 36, "explicit", "harmonic"},
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Scene, WrongScene, ::testing::ValuesIn(wrong_scenes),
 TEST_F(SceneFile, AFileBesideARecipeIsRefused) {
   std::ofstream(folder_ / "particles.csv") << "id\n";
   const std::string what = message(text_of({{3, "file = \"particles.csv\""}}));
-  EXPECT_NE(what.find(":4: [specimen] aggregate: found this key of the generator beside file"), std::string::npos)
+  EXPECT_NE(what.find(":4: [specimen] aggregate: found this key of the generator with file"), std::string::npos)
       << what;
 }
 

@@ -13,7 +13,7 @@
 #include <limits>
 #include <numbers>
 
-#include "host/specimen/sparse_box.hpp"
+#include "host/spheres/sparse_box.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -198,9 +198,9 @@ class PlannedPrecision : public testing::Test {
 TEST_F(PlannedPrecision, IsSingleWhereThatWasMeasured) {
   const Plan made = plan(asked(1e-3));
   EXPECT_EQ(made.precision, Precision::single);
-  EXPECT_NE(said(made).find("estimated differences from double: single "), std::string::npos) << said(made);
-  EXPECT_NE(said(made).find("no bounds"), std::string::npos) << said(made);
-  EXPECT_EQ(said(made).find("not measured so far"), std::string::npos) << said(made);
+  EXPECT_NE(said(made).find("the estimated error from rounding is "), std::string::npos) << said(made);
+  EXPECT_NE(said(made).find("not bounds"), std::string::npos) << said(made);
+  EXPECT_EQ(said(made).find("was never measured"), std::string::npos) << said(made);
 }
 
 // The walls are far stiffer than in any measurement, so neither single nor mixed precision is chosen at any
@@ -213,9 +213,11 @@ TEST_F(PlannedPrecision, IsDoubleBeyondTheMeasuredStiffnesses) {
   scene.solver.density_scaling = std::vector<double>{1e8};
   const Plan made = plan(scene);
   EXPECT_EQ(made.precision, Precision::double_);
-  EXPECT_NE(said(made).find("not single precision, which was not measured so far: stiffnesses"), std::string::npos)
+  EXPECT_NE(said(made).find("single precision is not used, because its error was never measured for stiffnesses"),
+            std::string::npos)
       << said(made);
-  EXPECT_NE(said(made).find("not mixed precision, which was not measured so far: stiffnesses"), std::string::npos);
+  EXPECT_NE(said(made).find("mixed precision is not used, because its error was never measured for stiffnesses"),
+            std::string::npos);
 }
 
 // More steps than were measured in single precision, fewer than in mixed precision.
@@ -228,7 +230,9 @@ TEST_F(PlannedPrecision, IsMixedBeyondTheStepsOfSingle) {
   ASSERT_GT(steps, single_measured.up_to.steps);
   ASSERT_LT(steps, mixed_measured.up_to.steps);
   EXPECT_EQ(made.precision, Precision::mixed);
-  EXPECT_NE(said(made).find("not single precision, which was not measured so far: "), std::string::npos) << said(made);
+  EXPECT_NE(said(made).find("single precision is not used, because its error was never measured for "),
+            std::string::npos)
+      << said(made);
 }
 
 TEST_F(PlannedPrecision, TheContrastIsThatOfTheFrequency) {

@@ -148,7 +148,7 @@ TEST_F(VoidFiles, AreRefusedWhereTheyCannotBe) {
   const std::string mastic = "0,0.002,0.005,0.005,0.002,mastic,-1\n";
   EXPECT_EQ(read_rows(mastic + "1,0.008,0.005,0.005,0.001,void,-1\n").voids.size(), 1U);
   EXPECT_HAS(refused("1,0.008,0.005,0.005,0.001,void,-1\n" + mastic),
-             "s.csv:3: column phase: found \"mastic\" behind a void");
+             "s.csv:3: column phase: found \"mastic\" after a void");
   EXPECT_HAS(refused(mastic + "1,0.008,0.005,0.005,0.001,void,3\n"), "s.csv:3: column body of a void: found \"3\"");
   EXPECT_HAS(refused(mastic + "1,0.008,0.005,0.005,0,void,-1\n"), "s.csv:3: void 1: radius: found 0");
   EXPECT_HAS(refused(mastic + "1,0.018,0.005,0.005,0.001,void,-1\n"), "s.csv:3: void 1: centre");

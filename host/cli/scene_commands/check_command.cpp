@@ -90,7 +90,7 @@ nlohmann::ordered_json as_json(const Scene& scene, const Forecast& f) {
 
 void say_forecast(const std::string& file, const Scene& scene, const Forecast& f) {
   const auto row = [](const char* what, const std::string& text) { say("{:<10} {}\n", what, text); };
-  say("{} is a scene that can run\n", file);
+  say("{}: the scene can be run\n", file);
   std::string specimen = fmt::format("{} particles: {} aggregates", f.census.particles(), f.census.aggregates);
   if (f.census.in_aggregates != f.census.aggregates) specimen += fmt::format(" of {} spheres", f.census.in_aggregates);
   specimen += fmt::format(", {} of mastic", f.census.mastic);
@@ -100,16 +100,17 @@ void say_forecast(const std::string& file, const Scene& scene, const Forecast& f
                           f.solutions > 0 ? fmt::format(", {} solutions in the frequency domain", f.solutions) : ""));
   row("backend", fmt::format("{} ({}), {} threads", to_string(f.backend), f.reason, f.threads));
   if (f.stepped)
-    row("stepping", fmt::format("{} precision, form {}, geometry {}{}", to_string(f.precision), to_string(f.form),
-                                to_string(f.geometry),
-                                scene.solver.tolerance ? "; the run chooses anew what the scene leaves open" : ""));
+    row("stepping",
+        fmt::format("{} precision, form {}, geometry {}{}", to_string(f.precision), to_string(f.form),
+                    to_string(f.geometry),
+                    scene.solver.tolerance ? "; the run itself chooses the settings that the scene leaves open" : ""));
   for (const StepForecast& s : f.steps)
     row("", fmt::format("{}about {} steps of {} s, density scaling {}",
                         s.frequency_hz > 0 ? fmt::format("{} Hz: ", s.frequency_hz) : "", about(s.steps), about(s.dt_s),
                         about(s.density_scaling)));
   row("memory",
       fmt::format("about {}{}", bytes_in_words(f.host_bytes),
-                  f.device_bytes > 0 ? fmt::format(", and {} of the device", bytes_in_words(f.device_bytes)) : ""));
+                  f.device_bytes > 0 ? fmt::format(", and {} on the device", bytes_in_words(f.device_bytes)) : ""));
   row("time", fmt::format("about {}: specimen {}, network {}, solutions {}, steps {}, files {}",
                           time_in_words(f.seconds()), time_in_words(f.specimen_s), time_in_words(f.network_s),
                           time_in_words(f.harmonic_s), time_in_words(f.stepping_s), time_in_words(f.writing_s)));
@@ -131,10 +132,11 @@ void check_command(const CheckArguments& arguments) {
 }  // namespace
 
 void add_check_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("check", "what a run would make, take and write, without running");
+  CLI::App& command =
+      *app.add_subcommand("check", "predict the particles, memory, time and files of a run, without running it");
   const auto arguments = std::make_shared<CheckArguments>();
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
-  command.add_flag("--json", arguments->json, "print it for programs");
+  command.add_flag("--json", arguments->json, "print the prediction as JSON");
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam check examples/demo/scene.toml",
                          "macadam check examples/ac14_ss_am1/scene.toml --method harmonic --json"});

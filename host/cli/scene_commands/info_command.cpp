@@ -20,7 +20,7 @@ void info_command() {
   const BackendReport report = report_backends();
   say("macadam {}\n", version());
   say("cpu        yes, {} threads, compiled for {}\n", report.threads, report.processor);
-  say("reference  yes, for checking: per point, double, one thread\n");
+  say("reference  yes, for checks: point by point, double precision, one thread\n");
   say("cuda       {}: {}\n", report.devices.empty() ? "no" : "yes", report.cuda_status);
   const auto list = [](const std::vector<DeviceInfo>& devices, const char* remark) {
     for (const DeviceInfo& d : devices) {
@@ -33,7 +33,7 @@ void info_command() {
   list(report.devices_without_code, "; this build has no code for it");
   const std::string alone = why_no_ranks();
   say("ranks      {}\n",
-      alone.empty() ? "yes: mpirun may begin a process for each device, with run --ranks" : "no: " + alone);
+      alone.empty() ? "yes: mpirun can start one process per device, with run --ranks" : "no: " + alone);
   std::string reason;
   const Backend chosen = select_backend(Backend::automatic, &reason);
   say("auto       {} ({})\n", to_string(chosen), reason);
@@ -42,9 +42,9 @@ void info_command() {
 }  // namespace
 
 void add_info_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("info", "version, backends and devices, or every key of a scene");
+  CLI::App& command = *app.add_subcommand("info", "print the version, backends and devices, or every key of a scene");
   const auto keys = std::make_shared<std::optional<Keys>>();
-  add_choice(command, "--keys", *keys, "every key that a scene may have, in place of all else",
+  add_choice(command, "--keys", *keys, "print only the list of all keys of a scene, in this format",
              {{"markdown", Keys::markdown}, {"json", Keys::json}});
   add_examples(command, {"macadam info", "macadam info --keys markdown"});
   command.callback([keys] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file info_command.hpp  `macadam info`: prints version, backends and devices, or every key of a scene.
+/// \file info_command.hpp  `macadam info`: prints the version, backends and devices, or every key of a scene.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -27,7 +27,8 @@ struct NewArguments {
 /// Writes a new file. \throws InputError if a file of this name exists, even if it was made a moment ago.
 void write_new(const std::string& file, const std::string& text) {
   const int out = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (out < 0 && errno == EEXIST) throw InputError(file, 0, "scene", "a file that is there", "a name that is free");
+  if (out < 0 && errno == EEXIST)
+    throw InputError(file, 0, "scene", "an existing file", "a new name, because no file is replaced");
   const auto fail = [&] { throw RunError(fmt::format("{}: cannot be written: {}", file, std::strerror(errno))); };
   if (out < 0) fail();
   std::size_t at = 0;
@@ -48,26 +49,26 @@ void new_command(const NewArguments& arguments) {
   write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test));
   say("{} is written; change it, then:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)
-    say("  put specimen.csv beside it (id,x,y,z,radius,phase,body) and its box into it\n");
+    say("  put specimen.csv (id,x,y,z,radius,phase,body) into the same folder and its box into the scene\n");
   say("  macadam check {0}\n  macadam run {0} --out results\n", arguments.file);
 }
 
 }  // namespace
 
 void add_new_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("new", "write a commented scene of a mix, to begin with");
+  CLI::App& command = *app.add_subcommand("new", "write a commented scene to start from");
   const auto arguments = std::make_shared<NewArguments>();
-  add_text(command, "file", arguments->file, "scene to write; one that is there is never replaced")
+  add_text(command, "file", arguments->file, "scene file to write; an existing file is never replaced")
       ->default_str(arguments->file);
   add_choice(command, "--kind", arguments->kind,
-             "a mix design by mass, classes by volume as spheres or as shapes, or a specimen.csv that is there",
+             "a mix design by mass, aggregate classes by volume as spheres or as shapes, or an existing specimen.csv",
              {{"recipe", scene::NewKind::recipe},
               {"spheres", scene::NewKind::spheres},
               {"shapes", scene::NewKind::shapes},
               {"file", scene::NewKind::file}});
   std::vector<std::pair<std::string, std::string>> tests;
   for (const std::string& kind : scene::tests_of_new_scenes()) tests.emplace_back(kind, kind);
-  add_choice(command, "--test", arguments->test, "what is done to it", tests);
+  add_choice(command, "--test", arguments->test, "the test of the specimen", tests);
   add_examples(command, {"macadam new mix.toml", "macadam new --kind shapes --test sweep mix.toml"});
   command.callback([arguments] { new_command(*arguments); });
 }

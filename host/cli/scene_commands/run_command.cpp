@@ -89,15 +89,17 @@ void run_command(RunArguments arguments) {
 void add_run_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("run", "run a scene, or several side by side, and write the results");
   const auto arguments = std::make_shared<RunArguments>();
-  command.add_option("scene", arguments->scenes, "scene files (TOML); of several, each has a folder in that of --out")
+  command
+      .add_option("scene", arguments->scenes,
+                  "scene files (TOML); several scenes get one folder each in the folder of --out")
       ->required()
       ->type_name("FILE");
   add_out_and_seed(command, arguments->job);
   command.add_flag("--resume", arguments->resume,
-                   "go on from the checkpoint that an interrupted run left in the folder");
+                   "continue from the checkpoint that an interrupted run left in the folder");
   add_ranks(command, arguments->ranks);
   add_number(command, "--at-once", arguments->at_once,
-             "scenes at a time, of several; 0: four a CUDA device, all devices, or one a core", 0, 1024);
+             "number of scenes that run at a time; 0: four per CUDA device, on all devices, or one per core", 0, 1024);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam run examples/demo/scene.toml --out results",
                          "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",

@@ -43,7 +43,7 @@ void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Ov
     const std::string name = name_of(file);
     if (const auto [other, is_new] = scene_named.emplace(name, file); !is_new) {
       throw InputError(file + ": found the name " + name + ", which " + other->second +
-                       " has already, expected scenes of different names: each has a folder of its name");
+                       " has already, expected different names, because each scene gets a folder of its name");
     }
     Job one = job;
     one.scene = file;
@@ -84,8 +84,8 @@ void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Ov
   line.clear();
   if (interrupted > 0) {
     throw InterruptedError(
-        fmt::format("interrupted: {} of {} scenes are not done; --resume goes on from checkpoints and does "
-                    "the others anew",
+        fmt::format("interrupted: {} of {} scenes are not done; --resume continues from checkpoints and repeats the "
+                    "scenes without one",
                     interrupted + failed, jobs.size()));
   }
   if (failed > 0) throw RunError(fmt::format("{} of {} scenes failed", failed, jobs.size()));

@@ -59,7 +59,7 @@ void add_specimen_command(CLI::App& app) {
   add_job_options(command, arguments->job);
   command
       .add_option("--section", arguments->sections,
-                  "cut the cells by a plane, as x=0.025 or \"z=40 mm\"; may be given several times")
+                  "cut the cells by a plane, such as x=0.025 or \"z=40 mm\"; may be given several times")
       ->allow_extra_args(false)  // the argument that follows is the scene
       ->type_name("PLANE");
   add_examples(command, {"macadam specimen examples/ac14_recipe/scene.toml --out results/specimen",

@@ -29,12 +29,13 @@ std::string draw_results(const std::string& script, const fs::path& folder, cons
   const fs::path file = find(script);
   if (file.empty()) return fmt::format("no pictures: share/macadam/{} is not installed beside the program\n", script);
   const std::string python = python_interpreter();
-  // the user's own Python may lack matplotlib although Debian's has it
+  // the user's own Python may lack matplotlib although Debian's Python includes it
   for (const std::string& one : {python, std::string("/usr/bin/python3")})
     if (runs({one, "-B", file.string(), folder.string()})) return fmt::format("pictures: {}\n", pictures);
   return fmt::format(
-      "no pictures: {} has no matplotlib; name a Python that has it in MACADAM_PYTHON, or run it with {} {}\n", python,
-      file.string(), folder.string());
+      "no pictures: {} has no matplotlib; set MACADAM_PYTHON to a Python with matplotlib, or run that Python with {} "
+      "{}\n",
+      python, file.string(), folder.string());
 }
 
 }  // namespace macadam

@@ -61,7 +61,7 @@ std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
 
 std::string HelpFormatter::make_group(std::string group, bool positional,
                                       std::vector<const CLI::Option*> options) const {
-  std::string out = (group == "Options" || positional ? "\n" : "") + (positional ? "What it takes" : group) + ":\n";
+  std::string out = (group == "Options" || positional ? "\n" : "") + (positional ? "Arguments" : group) + ":\n";
   for (const CLI::Option* option : options) out += make_option(option, positional);
   return out;
 }

@@ -36,27 +36,31 @@ void add_job_options(CLI::App& command, Job& job) {
 
 void add_out_and_seed(CLI::App& command, Job& job) {
   add_out(command, job.out);
-  add_number(command, "--seed", job.seed, "another specimen of the same mixture, instead of the scene's", 0,
+  add_number(command, "--seed", job.seed,
+             "seed of the generator: another seed gives another specimen of the same mixture", 0,
              std::numeric_limits<std::uint64_t>::max())
       ->group(instead_of_scene);
 }
 
 void add_overrides(CLI::App& command, Overrides& instead) {
   add_choice(
-      command, "--backend", instead.backend, "what computes: auto is a CUDA device if there is one",
+      command, "--backend", instead.backend,
+      "backend that computes: auto is a CUDA device if there is one, else the CPU",
       {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}, {"reference", Backend::reference}})
       ->group(instead_of_scene);
-  add_choice(command, "--precision", instead.precision, "of the steps",
+  add_choice(command, "--precision", instead.precision, "precision of the time steps",
              {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}})
       ->group(instead_of_scene);
-  add_choice(command, "--method", instead.method, "stepped in time, or solved in the frequency domain",
+  add_choice(command, "--method", instead.method, "step in time, or solve in the frequency domain",
              {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})
       ->group(instead_of_scene);
   add_choice(
-      command, "--linear", instead.linear, "how harmonic solutions are found: without factors, or with them",
+      command, "--linear", instead.linear,
+      "solver of the frequency domain: iterative, or direct by factorisation on the CPU",
       {{"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}})
       ->group(instead_of_scene);
-  add_number(command, "--threads", instead.threads, "of the CPU; results do not depend on it", 1, 1024)
+  add_number(command, "--threads", instead.threads, "number of threads of the CPU; results do not depend on it", 1,
+             1024)
       ->group(instead_of_scene);
   add_devices(command, instead.devices)->group(instead_of_scene);
 }
@@ -113,7 +117,7 @@ void say_preparation(const Preparation& p) {
   if (p.network.dropped_gap + p.network.dropped_area > 0) {
     say("dropped: {} facets by gap_max, {} by area_min\n", p.network.dropped_gap, p.network.dropped_area);
   }
-  if (p.loose_particles > 0) say("warning: {} particles are not joined to both walls\n", p.loose_particles);
+  if (p.loose_particles > 0) say("warning: {} particles are not connected to both walls\n", p.loose_particles);
   say("specimen {:.2f} s, tessellation {:.2f} s, network {:.2f} s\n", p.seconds_specimen, p.seconds_tessellation,
       p.seconds_network);
 }
@@ -121,7 +125,7 @@ void say_preparation(const Preparation& p) {
 void show_or_stop(ProgressLine& line, const std::string& stage, double share) {
   if (stop_asked()) {
     throw InterruptedError(
-        fmt::format("interrupted at: {}; nothing was written, what the folder held is as it was", stage));
+        fmt::format("interrupted at: {}; nothing was written, and the files in the folder are unchanged", stage));
   }
   line.show(stage, share);
 }

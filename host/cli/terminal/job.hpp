@@ -21,7 +21,7 @@ struct Job {
 };
 
 /// Title in the help for options that replace keys of the scene.
-inline constexpr const char* instead_of_scene = "Instead of the scene's own";
+inline constexpr const char* instead_of_scene = "Options that replace keys of the scene";
 
 /// Reads a list of devices: "0", "0,1" or "all".
 DeviceList devices_of(const std::string& text);
@@ -38,7 +38,7 @@ void add_overrides(CLI::App& command, Overrides& instead);
 template <class Target>  // DeviceList, or an optional one
 CLI::Option* add_devices(CLI::App& command, Target& target) {
   return options::add(command, "--device,--devices",
-                      "number of the CUDA device, as macadam info lists them, or 0,1,… or all: they share the specimen",
+                      "number of the CUDA device as in macadam info, or several that share the specimen: 0,1,… or all",
                       [&target](const std::string& text) { target = devices_of(text); })
       ->type_name("LIST");
 }
@@ -46,7 +46,7 @@ CLI::Option* add_devices(CLI::App& command, Target& target) {
 /// Adds --ranks.
 inline void add_ranks(CLI::App& command, bool& ranks) {
   command.add_flag("--ranks", ranks,
-                   "step one specimen by all the processes that mpirun began, each with a CUDA device");
+                   "step one specimen with all processes that mpirun started, each on a CUDA device of its own");
 }
 
 /// Reads the scene and replaces its seed if the command line gives one. \throws InputError.

@@ -106,12 +106,12 @@ inline CLI::Option* add_text(CLI::App& app, const std::string& name, std::string
 
 /// Adds --out, the folder into which a command writes.
 inline CLI::Option* add_out(CLI::App& app, std::string& target, const std::string& what = "of the results") {
-  return add_text(app, "--out", target, "folder " + what + "; made if it is not there", "FOLDER")->required();
+  return add_text(app, "--out", target, "folder " + what + "; created if it does not exist", "FOLDER")->required();
 }
 
 /// Adds --scale, the length of one unit of surface files [m].
 inline CLI::Option* add_scale(CLI::App& app, double& scale) {
-  return add_number(app, "--scale", scale, "metres a unit of the files: 1e-3 for millimetres", 1e-12, 1e12);
+  return add_number(app, "--scale", scale, "metres per unit of the files: 1e-3 for millimetres", 1e-12, 1e12);
 }
 
 }  // namespace macadam

@@ -41,13 +41,16 @@ void choose_precision(const Scene& scene, const Preparation& prepared, Plan& pla
                    : mixed <= share && beyond_mixed.empty() ? Precision::mixed
                                                             : Precision::double_;
   decide(
-      "precision {}: estimated differences from double: single {:.1e}, mixed {:.1e}; these are estimates, not bounds: "
-      "the largest measured differences are {:.1e} (up to {:.1e} steps) and {:.1e} (up to {:.1e} steps)",
-      to_string(plan.precision), single, mixed, single_measured.largest,
+      "precision {}: the estimated error from rounding is {:.1e} in single and {:.1e} in mixed precision, and {:.1e} "
+      "is allowed; these are estimates, not bounds: the largest errors measured so far are {:.1e} (up to {:.1e} steps) "
+      "and {:.1e} (up to {:.1e} steps)",
+      to_string(plan.precision), single, mixed, share, single_measured.largest,
       static_cast<double>(single_measured.up_to.steps), mixed_measured.largest,
       static_cast<double>(mixed_measured.up_to.steps));
-  if (!beyond_single.empty()) decide("not single precision, which was not measured so far: {}", beyond_single);
-  if (!beyond_mixed.empty()) decide("not mixed precision, which was not measured so far: {}", beyond_mixed);
+  if (!beyond_single.empty())
+    decide("single precision is not used, because its error was never measured for {}", beyond_single);
+  if (!beyond_mixed.empty())
+    decide("mixed precision is not used, because its error was never measured for {}", beyond_mixed);
 }
 
 }  // namespace macadam

@@ -15,8 +15,10 @@ std::unique_ptr<Solution> ExperimentOf<Cyclic>::plan(const Cyclic&, const Scene&
   if (scene.solver.method == SolverMethod::explicit_) {
     return plan_steps(scene, prepared, watcher, std::move(resumed), result);
   }
-  return plan_harmonic(scene, prepared, watcher, result,
-                       result.found.emplace<experiments::HarmonicCyclic>().frequencies);
+  result.found.emplace<experiments::HarmonicCyclic>();
+  return plan_harmonic(
+      scene, prepared, watcher, result,
+      [](RunResult & run) -> auto& { return std::get<experiments::HarmonicCyclic>(run.found).frequencies; });
 }
 
 template <>

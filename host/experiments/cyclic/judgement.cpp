@@ -37,11 +37,11 @@ std::vector<std::string> faults_of(const Frequency& f, double stiffest) {
   std::vector<std::string> faults;
   const double phase = f.stiffness.phase_deg;
   if (phase < -phase_margin_deg || phase > 90 + phase_margin_deg) {
-    faults.push_back(fmt::format("a phase angle of {:.4g} degrees, where springs and dashpots give 0 to 90", phase));
+    faults.push_back(fmt::format("the phase angle is {:.4g} degrees, but springs and dashpots give 0 to 90", phase));
   }
   if (f.stiffness.e_star_pa > bound_margin * stiffest) {
     faults.push_back(
-        fmt::format("|E*| of {:.4g} Pa, where the stiffest contact has {:.4g}", f.stiffness.e_star_pa, stiffest));
+        fmt::format("|E*| is {:.4g} Pa, but the stiffest contact has {:.4g} Pa", f.stiffness.e_star_pa, stiffest));
   }
   return faults;
 }
@@ -50,8 +50,8 @@ void require_modulus(const Frequency& f) {
   const Stiffness& found = f.stiffness;
   if (!std::isfinite(found.phase_deg) || !(found.e_star_pa > 0 && std::isfinite(found.e_star_pa))) {
     throw RunError(
-        fmt::format("{} Hz: |E*| = {} Pa, phi = {} degrees: expected finite numbers and |E*| above 0 (a "
-                    "strain too small for the precision?)",
+        fmt::format("{} Hz: |E*| = {} Pa, phi = {} degrees: expected finite numbers and |E*| above 0 (the strain may "
+                    "be too small for the precision)",
                     f.frequency_hz, found.e_star_pa, found.phase_deg));
   }
 }
@@ -76,13 +76,13 @@ double stiffest_contact(const Scene& scene, const ContactNetwork& network, doubl
 void judge(HarmonicFrequency& f, double stiffest, std::vector<std::string>& warnings) {
   require_modulus(f);
   f.fault = fmt::format("{}", fmt::join(faults_of(f, stiffest), " and "));
-  if (!f.fault.empty()) warn(f, f.fault + ": inertia rules the result", warnings);
+  if (!f.fault.empty()) warn(f, f.fault + ": inertia dominates the result", warnings);
   if (f.density_scaling != 0) return;
   const ErrorEstimate walls = difference(f.bottom, f.stiffness);
   if (largest(walls) > wall_difference) {
     warn(f,
-         fmt::format("the bottom wall's reaction differs from the top's by {:.1e} of |E*| and {:.1e} rad: the "
-                     "solution is not more accurate than this (stiffnesses too far apart?)",
+         fmt::format("the reactions of bottom and top wall differ by {:.1e} of |E*| and {:.1e} rad, and the error of "
+                     "the solution may be as large (the stiffnesses of contacts may differ too much)",
                      walls.e_star, walls.phase_rad),
          warnings);
   }
@@ -95,11 +95,11 @@ void judge(SteppedFrequency& f, std::optional<double> stiffest, std::optional<do
   std::vector<std::string> faults = faults_of(f, *stiffest);
   if (f.residual() > largest_residual) {
     faults.push_back(
-        fmt::format("a stress that is not a sine: the residual of the fit is {:.2g} of the amplitude", f.residual()));
+        fmt::format("the stress is not a sine (the residual of the fit is {:.2g} of the amplitude)", f.residual()));
   }
   f.fault = fmt::format("{}", fmt::join(faults, " and "));
   if (!f.fault.empty()) {
-    warn(f, f.fault + ": inertia, waves of the start, or too few cycles rule the result", warnings);
+    warn(f, f.fault + ": inertia, waves from the start or too few cycles dominate the result", warnings);
   }
   if (!tolerance) return;
   if (!f.kept) {
@@ -108,15 +108,16 @@ void judge(SteppedFrequency& f, std::optional<double> stiffest, std::optional<do
         compared ? std::max(std::abs(f.cyclic.change_e_star), std::abs(radians(f.cyclic.change_phase_deg))) : 0;
     if (!f.fault.empty() || change > *tolerance) f.kept = false;
     warn(f,
-         fmt::format("the tolerance could not be verified without a harmonic solution{}: {}, the residual of the fit "
-                     "is {:.1e} of "
-                     "the amplitude",
-                     f.kept ? ", and cannot have been kept" : "",
-                     compared ? fmt::format("the last two cycles differ by {:.1e}", change) : "it ran one cycle",
+         fmt::format("there is no harmonic solution to compare with, so the tolerance could not be verified{}: {}, and "
+                     "the residual of the fit is {:.1e} of the amplitude",
+                     f.kept ? " and was certainly not met" : "",
+                     compared ? fmt::format("the last two cycles differ by {:.1e}", change) : "only one cycle was run",
                      f.residual()),
          warnings);
   } else if (!*f.kept) {
-    warn(f, "the tolerance was not kept", warnings);
+    const std::string found =
+        f.achieved ? fmt::format(": the difference from the harmonic solution is {:.1e}", largest(*f.achieved)) : "";
+    warn(f, fmt::format("the tolerance of {:g} was not met{}", *tolerance, found), warnings);
   }
 }
 
@@ -124,8 +125,8 @@ void require_sense(const Scene& scene, const experiments::SteppedCyclic& result)
   if (!scene.solver.tolerance) return;
   for (const SteppedFrequency& f : result.frequencies) {
     if (f.fault.empty()) continue;
-    throw RunError(fmt::format("{} Hz: the result is far from the tolerance of {:g} that was asked for: {}",
-                               f.frequency_hz, *scene.solver.tolerance, f.fault));
+    throw RunError(fmt::format("{} Hz: the result cannot meet the tolerance of {:g}: {}", f.frequency_hz,
+                               *scene.solver.tolerance, f.fault));
   }
 }
 

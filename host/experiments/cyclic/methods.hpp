@@ -21,9 +21,12 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
 experiments::Frequency frequency_of(const Scene& scene, double frequency_hz, std::optional<double> temperature_c,
                                     double density_scaling, const Stiffness& stiffness, double seconds);
 
-/// Solves the steady states of the experiment's frequencies and temperatures. Stores them in `found`, a part of
-/// `result`. \throws as the constructor of Harmonic does.
+/// Returns the list in a result that receives solved steady states.
+using ListOfStates = std::vector<experiments::HarmonicFrequency>& (*)(RunResult& result);
+
+/// Solves the steady states of the experiment's frequencies and temperatures and adds them to a list in the result.
+/// \throws as the constructor of Harmonic does.
 std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                        RunResult& result, std::vector<experiments::HarmonicFrequency>& found);
+                                        RunResult& result, ListOfStates states);
 
 }  // namespace macadam

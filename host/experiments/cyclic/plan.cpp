@@ -73,20 +73,22 @@ class Planner {
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       if (!facts[pair]) continue;
       const std::string beside =
-          fmt::format("beside law {} of {}", facts[pair]->name, to_string(static_cast<PairType>(pair)));
+          fmt::format("with law {} of {}", facts[pair]->name, to_string(static_cast<PairType>(pair)));
       const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
         throw InputError(scene_.file.string(), 0, what, found + " " + beside, expected);
       };
       if (automatic() && !facts[pair]->stiffness) {
-        refuse("tolerance in [solver]", fmt::format("{}", tolerance()),
-               "none: the frequency domain, which errors are measured against, has no place for this law");
+        refuse(
+            "tolerance in [solver]", fmt::format("{}", tolerance()),
+            "no tolerance: errors are measured against the frequency domain, where this law has no complex stiffness");
       }
       if (facts[pair]->linear) continue;
       if (scene_.network.quadrature == Quadrature::exact) {
-        refuse("quadrature in [network]", "\"exact\"", "\"lumped\": a law that is not linear is stepped by points");
+        refuse("quadrature in [network]", "\"exact\"",
+               "\"lumped\", because a law that is not linear is stepped point by point");
       }
       if (scene_.solver.form == ContactForm::condensed) {
-        refuse("form in [solver]", "\"condensed\"", "\"points\", or nothing: this law is not linear");
+        refuse("form in [solver]", "\"condensed\"", "\"points\", or no form, because this law is not linear");
       }
     }
   }
@@ -98,7 +100,7 @@ class Planner {
     const bool fixed = plan_.geometry == Geometry::fixed;
     if (automatic()) {
       // carried frames turn while the points move with them, so the two forms differ by the square of the strain
-      decide("form {}: the other form gives the same result to {}", to_string(plan_.form),
+      decide("contact form {}: the other form differs only by {}", to_string(plan_.form),
              fixed ? "rounding" : fmt::format("about {:.0e}, the square of the strain", strain * strain));
       decide("geometry {}: at a strain of {:g}, keeping the initial geometry changes |E*| by at most about {:.1e}",
              to_string(plan_.geometry), strain, error);
@@ -110,7 +112,7 @@ class Planner {
   /// Makes the harmonic solver. If that is not possible, `no_harmonic_` says why.
   void make_harmonic() {
     if (prepared_.loose_particles > 0) {
-      no_harmonic_ = fmt::format("{} particles are not joined to both walls", prepared_.loose_particles);
+      no_harmonic_ = fmt::format("{} particles are not connected to both walls", prepared_.loose_particles);
       return;
     }
     if (const auto without = first_without_stiffness(scene_.laws)) {
@@ -131,19 +133,21 @@ class Planner {
     start_ = asked_start(scene_);
     if (!plans_with_solutions(scene_)) return;
     make_harmonic();
-    if (!harmonic_) decide("no harmonic solution: {}", no_harmonic_);
+    if (!harmonic_) decide("no harmonic solution to start from or to compare with: {}", no_harmonic_);
     const bool local = scene_.solver.damping_kind == Damping::local;
-    if (local) decide("not linear: local damping, whose own effect is not predicted");
+    if (local) decide("local damping is not linear, so predicted errors do not contain its effect");
     if (is_strain_large(scene_, plan_.geometry)) {
       decide(
-          "not linear at this strain: the harmonic solution, which has the initial geometry, differs by up to {:.1e}",
+          "the response is not linear at this strain: the harmonic solution keeps the initial geometry and differs by "
+          "up to {:.1e}",
           nonlinear_);
     }
     start_ = harmonic_ ? cyclic_start(scene_, plan_.geometry) : Start::rest;
     if (start_ == Start::steady) {
-      decide("steady start from the harmonic solution: the first cycle is periodic");
+      decide(
+          "the run starts in the steady state of the harmonic solution, so that the first cycle is already periodic");
     } else {
-      decide("start from rest{}", asked ? ", not the steady start that the scene asks for" : "");
+      decide("the run starts from rest{}", asked ? ", although the scene asks for a steady start" : "");
     }
   }
 
@@ -162,7 +166,8 @@ class Planner {
     }
     for (const auto& r : out) {
       if (r && !r->why_factors.empty())
-        decide("{} Hz: solved by the direct solver: {}", r->frequency_hz, r->why_factors);
+        decide("{} Hz: solved with the direct solver, because the iterative solver cannot be used: {}", r->frequency_hz,
+               r->why_factors);
     }
     return out;
   }
@@ -253,33 +258,34 @@ class Planner {
     if (automatic()) {
       std::string error;
       if (f.predicted) {
-        error =
-            fmt::format("predicted error |E*| {:+.1e}, phi {:+.1e} rad", f.predicted->e_star, f.predicted->phase_rad);
+        error = fmt::format("predicted error of |E*| {:+.1e}, of phi {:+.1e} rad", f.predicted->e_star,
+                            f.predicted->phase_rad);
       } else {
-        error = fmt::format("the error by inertia is about {:.1e}, estimated from the height and the slowest wave",
+        error = fmt::format("estimated error from inertia {:.1e}, by the height of the specimen and its slowest wave",
                             f.density_scaling * inertia_estimate(scene_, prepared_, frequency));
       }
       if (f.predicted && largest(*f.predicted) + plan_.geometry_error > tolerance())
-        error += ", more than the tolerance";
-      decide("{} Hz: density scaling {:.4g}, {} cycle{} of {} steps of {:.3g} s: {}", frequency, f.density_scaling,
-             f.cycles, f.cycles == 1 ? "" : "s", f.loading.steps_per_period, f.loading.dt(), error);
+        error += ", which is more than the tolerance";
+      decide("{} Hz: with density scaling {:.4g} a time step may take {:.3g} s, so {} cycle{} {} {} steps{}; {}",
+             frequency, f.density_scaling, f.loading.dt(), f.cycles, f.cycles == 1 ? "" : "s",
+             f.cycles == 1 ? "takes" : "take", f.loading.steps_per_period, f.cycles == 1 ? "" : " each", error);
     }
     if (f.start == Start::rest && usual_ramp(scene_) > 0) {
       decide("{} Hz: {}", frequency,
-             ramp > 0 ? fmt::format("a ramp of {:g} cycle{}, which makes the waves of the start smaller", ramp,
+             ramp > 0 ? fmt::format("the load grows over {:g} cycle{}, so that the start causes fewer waves", ramp,
                                     ramp == 1 ? "" : "s")
-                      : "no ramp: waves of the start remain and change the result by 1e-5 to 1e-3");
+                      : "without a ramp, waves from the start remain and change |E*| by 1e-5 to 1e-3 at random");
     }
     const double share = f.loading.dt() / (plan_.critical.dt * std::sqrt(f.density_scaling));
     if (share > 1)
-      decide("{} Hz: the given time step is {:.2f} times the largest step that is surely stable", frequency, share);
+      decide("{} Hz: the given time step is {:.2f} times the largest one that is certainly stable", frequency, share);
   }
 
   /// Returns a loading with a whole number of samples per period and a whole number of steps per sample.
   drives::Cyclic make_loading(const FrequencyPlan& f, double frequency, double ramp) const {
     const experiments::Cyclic& spec = scene_.cyclic();
     const double step = longest_cyclic_step(scene_.solver, plan_.critical.dt, f.density_scaling);
-    require_possible(1 / (frequency * step), step, fmt::format("a cycle at {} Hz", frequency));
+    require_possible(1 / (frequency * step), step, fmt::format("per cycle at {} Hz", frequency));
     drives::Cyclic loading;
     loading.amplitude = spec.strain_amplitude * prepared_.specimen.box.size.z;
     loading.frequency = frequency;

@@ -20,37 +20,40 @@ experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& secti
   constexpr std::int64_t most = 1'000'000;
   constexpr Rule ramp{[](double v) { return v >= 0 && v <= most; }, "0 to 1,000,000 cycles"};
   experiments::Cyclic spec;
-  section.read(
-      {kind_key(),
-       {"frequencies", Need::required, into(spec.frequencies, frequency, positive), "one test each"},
-       {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius),
-        "every frequency at each of them; in place of temperature in [materials]", "none"},
-       {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain), "amplitude over the height"},
-       {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}}),
-        "from zero displacement, or in the steady state of the harmonic solution",
-        "\"rest\"; with tolerance \"steady\""},
-       {"cycles", Need::optional, into(spec.cycles, 1, most), "periods of each test",
-        "5; from a steady start 1; with tolerance, from rest, 4 or more"},
-       {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp), "smooth start over so many periods",
-        "0; with tolerance, from rest, 1"},
-       {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most), "last periods that are fitted",
-        "2 of four cycles or more, else 1"},
-       {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most), "lines of response.csv a period"}});
+  section.read({kind_key(),
+                {"frequencies", Need::required, into(spec.frequencies, frequency, positive),
+                 "frequencies of the load, one test each"},
+                {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius),
+                 "temperatures at which every frequency is tested; they replace temperature in [materials]", "none"},
+                {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain),
+                 "amplitude of the strain: displacement of the top wall over the height"},
+                {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}}),
+                 "start from zero displacement, or in the steady state of the harmonic solution",
+                 "\"rest\"; with tolerance \"steady\""},
+                {"cycles", Need::optional, into(spec.cycles, 1, most), "number of periods of each test",
+                 "5; from a steady start 1; with tolerance, from rest, 4 or more"},
+                {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp),
+                 "number of periods over which the load grows smoothly", "0; with tolerance, from rest, 1"},
+                {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most), "number of last periods that are fitted",
+                 "2 if there are four cycles or more, else 1"},
+                {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most),
+                 "samples per period, which are the lines of response.csv"}});
   require_once(section, "frequencies", spec.frequencies, "Hz", "frequency");
   require_once(section, "temperatures", spec.temperatures, "degrees C", "temperature");
   if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {
-    section.refuse("ramp_cycles", fmt::format("{} beside start = \"steady\"", *spec.ramp_cycles),
-                   "0: a steady start is in motion at once");
+    section.refuse("ramp_cycles", fmt::format("{} with start = \"steady\"", *spec.ramp_cycles),
+                   "0, because a steady start is already in motion");
   }
   if (spec.cycles && spec.fit_cycles.value_or(1) > *spec.cycles) {
-    section.refuse("fit_cycles", fmt::format("{}", *spec.fit_cycles), fmt::format("at most cycles, {}", *spec.cycles));
+    section.refuse("fit_cycles", fmt::format("{}", *spec.fit_cycles),
+                   fmt::format("at most the number of cycles, {}", *spec.cycles));
   }
   if (spec.cycles && spec.ramp_cycles) {
     const int fitted = spec.fitted(*spec.cycles);
     if (*spec.ramp_cycles > *spec.cycles - fitted) {
-      section.refuse(
-          "ramp_cycles", fmt::format("{}", *spec.ramp_cycles),
-          fmt::format("at most {}: the last {} of {} cycles are fitted", *spec.cycles - fitted, fitted, *spec.cycles));
+      section.refuse("ramp_cycles", fmt::format("{}", *spec.ramp_cycles),
+                     fmt::format("at most {}, because the last {} of {} cycles are fitted", *spec.cycles - fitted,
+                                 fitted, *spec.cycles));
     }
   }
   return spec;

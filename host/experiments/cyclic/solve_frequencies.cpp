@@ -49,17 +49,17 @@ std::string described(const Scene& scene, double viscous) {
   std::string out = solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
   if (viscous > 0) out += " and viscous damping";
   if (solver.damping_kind != Damping::none && viscous == 0) {
-    out += fmt::format("; {} damping has no part in it", to_string(solver.damping_kind));
+    out += fmt::format("; {} damping is not used", to_string(solver.damping_kind));
   }
-  if (const std::string unused = unused_settings(scene); !unused.empty()) out += "; no use for " + unused;
+  if (const std::string unused = unused_settings(scene); !unused.empty()) out += "; not used: " + unused;
   return out;
 }
 
 class HarmonicSolution : public Solution {
  public:
   HarmonicSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
-                   std::vector<HarmonicFrequency>& found)
-      : scene_(scene), prepared_(prepared), watcher_(watcher), found_(found) {
+                   ListOfStates states)
+      : scene_(scene), prepared_(prepared), watcher_(watcher), states_(states) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
     // the reference backend implements time steps only; the direct solver runs on the CPU only
@@ -117,7 +117,7 @@ class HarmonicSolution : public Solution {
         }
       } catch (const InterruptedError&) {
         throw InterruptedError("interrupted at " + where +
-                               "; summary.json has those before it; method harmonic keeps no checkpoints");
+                               "; summary.json holds the results before it; method harmonic keeps no checkpoints");
       }
     }
   }
@@ -143,14 +143,16 @@ class HarmonicSolution : public Solution {
 
   void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) {
     for (const HarmonicResult& s : solved) {
-      const std::size_t i = found_.size() % frequencies_.size();
+      const std::size_t i = states_(result).size() % frequencies_.size();
       HarmonicFrequency f;
       static_cast<experiments::Frequency&>(f) =
           frequency_of(scene_, s.frequency_hz, isothermal_.materials.temperature,
                        scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0, s.top, s.seconds);
       f.linear = s.linear;
       if (!s.why_factors.empty()) {
-        result.warnings.push_back(fmt::format("{} Hz: solved with factors: {}", s.frequency_hz, s.why_factors));
+        result.warnings.push_back(
+            fmt::format("{} Hz: solved with the direct solver, because the iterative solver cannot be used: {}",
+                        s.frequency_hz, s.why_factors));
       }
       f.parts = s.parts;
       f.bottom = s.bottom;
@@ -163,7 +165,7 @@ class HarmonicSolution : public Solution {
         const bool several = !temperatures_.empty();
         fields_->write(s, isothermal_.laws, several ? f.temperature_c : std::nullopt);
       }
-      found_.push_back(std::move(f));
+      states_(result).push_back(std::move(f));
     }
     save("running");
   }
@@ -171,7 +173,7 @@ class HarmonicSolution : public Solution {
   const Scene& scene_;
   const Preparation& prepared_;
   const Watcher& watcher_;
-  std::vector<HarmonicFrequency>& found_;
+  ListOfStates states_;
   std::vector<double> frequencies_ = frequencies_of(scene_.experiment),
                       temperatures_ = temperatures_of(scene_.experiment);
   Backend backend_ = Backend::cpu;
@@ -184,8 +186,8 @@ class HarmonicSolution : public Solution {
 }  // namespace
 
 std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                        RunResult& result, std::vector<HarmonicFrequency>& found) {
-  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result, found);
+                                        RunResult& result, ListOfStates states) {
+  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result, states);
 }
 
 }  // namespace macadam

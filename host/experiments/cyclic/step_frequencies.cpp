@@ -53,9 +53,10 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
                    !kernels::blocks_are_exact(plan.geometry, facts_of(scene.laws));
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
-  plan.decisions.push_back(fmt::format(
-      "viscoelastic states are updated {:.0f} times in the shortest time of load and laws: the error is at most {:.1e}",
-      std::ceil(blocks), block_error(blocks)));
+  plan.decisions.push_back(
+      fmt::format("viscoelastic states are updated {:.0f} times within the shortest time of load and laws, not in "
+                  "every step: the error is at most {:.1e}",
+                  std::ceil(blocks), block_error(blocks)));
 }
 
 /// Returns the stepper of one frequency. It continues from `from`, a checkpoint's state, unless that is empty;
@@ -100,7 +101,8 @@ class Steps : public Solution {
     try {
       stepper_ = make(at_.seconds.size(), std::exchange(at_.state, {}), result);
     } catch (const Error& error) {
-      if (resumed) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
+      if (resumed)
+        throw InputError(checkpoint.string() + ": this machine cannot continue the checkpoint: " + error.what());
       throw;
     }
   }
@@ -328,10 +330,10 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
     at.cracks.resize(at.plan.frequencies.size());
     decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
-      at.warnings.push_back(fmt::format(
-          "law {} of {} has no complex stiffness: |E*| and phi are computed from the fundamental of the "
-          "measured loops, at this amplitude and after these cycles, and are not compared with a harmonic solution",
-          without->law, to_string(without->pair)));
+      at.warnings.push_back(
+          fmt::format("law {} of {} has no complex stiffness: |E*| and phi describe the fundamental of the measured "
+                      "loops at this amplitude and after these cycles, and no harmonic solution can check them",
+                      without->law, to_string(without->pair)));
     }
     at.seconds_planning = seconds_since(start);
   }

@@ -79,8 +79,9 @@ std::unique_ptr<Solution> ExperimentOf<Sweep>::plan(
     const Sweep&, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
     std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): stepped experiments keep it
     RunResult& result) {
-  return std::make_unique<SweepSolution>(
-      scene, plan_harmonic(scene, prepared, watcher, result, result.found.emplace<SweepResult>().points));
+  result.found.emplace<SweepResult>();
+  const auto points = [](RunResult & run) -> auto& { return std::get<SweepResult>(run.found).points; };
+  return std::make_unique<SweepSolution>(scene, plan_harmonic(scene, prepared, watcher, result, points));
 }
 
 template <>

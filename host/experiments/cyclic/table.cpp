@@ -80,7 +80,8 @@ std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
     out += fmt::format("{} Hz: {}\n", f.frequency_hz, words);
   }
   if (known)
-    out += fmt::format("err: against the harmonic solution at true mass, {} relative, phi in radians\n", modulus);
+    out +=
+        fmt::format("err: difference from the harmonic solution at true mass, {} relative, phi in radians\n", modulus);
   return out;
 }
 

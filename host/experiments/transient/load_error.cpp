@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error.cpp  Computes the differences from the answer without steps; if there is none, bounds from the ramp, the
+// load_error.cpp  Computes the differences from the answer without steps; without it, bounds from the ramp, the
 // damping and the walls.
 #include "host/experiments/transient/load_error.hpp"
 
@@ -60,8 +60,9 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     const auto law = facts_of(scene.laws)[pair];
     if (!law || law->linear) continue;
-    plan.decisions.push_back(fmt::format("errors are estimates, because {} of {} is not linear", law->name,
-                                         to_string(static_cast<PairType>(pair))));
+    plan.decisions.push_back(fmt::format(
+        "errors are estimates, because law {} of {} is not linear, and then the response without time steps is unknown",
+        law->name, to_string(static_cast<PairType>(pair))));
     return {};
   }
   SpectrumOptions options;
@@ -73,19 +74,20 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
   options.stop = watcher.stop;
   options.told = [&](int solutions, double error) {
     if (watcher.progress) {
-      watcher.progress(fmt::format("answer without steps: {} solutions, error {:.1e}", solutions, error),
+      watcher.progress(fmt::format("response without time steps: {} solutions, error {:.1e}", solutions, error),
                        std::min(1.0, std::log(error) / std::log(spectrum_tolerance)));
     }
   };
   try {
     const Spectrum found = spectrum_of(prepared.specimen, prepared.network, scene.laws, options);
     plan.decisions.push_back(
-        fmt::format("errors are measured against the answer without steps: {} solutions give E(t) from {:.3g} to "
-                    "{:.3g} s to {:.1e}",
+        fmt::format("errors are measured against the response without time steps: {} solutions give E(t) from {:.3g} "
+                    "to {:.3g} s with a relative error of {:.1e}",
                     found.solutions, options.shortest, options.longest, std::max(found.error, found.checked)));
     return UnsteppedAnswer{found.relaxation, std::max(found.error, found.checked)};
   } catch (const InterruptedError&) { throw; } catch (const Error& error) {
-    plan.decisions.push_back(fmt::format("errors are estimates: there is no answer without steps ({})", error.what()));
+    plan.decisions.push_back(fmt::format(
+        "errors are estimates, because the response without time steps could not be computed: {}", error.what()));
     return {};
   }
 }
@@ -200,15 +202,16 @@ std::string LoadErrors::ramp_words() const {
     if (effect > largest) largest = effect, at = t;
   }
   if (largest == 0) return {};
-  return fmt::format("the ramp of {:.3g} s changes {} by at most {:.1e}, at t = {:.4g} s, from that after a step",
-                     plan_.ramp, test_.by_stress ? "J(t)" : "E(t)", largest, at);
+  return fmt::format(
+      "the ramp of {:.3g} s, in place of an instantaneous load, changes {} by at most {:.1e} (at t = {:.4g} s)",
+      plan_.ramp, test_.by_stress ? "J(t)" : "E(t)", largest, at);
 }
 
 std::string LoadErrors::meaning() const {
   const char* of = test_.by_stress ? "strain" : "stress";
-  if (!spectrum_) return fmt::format("error: estimate for the {}, relative", of);
-  return fmt::format("error: difference of the {} from the answer without steps, relative{}", of,
-                     updated_ ? "; an estimate after a strain above 0.1 %" : "");
+  if (!spectrum_) return fmt::format("error: estimated relative error of the {}", of);
+  return fmt::format("error: relative difference of the {} from the response without time steps{}", of,
+                     updated_ ? "; an estimate once the strain has exceeded 0.1 %" : "");
 }
 
 std::string LoadErrors::warning(const std::vector<SteppedPoint>& rows) const {
@@ -220,24 +223,27 @@ std::string LoadErrors::warning(const std::vector<SteppedPoint>& rows) const {
   const bool known = is_known(*worst, before);
   const std::string size = worst->error > 1 ? "more than 100" : fmt::format("{:.1f}", 100 * worst->error);
   return fmt::format("the error is above 1 % in {} of {} rows, largest at t = {:.4g} s: {} {} %; {}", count,
-                     rows.size(), worst->time_s, known ? "the answer without steps differs by" : "it is estimated as",
-                     size, advice(known ? measured(*worst) : estimated(*worst, before)));
+                     rows.size(), worst->time_s,
+                     known ? "the response without time steps differs by" : "it is estimated as", size,
+                     advice(known ? measured(*worst) : estimated(*worst, before)));
 }
 
 /// Names the larger part of the error and what reduces it.
 std::string LoadErrors::advice(const Parts& parts) const {
   const std::string lighter =
-      plan_.density_scaling > 1 ? fmt::format(", less density_scaling (it is {:g})", plan_.density_scaling) : "";
+      plan_.density_scaling > 1 ? fmt::format(", a smaller density_scaling (now {:g})", plan_.density_scaling) : "";
   if (parts.ramp > parts.remainder) {
     return fmt::format(
-        "most of it is the ramp of {:.3g} s in place of a load at once: later times{} or a ramp in "
-        "[loading] lessen it",
+        "most of it comes from the ramp of {:.3g} s in place of an instantaneous load; later times{} or a ramp in "
+        "[loading] reduce it",
         plan_.ramp, lighter);
   }
-  const std::string weaker =
-      damping_given_ && plan_.damping > 0 ? fmt::format(", less damping (it is {:g})", plan_.damping) : std::string();
-  return fmt::format("most of it is inertia and the drag of damping: a longer ramp{}{} or later times lessen it",
-                     lighter, weaker);
+  const std::string weaker = damping_given_ && plan_.damping > 0
+                                 ? fmt::format(", a smaller damping (now {:g})", plan_.damping)
+                                 : std::string();
+  return fmt::format(
+      "most of it comes from inertia and the drag of damping; a longer ramp{}{} or later times reduce it", lighter,
+      weaker);
 }
 
 }  // namespace macadam

@@ -44,10 +44,10 @@ class LoadPlanner {
 
   void refuse_others() const {
     if (!scene_.solver.tolerance) return;
-    throw InputError(
-        scene_.file.string(), 0, "tolerance in [solver]",
-        fmt::format("{:g} beside method \"explicit\" of kind \"{}\"", *scene_.solver.tolerance, test_.kind),
-        "none: it has no part in the choice of settings; give density_scaling, or method \"harmonic\"");
+    throw InputError(scene_.file.string(), 0, "tolerance in [solver]",
+                     fmt::format("{:g} with method \"explicit\" of kind \"{}\"", *scene_.solver.tolerance, test_.kind),
+                     "no tolerance, because it does not choose the settings of this test; give density_scaling, or "
+                     "method \"harmonic\"");
   }
 
   double period_of_slowest_wave() const {
@@ -61,7 +61,10 @@ class LoadPlanner {
   void choose_ramp(double slowest) {
     plan_.ramp = ramp_of(test_, slowest);
     if (test_.grows || test_.when.ramp > 0) return;
-    decide("a load that is put on at once grows over {:.3g} s, the period of the specimen's slowest wave", slowest);
+    decide(
+        "the load grows over {:.3g} s, the period of the specimen's slowest wave, because the scene asks for an "
+        "instantaneous load",
+        slowest);
     if (test_.when.release && *test_.when.release < slowest) {
       throw InputError(scene_.file.string(), 0, "release in [loading]", fmt::format("{} s", *test_.when.release),
                        fmt::format("the end of the ramp, {:.3g} s, or later", slowest));
@@ -74,8 +77,9 @@ class LoadPlanner {
     plan_.damping = damping_.value;
     if (!damping_.chosen) return;
     decide("viscous damping of {:.3g} 1/s: {}", plan_.damping,
-           damping_.critical ? "critical for the slowest wave; the first points come before waves have died out"
-                             : fmt::format("waves of a change of load have died out {:.3g} s later", damping_.pause));
+           damping_.critical
+               ? "it is critical for the slowest wave, but waves have not died out at the first points"
+               : fmt::format("waves that a change of load causes die out within {:.3g} s", damping_.pause));
   }
 
   /// Chooses the lightest platen that does not shorten the step, unless the scene gives one.
@@ -90,8 +94,9 @@ class LoadPlanner {
     const double wall = critical_step(prepared_.network, scene_.laws, heavy, options).dt;
     constexpr double no_shorter = 1.001;
     plan_.platen_mass = no_shorter * std::pow(particles / wall, 2);
-    if (!(wall < 1e20)) throw RunError("the top wall touches no particle: nothing carries the stress");
-    decide("a platen of {:.3g} kg: the lightest that does not shorten the step", plan_.platen_mass);
+    if (!(wall < 1e20)) throw RunError("the top wall touches no particle, so nothing carries the stress");
+    decide("the loaded top wall has a mass of {:.3g} kg, the smallest that does not shorten the time step",
+           plan_.platen_mass);
   }
 
   void choose_step() {
@@ -103,9 +108,10 @@ class LoadPlanner {
     const double stable = plan_.critical.dt * std::sqrt(plan_.density_scaling);
     plan_.dt = load_step(test_, scene_.solver, plan_.critical.dt, plan_.density_scaling, plan_.ramp, damping_);
     const double end = test_.history.times.back();
-    decide("density scaling {:.4g}: {} steps of {:.3g} s until {:g} s", plan_.density_scaling, plan_.step_at(end),
-           plan_.dt, end);
-    if (plan_.dt > stable) decide("the given step is {:.2f} of the largest that is surely stable", plan_.dt / stable);
+    decide("density scaling {:.4g}: {} time steps of {:.3g} s until t = {:g} s", plan_.density_scaling,
+           plan_.step_at(end), plan_.dt, end);
+    if (plan_.dt > stable)
+      decide("the given time step is {:.2f} times the largest one that is certainly stable", plan_.dt / stable);
   }
 
   const TransientExperiment& test_;

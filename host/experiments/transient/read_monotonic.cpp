@@ -23,22 +23,24 @@ Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
   keys.insert(keys.end(),
               {kind_key(),
                poisson_key(out.poisson_ratio),
-               {"rate", Need::required, into(out.rate, scene::rate, rule), "of the strain; tension positive"},
+               {"rate", Need::required, into(out.rate, scene::rate, rule), "rate of the strain; tension is positive"},
                {"strain", Need::optional, into(strain, ratio, any),
-                "at which the test ends, in place of times; its sign is that of the rate", "times"}});
+                "strain at which the test ends, in place of times; it has the sign of the rate", "times"}});
   section.read(keys);
   if (!strain) {
     if (!section.has("times")) section.refuse("times", "nothing", "times, or the strain at which the test ends");
     out.times = times.all(section, "times", "s", "time");
     if (const double last = out.rate * out.times.back(); last != 0 && !any.holds(last))
-      section.refuse("times", fmt::format("a strain of {:g} at the last", last), any.words);
+      section.refuse("times", fmt::format("a strain of {:g} at the last time", last), any.words);
     return out;
   }
   for (const char* key : {"times", "points_per_decade"}) {
-    if (section.has(key)) section.refuse(key, std::string(key) + " beside strain", "one of them");
+    if (section.has(key)) section.refuse(key, std::string(key) + " with strain", "one of them");
   }
   const double end = *strain / out.rate;
-  if (!(end > 0)) section.refuse("strain", fmt::format("{} at a rate of {} 1/s", *strain, out.rate), "the rate's sign");
+  if (!(end > 0))
+    section.refuse("strain", fmt::format("{} at a rate of {} 1/s", *strain, out.rate),
+                   "a strain with the sign of the rate");
   const int points = times.evenly.value_or(usual_points);
   for (int i = 1; i <= points; ++i) out.times.push_back(end * i / points);
   return out;

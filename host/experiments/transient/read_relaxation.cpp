@@ -21,7 +21,7 @@ Relaxation ExperimentOf<Relaxation>::read(const scene::Section& section) {
                poisson_key(out.poisson_ratio),
                {"strain", Need::optional, into(out.strain, ratio, strain), "that is held; tension positive"},
                {"ramp", Need::optional, into(out.ramp, duration, non_negative),
-                "over which the load grows evenly; 0: at once"}});
+                "time over which the load grows evenly; 0: at once"}});
   section.read(keys);
   out.times = times.all(section, "times", "s", "time");
   return out;

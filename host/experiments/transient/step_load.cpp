@@ -77,7 +77,8 @@ class SteppedLoad : public Solution {
     try {
       stepper_ = stepper_from(state, result.backend, scene_, prepared_, inertia_, options);
     } catch (const Error& error) {
-      if (!state.empty()) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
+      if (!state.empty())
+        throw InputError(checkpoint.string() + ": this machine cannot continue the checkpoint: " + error.what());
       throw;
     }
   }
@@ -114,8 +115,8 @@ class SteppedLoad : public Solution {
   void foretell() const {
     const std::int64_t steps = at_.plan.step_at(test_.history.times.back());
     if (steps > many_steps && watcher_.warn) {
-      watcher_.warn(fmt::format("{} steps of {:.3g} s until {:g} s: {}", steps, at_.plan.dt, test_.history.times.back(),
-                                fewer_steps()));
+      watcher_.warn(fmt::format("the run takes {} time steps of {:.3g} s until t = {:g} s; {}", steps, at_.plan.dt,
+                                test_.history.times.back(), fewer_steps()));
     }
   }
 
@@ -126,7 +127,7 @@ class SteppedLoad : public Solution {
       result.warnings.push_back(warning);
       if (watcher_.warn) watcher_.warn(warning);
     });
-    const LoadWords& words = words_of(test_.kind);
+    const LoadWords& words = load_words(test_.kind);
     LineWriter writer(out / words.file, head(words));
     for (const SteppedPoint& p : at_.points) writer.add(line(words, p));
     std::optional<LineWriter> cracks_writer;
@@ -176,9 +177,10 @@ class SteppedLoad : public Solution {
 
  private:
   std::string head(const LoadWords& words) const {
-    return fmt::format("# {}, stepped in time; {}: of this strain and stress; {}\n{},error,{}bottom_pa,kinetic_j{}",
-                       modulus_words(scene_.network.lateral_walls), words.ratio, errors_.meaning(), csv_head(words),
-                       test_.by_stress ? "top_pa," : "", cracks_.active() ? ",broken_points" : "");
+    return fmt::format(
+        "# {}, stepped in time; {}: ratio of the strain and stress in its row; {}\n{},error,{}bottom_pa,kinetic_j{}",
+        modulus_words(scene_.network.lateral_walls), words.ratio, errors_.meaning(), csv_head(words),
+        test_.by_stress ? "top_pa," : "", cracks_.active() ? ",broken_points" : "");
   }
   std::string line(const LoadWords& words, const SteppedPoint& p) const {
     return fmt::format("{},{:.2e},{}{},{}{}", csv_line(words, p), p.error,
@@ -238,7 +240,7 @@ class SteppedLoad : public Solution {
     course.content = std::move(content);
     course.foretold = [this](double seconds) {
       if (seconds > many_seconds && watcher_.warn) {
-        watcher_.warn(fmt::format("the steps take about {:.1f} h more; {}", seconds / 3600, fewer_steps()));
+        watcher_.warn(fmt::format("the time steps will take about {:.1f} h more; {}", seconds / 3600, fewer_steps()));
       }
     };
     return course;
@@ -280,7 +282,7 @@ class SteppedLoad : public Solution {
 
   /// Returns advice for a run with too many steps.
   static std::string fewer_steps() {
-    return "density_scaling takes fewer, method = \"harmonic\" none at all where all laws are linear";
+    return "a larger density_scaling reduces their number, and method = \"harmonic\" needs none if all laws are linear";
   }
 
   /// Adds a warning if the error of a row is large. A specimen in two pieces has no equilibrium: its rupture is

@@ -55,7 +55,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
                                           nlohmann::ordered_json& summary) {
   using Json = nlohmann::ordered_json;
   if (!found.kind.empty()) {
-    const LoadWords& words = words_of(found.kind);
+    const LoadWords& words = load_words(found.kind);
     Json out = {{"kind", found.kind},
                 {"sides", found.confined ? "held" : "free"},
                 {"modulus", found.confined ? "confined" : "uniaxial"},
@@ -95,7 +95,7 @@ double ResultOf<SteppedResponse>::seconds(const SteppedResponse& found) {
 
 template <>
 std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
-  const LoadWords& words = words_of(found.kind);
+  const LoadWords& words = load_words(found.kind);
   std::string out = measures_strength(found) ? strength_words(found) : "";
   if (found.rupture && measures_strength(found)) out += rupture_words(*found.rupture, *found.cracks) + "\n";
   if (found.cracks) out += cracks_words(*found.cracks) + "\n";
@@ -105,13 +105,12 @@ std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
     out += shown_line(words, ratio, p) + fmt::format(" {:>9.1e}", p.error) +
            (found.cracks ? fmt::format(" {:>9}", p.broken_points) : "");
   }
-  return out +
-         fmt::format(
-             "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
-             "error: from the answer without steps, or an estimate where there is none; kinetic energy: {:.1e} of the "
-             "work\n",
-             modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
-             found.kinetic_share);
+  return out + fmt::format(
+                   "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
+                   "error: difference from the response without time steps if that is known, else an estimate; kinetic "
+                   "energy: at most {:.1e} of the work\n",
+                   modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
+                   found.kinetic_share);
 }
 
 }  // namespace macadam

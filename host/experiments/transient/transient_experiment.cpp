@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+#include <variant>
 
 #include "host/experiments/transient/step_load.hpp"
 #include "host/experiments/material_files.hpp"
 #include "host/run/cracks.hpp"
 #include "host/files/result_files.hpp"
+#include "macadam/error.hpp"
 
 namespace macadam {
 
@@ -23,24 +26,43 @@ using experiments::SpectrumResponse;
 namespace {
 
 constexpr std::array<LoadWords, 3> all_words{{
-    {"relaxation", "relaxation.csv", "modulus_pa", "modulus_pa: after a step; error: of stress and modulus, relative",
-     false, "E(t) (MPa)", "stress/strain (MPa)", 1e6},
-    {"creep", "creep.csv", "compliance_1_pa", "compliance_1_pa: after a step; error: of it, relative", true,
-     "J(t) (1/GPa)", "strain/stress (1/GPa)", 1e-9},
-    {"monotonic", "monotonic.csv", "secant_pa", "error: of stress and modulus, relative", false, "secant (MPa)",
+    {"relaxation", "relaxation.csv", "modulus_pa",
+     "modulus_pa: modulus after an instantaneous strain; error: relative error of stress and modulus", false,
+     "E(t) (MPa)", "stress/strain (MPa)", 1e6},
+    {"creep", "creep.csv", "compliance_1_pa",
+     "compliance_1_pa: compliance after an instantaneous stress; error: its relative error", true, "J(t) (1/GPa)",
+     "strain/stress (1/GPa)", 1e-9},
+    {"monotonic", "monotonic.csv", "secant_pa", "error: relative error of stress and modulus", false, "secant (MPa)",
      "secant (MPa)", 1e6},
 }};
+
+constexpr bool is_listed(std::string_view kind) {
+  return std::any_of(all_words.begin(), all_words.end(), [&](const LoadWords& words) { return words.kind == kind; });
+}
+
+/// Returns whether every experiment that tests a load has an entry in all_words.
+template <class... Spec>
+constexpr bool are_all_listed(const std::variant<Spec...>* /*experiments*/) {
+  const auto listed = []<class One>(const One* /*spec*/) {
+    if constexpr (requires(const One& spec) { load_test(spec); })
+      return is_listed(One::kind);
+    else
+      return true;
+  };
+  return (listed(static_cast<const Spec*>(nullptr)) && ...);
+}
+static_assert(are_all_listed(static_cast<const Experiment*>(nullptr)), "a test of a load has no entry in all_words");
 
 /// Returns a number as text. NaN, which stands for a ratio without meaning, becomes an empty text.
 std::string number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 }  // namespace
 
-const LoadWords& words_of(const std::string& kind) {
+const LoadWords& load_words(const std::string& kind) {
   for (const LoadWords& words : all_words) {
     if (words.kind == kind) return words;
   }
-  return all_words[0];
+  throw RunError("test of a load: found kind \"" + kind + "\", expected relaxation, creep or monotonic");
 }
 
 TransientExperiment load_test_of(const Scene& scene) {
@@ -89,7 +111,7 @@ void add_load(const TransientExperiment& test, nlohmann::ordered_json& out) {
 }
 
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene) {
-  std::vector<std::string> out{words_of(kind).file};
+  std::vector<std::string> out{load_words(kind).file};
   if (counts_cracks(scene)) out.push_back(cracks_file);
   if (scene.solver.method == SolverMethod::explicit_) return out;
   for (const std::string& file : material_files(scene.network.lateral_walls)) out.push_back(file);
@@ -103,7 +125,7 @@ std::unique_ptr<Solution> plan_load_test(const TransientExperiment& test, const 
     return plan_load_steps(test, scene, prepared, watcher, std::move(resumed), result);
   }
   const auto responds = [test](const std::filesystem::path& out, Material material, RunResult& found) {
-    const LoadWords& words = words_of(test.kind);
+    const LoadWords& words = load_words(test.kind);
     SpectrumResponse r{test.kind, std::move(material), {}};
     std::string text =
         fmt::format("# {}; {}\n{},error\n", modulus_words(r.material.confined), words.comment, csv_head(words));
@@ -122,7 +144,7 @@ void ResultOf<SpectrumResponse>::summarise(const SpectrumResponse& found, const 
                                            nlohmann::ordered_json& summary) {
   nlohmann::ordered_json out = material_json(found.kind.c_str(), found.material);
   add_load(load_test_of(scene), out);
-  for (const ResponsePoint& p : found.points) out["points"].push_back(point_json(words_of(found.kind), p));
+  for (const ResponsePoint& p : found.points) out["points"].push_back(point_json(load_words(found.kind), p));
   summary["results"].push_back(std::move(out));
 }
 
@@ -133,7 +155,7 @@ double ResultOf<SpectrumResponse>::seconds(const SpectrumResponse& found) {
 
 template <>
 std::string ResultOf<SpectrumResponse>::table(const SpectrumResponse& found) {
-  const LoadWords& words = words_of(found.kind);
+  const LoadWords& words = load_words(found.kind);
   std::string out = shown_head(words.shown);
   for (const ResponsePoint& p : found.points) out += shown_line(words, words.shown, p);
   return out + "\n" + material_lines(found.material);

@@ -62,8 +62,8 @@ struct LoadWords {
   const char* shown_stepped;        ///< the same in a stepped run, for the ratio of strain and stress of a row
   double unit;                      ///< unit in which people see the ratio
 };
-/// Returns the names of a kind's numbers; those of "relaxation" for an unknown kind.
-const LoadWords& words_of(const std::string& kind);
+/// Returns the names of a kind's numbers. \throws RunError for a kind that is not a test of a load.
+const LoadWords& load_words(const std::string& kind);
 
 /// Return a point for the kind's file, for summary.json and for people, and the lines that stand above points.
 /// @{
@@ -81,7 +81,7 @@ void add_load(const TransientExperiment& test, nlohmann::ordered_json& out);
 /// the tables of the material.
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
-/// Plans a test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
+/// Plans one test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
 std::unique_ptr<Solution> plan_load_test(const TransientExperiment& test, const Scene& scene,
                                          const Preparation& prepared, const Watcher& watcher,
                                          std::optional<Resumed> resumed, RunResult& result);

@@ -8,7 +8,7 @@
 
 #include "host/harmonic/iterative/make_system.hpp"
 #include "host/backends/cuda_code.hpp"
-#include "host/backends/processor_code.hpp"
+#include "host/harmonic/harmonic_code.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {
@@ -33,7 +33,7 @@ class CpuSolver : public LinearSolver {
 
   void solve(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) override {
     for_each_block(tasks, [&](const std::vector<LinearTask*>& some) {
-      processor_code().solve_block(system_, inverse_, layout_, some, stop);
+      harmonic_code().solve_block(system_, inverse_, layout_, some, stop);
     });
   }
 

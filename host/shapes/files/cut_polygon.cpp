@@ -106,7 +106,7 @@ class Polygon {
   std::size_t size() const { return corner_.size(); }
 
  private:
-  /// Projects a point along the coordinate axis nearest to the polygon's normal. Coordinates are only dropped, so
+  /// Projects one point along the coordinate axis nearest to the polygon's normal. Coordinates are only dropped, so
   /// nothing is rounded.
   Triangulation::Point seen(const Vec3d& p) const {
     if (axis_ == 0) return {p.y, p.z};

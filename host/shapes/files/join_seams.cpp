@@ -68,7 +68,7 @@ class SeamPoints {
   SeamPoints(const std::vector<Vec3d>& points, const Vec3d& low, double width)
       : points_(points), low_(low), width_(width) {}
 
-  /// Returns the lowest number among the points within `width` of point p. If there is no such point, p is added and
+  /// Returns the lowest number among the points within `width` of point p. If no such point exists, p is added and
   /// returned.
   std::int32_t first_near(std::int32_t p) {
     const std::array<std::int64_t, 3> cell = cell_of(points_[p]);

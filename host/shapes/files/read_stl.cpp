@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t header_bytes = 84, record_bytes = 50;
 
-/// Appends a facet of the last three points.
+/// Appends one facet of the last three points.
 void add_triangle(SurfaceSoup& soup) {
   const auto p = static_cast<std::int64_t>(soup.points.size());
   soup.corners.insert(soup.corners.end(), {p - 3, p - 2, p - 1});
@@ -84,7 +84,7 @@ class AsciiStl {
     const bool inner = keyword == Keyword::vertex || keyword == Keyword::endfacet;
     if (keyword == Keyword::none ? !in_facet_ : inner != in_facet_)
       words_.fail(facet_name(soup_.facets()), in_quotes(word),
-                  in_facet_ ? "vertex or endfacet" : "facet or endsolid, as a facet is not open");
+                  in_facet_ ? "vertex or endfacet" : "facet or endsolid, because no facet is open");
     switch (keyword) {
       case Keyword::solid:
       case Keyword::endsolid:

@@ -35,7 +35,7 @@ struct SurfaceSoup {
   std::vector<std::size_t> ends;  ///< for each facet: index in `corners` one past its last corner
   std::vector<int> line;          ///< line of each facet; empty for formats without lines
   std::int64_t first_number = 0;  ///< the number that the file gives to point 0
-  std::string note;               ///< describes contents of the file that were skipped; empty if there are none
+  std::string note;               ///< describes contents of the file that were skipped; otherwise empty
 
   std::size_t facets() const { return ends.size(); }
   /// Returns the corners of facet f.
@@ -45,14 +45,14 @@ struct SurfaceSoup {
   }
   /// Returns the number of triangles into which the facets will be divided.
   std::size_t triangles() const { return corners.size() - 2 * ends.size(); }
-  /// Completes a facet whose corners were appended to `corners`.
+  /// Completes one facet whose corners were appended to `corners`.
   void end_facet() { ends.push_back(corners.size()); }
 };
 
 /// Returns the name of a facet in messages.
 inline std::string facet_name(std::size_t facet) { return "facet " + std::to_string(facet); }
 
-/// Reads a file of one format. \throws InputError naming the file and, for text, the line.
+/// Reads one file of one format. \throws InputError naming the file and, for text, the line.
 /// @{
 SurfaceSoup read_stl(const SurfaceFile& file);
 SurfaceSoup read_off(const SurfaceFile& file);

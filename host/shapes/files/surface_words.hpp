@@ -22,7 +22,7 @@ class Words {
   /// From now on in_line() continues with the next line after a line whose last character is `sign`.
   void continue_lines_after(char sign) { continuation_ = sign; }
 
-  /// Goes to the next line that has a word. Returns false at the end of the text.
+  /// Goes to the next line with words. Returns false at the end of the text.
   bool next_line();
   /// Returns the next word of this line, or an empty word at its end.
   std::string_view in_line();
@@ -36,13 +36,13 @@ class Words {
   /// Returns the number of characters left in the text.
   std::size_t left() const { return line_.size() + rest_.size(); }
 
-  /// Parses a word as a number, which may be infinite or NaN. \throws InputError naming the line.
+  /// Parses one word as a number, which may be infinite or NaN. \throws InputError naming the line.
   double any_number(std::string_view word, const std::string& what) const;
-  /// Parses a word as a finite number. \throws InputError naming the line.
+  /// Parses one word as a finite number. \throws InputError naming the line.
   double number(std::string_view word, const std::string& what) const;
-  /// Parses a word as an integer. \throws InputError naming the line.
+  /// Parses one word as an integer. \throws InputError naming the line.
   std::int64_t integer(std::string_view word, const std::string& what) const;
-  /// Parses a word as an integer of at least 0. \throws InputError naming the line.
+  /// Parses one word as an integer of at least 0. \throws InputError naming the line.
   std::size_t count(std::string_view word, const std::string& what) const;
 
   /// Returns the offset of the first byte after this line.

@@ -28,9 +28,9 @@ bool left_of(const Surface& s, std::int32_t a, std::int32_t b, double x, double 
   return a < b ? left : !left;
 }
 
-/// Rotates a point by the unit quaternion (1, 2, 4, 8)/√85. After this rotation, facets of boxes and similar shapes are
-/// not parallel to the rows of columns. A row parallel to a facet would hit the facet with all of its columns or with
-/// no column.
+/// Rotates one point by the unit quaternion (1, 2, 4, 8)/√85. After this rotation, facets of boxes and similar shapes
+/// are not parallel to the rows of columns. A row parallel to a facet would hit the facet with all of its columns or
+/// with no column.
 Vec3d turned(const Vec3d& p) {
   static const double w = 1 / std::sqrt(85.0);
   return Pose{{}, {w, 2 * w, 4 * w, 8 * w}}(p);

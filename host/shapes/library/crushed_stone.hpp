@@ -16,7 +16,7 @@ class Stretching {
  public:
   /// Appends a stretch by `factor[k]` along `axis[k]`; the axes are three orthogonal unit vectors.
   void stretch(const std::array<Vec3d, 3>& axis, const std::array<double, 3>& factor);
-  /// Maps a point, or the direction of a normal.
+  /// Maps one point, or the direction of a normal.
   Vec3d point(const Vec3d& x) const { return image(points_, x); }
   Vec3d normal(const Vec3d& n) const { return image(normals_, n); }
 

@@ -145,7 +145,7 @@ std::string correlation_csv(const std::vector<ShapeMeasure>& shapes) {
 }
 
 std::string statistics_text(const std::vector<ShapeMeasure>& shapes) {
-  std::string text = fmt::format("{:<12} {:>6} {:>9} {:>9} {:>9}   paper: {:>7} {:>8} {:>8}\n", "", "shapes", "min",
+  std::string text = fmt::format("{:<12} {:>6} {:>9} {:>9} {:>9}   published: {:>7} {:>8} {:>8}\n", "", "shapes", "min",
                                  "average", "max", "min", "average", "max");
   for (const ShapeProperty& p : shape_properties()) {
     const Spread s = spread_of(p, shapes);

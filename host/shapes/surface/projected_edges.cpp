@@ -30,7 +30,7 @@ class EdgeGap {
  public:
   explicit EdgeGap(double rounding) : rounding_(rounding) {}
 
-  /// Considers a pair of edges: their crossing, and the ends of each on the other.
+  /// Considers one pair of edges: their crossing, and the ends of each on the other.
   void offer(const Segment& a, const Segment& b) {
     if (a.y_low() > b.y_high() + rounding_ || b.y_low() > a.y_high() + rounding_) return;
     if (std::max(a.z_high() - b.z_low(), b.z_high() - a.z_low()) <= largest_) return;

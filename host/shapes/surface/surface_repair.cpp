@@ -62,7 +62,7 @@ double relative_change(double before, double after) { return (after - before) / 
 /// One repair of one surface. Collects a description of the steps.
 class Repair {
  public:
-  /// `as`: the file that the surface will be read from; its format determines rounding. Empty if there is no such file.
+  /// `as`: the file that the surface will be read from; its format determines rounding. Empty if no such file exists.
   Repair(const Surface& surface, const std::filesystem::path& as) : surface_(surface), as_(as) {}
 
   /// Returns the repaired surface. \throws RunError if neither mending nor wrapping gives a good surface.
@@ -85,7 +85,7 @@ class Repair {
   const SurfaceRepair& repair() const { return repair_; }
 
  private:
-  /// Appends a step to the description.
+  /// Appends one step to the description.
   void say(const std::string& done) { repair_.what += (repair_.what.empty() ? "" : "; ") + done; }
   void say_count(std::int64_t n, const char* done, const std::string& of, const std::string& several) {
     if (n > 0) say(fmt::format("{} {} {}", done, n, n == 1 ? of : several));

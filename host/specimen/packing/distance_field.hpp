@@ -16,7 +16,7 @@ namespace macadam {
 /// them.
 class DistanceField {
  public:
-  /// A signed distance, and the unit vector pointing outwards (0 if there is none).
+  /// A signed distance, and the unit vector pointing outwards (0 where it is undefined).
   struct Value {
     double distance;
     Vec3d outward;

@@ -20,7 +20,7 @@ double farthest_point(const Surface& s) {
   return most;
 }
 
-/// Transforms points from the frame of one body into that of another.
+/// Transforms points from the frame of one body into the frame of another body.
 struct Transfer {
   Rotation turn;  // includes the scale
   Vec3d shift;

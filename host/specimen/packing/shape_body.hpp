@@ -23,7 +23,7 @@ struct ShapeGeometry {
   SurfaceSamples samples;
   std::vector<double> facet_reach;  ///< for each facet: longest edge at its first corner
   double radius;                    ///< of the ball about the centroid that contains the shape
-  double inner;                     ///< of a ball about the centroid inside the shape; 0 if there is none
+  double inner;                     ///< of a ball about the centroid inside the shape; otherwise 0
 };
 
 /// A scaled copy of a shape, or a sphere, at a position in the box.
@@ -47,8 +47,8 @@ struct ShapeBody {
   /// Radii of a ball about the centre that contains the body, and of one that the body contains [m].
   double radius() const { return sphere ? sphere_radius() : cluster ? cluster->radius() : scale * geometry->radius; }
   double inner_radius() const { return sphere ? sphere_radius() : cluster ? 0 : scale * geometry->inner; }
-  /// Transforms a point: from the frame of the template to the box, back to the frame of the template, and from the box
-  /// to the frame of the cluster.
+  /// Transforms one point: from the frame of the template to the box, back to the frame of the template, and from the
+  /// box to the frame of the cluster.
   Vec3d to_space(const Vec3d& own) const { return centre + scale * rotation(own); }
   Vec3d to_own(const Vec3d& space) const { return (1 / scale) * rotation.back(space - centre); }
   Vec3d to_cluster(const Vec3d& space) const { return rotation.back(space - centre); }
@@ -76,8 +76,8 @@ Extent extent(const ShapeBody& body);
 /// A contact between two bodies (or a body and a wall) that are closer than a gap. Point and normal are means over all
 /// samples within the gap, weighted by their depths.
 struct ShapeContact {
-  double depth = 0;  ///< gap minus distance at the deepest sample [m]; 0 if there is no contact
-  double clear = 0;  ///< if there is no contact: a lower bound of distance minus gap [m]
+  double depth = 0;  ///< gap minus distance at the deepest sample [m]; 0 without contact
+  double clear = 0;  ///< without contact: a lower bound of distance minus gap [m]
   Vec3d point{};     ///< [m]
   Vec3d normal{};    ///< unit vector pointing from the second body to the first
 };

@@ -20,7 +20,7 @@ class SphereCluster {
   bool touches(const Vec3d& point, double radius) const;
 
   /// Returns the signed distance [m] from the point to the nearest sphere of the cluster, negative inside. Only spheres
-  /// within the constructor's `reach` are searched reliably; returns infinity if none is found.
+  /// within the constructor's `reach` are searched reliably; returns infinity if it finds no sphere.
   double distance_at_most(const Vec3d& point) const;
 
  private:

@@ -42,7 +42,7 @@ struct Cyclic final : Drive {
   }
 
  private:
-  /// A start in motion asks for step k = −1; there is no ramp before step 0.
+  /// A start in motion asks for step k = −1; no ramp precedes step 0.
   bool ramping(std::int64_t k) const { return k >= 0 && k < ramp_steps; }
   double phase(std::int64_t k, int half) const {
     const double in_period = static_cast<double>(k % steps_per_period) + 0.5 * half;

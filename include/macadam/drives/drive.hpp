@@ -13,7 +13,7 @@ class Drive {
  public:
   virtual ~Drive() = default;
 
-  /// Returns the value at step k [m] or [N]. A displacement must be 0 at step 0, unless a run starts from a state of
+  /// Returns the value at step k [m] or [N]. A displacement must be 0 at step 0, unless the run starts from a state of
   /// motion; such a run also asks for step −1.
   virtual double value(std::int64_t k) const = 0;
 

@@ -22,7 +22,7 @@ class Table final : public Drive {
       : step_(step), times_(std::move(times)), values_(std::move(values)) {
     if (times_.size() != values_.size() || times_.size() < 2) {
       throw InputError("table of a drive: found " + std::to_string(times_.size()) + " times and " +
-                       std::to_string(values_.size()) + " values, expected as many of each, two at least");
+                       std::to_string(values_.size()) + " values, expected the same number of each, at least two");
     }
     for (std::size_t i = 0; i < times_.size(); ++i) {
       if (!std::isfinite(times_[i]) || !std::isfinite(values_[i]) || (i > 0 && !(times_[i] > times_[i - 1]))) {

@@ -49,7 +49,7 @@ struct SteppedFrequency : Frequency {
   std::int64_t steps = 0;
   int cycles = 0;
   Start start = Start::rest;
-  /// Whether the requested tolerance was kept; empty if there is no harmonic solution to compare with.
+  /// Whether the requested tolerance was kept; empty without a harmonic solution to compare with.
   std::optional<bool> kept;
   /// Relative to the harmonic solution at true mass, if there is one.
   std::optional<ErrorEstimate> predicted, achieved;

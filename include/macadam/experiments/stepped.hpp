@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepped.hpp  Defines whether an experiment can be stepped in time, and what a stepped run reports.
+/// \file stepped.hpp  Defines whether an experiment can be stepped in time, and the report of a stepped run.
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,7 @@ struct GeneralisedKelvin {
     if (E.size() != C.size()) {
       return LawFault{"C",
                       std::to_string(C.size()) + " viscosities for the " + std::to_string(E.size()) + " moduli in E",
-                      "as many, one of each for a Kelvin unit"};
+                      "the same number: one modulus and one viscosity per Kelvin unit"};
     }
     if (E.size() > static_cast<std::size_t>(max_units)) {
       return LawFault{"E", std::to_string(E.size()) + " Kelvin units", "at most " + std::to_string(max_units)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sparse_box.cpp  Compares the sum of the sphere volumes with the volume of the box.
-#include "host/specimen/sparse_box.hpp"
+#include "host/spheres/sparse_box.hpp"
 
 #include <fmt/format.h>
 
