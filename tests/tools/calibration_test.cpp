@@ -3,6 +3,7 @@
 // and refuses nonsensical targets.
 #include "macadam/calibration.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 
 #include "tests/support/aggregate_cube.hpp"
 #include "host/tools/calibration/misfit.hpp"
+#include "host/tools/calibration/prepared_specimens.hpp"
 #include "host/tools/calibration/statistics.hpp"
 #include "tests/support/test_files.hpp"
 
@@ -238,6 +240,24 @@ TEST(Calibration, SeveralTemperaturesAndTheirShift) {
   EXPECT_SAYS([&] { calibrate(t8_scene(), data, free); }, "between which no law of the scene changes");
   start.shifts[0] = start.shifts[1] = laws::ShiftTable{{0, 10}, {0, -1}};
   EXPECT_SAYS([&] { calibrate(start, data, free); }, "25 degrees C, where the shift of");
+}
+
+/// Readings that differ by tenths of a kelvin are one isotherm, unless the laws follow each reading.
+TEST(Calibration, ReadingsThatDifferByTenthsAreOneIsotherm) {
+  Scene scene = t8_scene();
+  ModulusData data;
+  data.temperatures = true;
+  for (const double t : {19.9, 20.2, 20.3}) data.points.push_back({1, 1e9, 10, t, 0, 0});
+  const auto temperatures = [&] {
+    std::vector<double> out;
+    for (const std::optional<double>& t : calibration::temperatures_of(scene, data)) out.push_back(t.value_or(0));
+    return out;
+  };
+  EXPECT_EQ(temperatures(), (std::vector<double>{20.13, 20.13, 20.13})) << "the mean, rounded to 0.01 K";
+  scene.shifts[0] = scene.shifts[1] = laws::ShiftTable{{0, 20}, {0, -1}};
+  EXPECT_EQ(temperatures(), (std::vector<double>{20, 20, 20})) << "the isotherm of the table, which ends there";
+  scene.shifts[0] = scene.shifts[1] = laws::Arrhenius{200e3, 15};
+  EXPECT_EQ(temperatures(), (std::vector<double>{19.9, 20.2, 20.3}));
 }
 
 /// Only the product of A-W.E and A-W.delta enters the moduli, so calibration reports their combination as undetermined.

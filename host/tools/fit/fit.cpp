@@ -10,7 +10,6 @@
 #include "host/tools/fit/choose_chain.hpp"
 #include "host/tools/fit/criterion.hpp"
 #include "host/tools/fit/reference.hpp"
-#include "host/tools/fit/shift_start.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -25,18 +24,7 @@ Chain fit_any(const Problem& problem, const ModulusData& data, Fit& fit) {
     throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
                      fmt::format("more, for the {} parameters of {}", u.count(), to_string(u.model)));
   }
-  const auto fit_with = [&](const Unknowns& with, const std::vector<std::vector<double>>& contained) {
-    const auto limits = joined(analogue_limits(with, problem.targets), shift_limits(with, problem.temperatures));
-    return fit_analogue(with, problem.targets, limits, start_shift(with, problem.targets, problem.temperatures),
-                        contained);
-  };
-  std::vector<std::vector<double>> contained;
-  for (const ShiftKind kind : laws_in(problem)) {
-    Unknowns law = u;
-    law.shift = kind;
-    contained.push_back(with_free_shift(law, fit_with(law, {}).theta, problem.temperatures));
-  }
-  return {u, fit_with(u, contained)};
+  return {u, fit_analogue(problem)};
 }
 
 /// Returns the shift law with the constants θ.
@@ -215,7 +203,7 @@ void warn_of_shift(Fit& fit, const std::vector<double>& temperatures) {
 
 Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   using namespace fitting;
-  const Problem problem = make_problem(data, options);
+  Problem problem = make_problem(data, options);
   Fit fit;
   fit.options = options;
   fit.temperatures = data.temperatures;
@@ -223,6 +211,9 @@ Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   fit.deviations = data.deviations;
   Chain fitted = fit_any(problem, data, fit);
   move_reference(problem, data, fitted);
+  // A free shift has one factor per isotherm. The isotherm of the reference temperature is then named by the
+  // temperature that the user gives, which may differ by tenths of a kelvin from the mean of its readings.
+  if (options.shift == ShiftKind::free) problem.temperatures[problem.wanted_isotherm] = problem.wanted_reference;
   sort_units(fitted.unknowns, fitted.minimum.theta);
   if (options.model == FitModel::kelvin) {
     fit.model = chain_of(fitted.unknowns, fitted.minimum.theta);

@@ -90,9 +90,10 @@ void check_shift(const ModulusData& data, const FitOptions& options, const std::
 
 }  // namespace
 
-std::vector<ShiftKind> laws_in(const Problem& problem) {
-  if (problem.unknowns.shift != ShiftKind::free) return {};
-  if (problem.temperatures.size() < 3) return {ShiftKind::arrhenius};
+std::vector<ShiftKind> contained_shift_laws(const Problem& problem) {
+  const ShiftKind shift = problem.unknowns.shift;
+  if (shift != ShiftKind::wlf && shift != ShiftKind::free) return {};
+  if (shift == ShiftKind::wlf || problem.temperatures.size() < 3) return {ShiftKind::arrhenius};
   return {ShiftKind::arrhenius, ShiftKind::wlf};
 }
 
@@ -112,9 +113,6 @@ Problem make_problem(const ModulusData& data, const FitOptions& options) {
   u.reference_temperature = out.temperatures[u.reference_isotherm];
   out.wanted_reference = options.reference_temperature.value_or(u.reference_temperature);
   out.wanted_isotherm = isotherm_at(isotherms, out.wanted_reference);
-  // with a free shift only the isotherms have factors, so the reference temperature becomes the temperature of an
-  // isotherm
-  if (u.shift == ShiftKind::free) out.wanted_reference = out.temperatures[out.wanted_isotherm];
   for (const ModulusPoint& p : data.points) {
     Target t;
     t.place = {2 * std::numbers::pi * p.frequency_hz, data.temperatures ? p.temperature_c : 0, 0};

@@ -106,9 +106,17 @@ std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& ta
   return {std::log(c[0]), std::log(c[1])};
 }
 
-std::vector<double> with_free_shift(const Unknowns& u, const std::vector<double>& theta,
-                                    const std::vector<double>& temperatures) {
+std::vector<double> convert_shift(const Unknowns& u, const std::vector<double>& theta, ShiftKind larger,
+                                  const std::vector<double>& temperatures) {
   std::vector<double> out(theta.begin(), theta.begin() + static_cast<std::ptrdiff_t>(u.of_model()));
+  if (larger == ShiftKind::wlf) {
+    // With temperatures in kelvins, 1/T − 1/T_r = −(T − T_r)/(T_r·T). So Arrhenius is WLF with C2 = T_r and
+    // C1 = E_a/(R·T_r·ln 10).
+    const double reference = laws::zero_celsius + u.reference_temperature;
+    out.push_back(theta[u.of_model()] - std::log(laws::gas_constant * reference * std::numbers::ln10));
+    out.push_back(std::log(reference));
+    return out;
+  }
   for (std::size_t i = 0; i < temperatures.size(); ++i) {
     if (i != u.reference_isotherm)
       out.push_back(log_shift(u, theta.data(), {1, temperatures[i], i}) / std::numbers::ln10);
