@@ -127,7 +127,7 @@ class Calibrator {
   /// Returns the state of least misfit according to the estimates. The search starts at θ and stays within a factor of
   /// e², beyond which the estimates are poor.
   State least_by_estimate(const Specimens& specimens, std::vector<double> theta) const {
-    std::vector<Bounds> bounds;
+    std::vector<ParameterBounds> bounds;
     for (std::size_t i = 0; i < theta.size(); ++i) {
       bounds.push_back({std::max(std::log(out_.parameters[i].low), theta[i] - farthest),
                         std::min(std::log(out_.parameters[i].high), theta[i] + farthest)});

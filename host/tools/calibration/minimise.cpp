@@ -45,7 +45,7 @@ class Cost : public ceres::CostFunction {
 
 }  // namespace
 
-bool minimise(const Residuals& residuals, std::size_t count, const std::vector<Bounds>& bounds,
+bool minimise(const Residuals& residuals, std::size_t count, const std::vector<ParameterBounds>& bounds,
               std::vector<double>& theta) {
   ceres::Problem problem;
   problem.AddResidualBlock(std::make_unique<Cost>(residuals, count, theta.size()).release(), nullptr, theta.data());
