@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "tests/support/aggregate_cube.hpp"
+#include "host/tools/calibration/calibration_files.hpp"
 #include "host/tools/calibration/misfit.hpp"
 #include "host/tools/calibration/prepared_specimens.hpp"
 #include "host/tools/calibration/statistics.hpp"
@@ -258,6 +259,16 @@ TEST(Calibration, ReadingsThatDifferByTenthsAreOneIsotherm) {
   EXPECT_EQ(temperatures(), (std::vector<double>{20, 20, 20})) << "the isotherm of the table, which ends there";
   scene.shifts[0] = scene.shifts[1] = laws::Arrhenius{200e3, 15};
   EXPECT_EQ(temperatures(), (std::vector<double>{19.9, 20.2, 20.3}));
+}
+
+/// A scene without a file is refused before the calibration, and no file is written.
+TEST(Calibration, ASceneWithoutAFileIsRefusedBeforeFilesAreWritten) {
+  const fs::path out = fs::path(testing::TempDir()) / fmt::format("no_scene_file_{}", getpid());
+  fs::create_directories(out);
+  EXPECT_SAYS([&] { require_calibration_folder(t8_scene(), out); }, "found one that was not read from a file");
+  EXPECT_SAYS([&] { write_calibration(out, t8_scene(), {}); }, "found one that was not read from a file");
+  EXPECT_TRUE(fs::is_empty(out));
+  fs::remove_all(out);
 }
 
 /// Only the product of A-W.E and A-W.delta enters the moduli, so calibration reports their combination as undetermined.

@@ -75,7 +75,7 @@ std::vector<Parameter> free_parameters(const Scene& scene, const CalibrationOpti
     if (asked.prior && !(*asked.prior > 0 && std::isfinite(*asked.prior) && asked.prior_deviation > 0 &&
                          std::isfinite(asked.prior_deviation))) {
       refuse("prior of " + p.name, fmt::format("{:g} with deviation {:g}", *asked.prior, asked.prior_deviation),
-             "a positive value and a positive relative standard deviation");
+             "a positive value and a positive standard deviation of its natural logarithm");
     }
     free.push_back(p);
     out.push_back({p.name, p.unit, p.value, p.value, 0, low, high, false});
