@@ -259,14 +259,14 @@ std::vector<Predicted> Specimens::estimate(const LawTable& laws, const std::vect
 
 std::vector<Predicted> Specimens::mean_of(const std::vector<Answers>& by_body, std::size_t free) const {
   std::vector<Predicted> out(data_.points.size());
-  const double share = 1 / static_cast<double>(by_body.size());
+  const double weight = 1 / static_cast<double>(by_body.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].by.assign(free, 0);
     std::vector<double> log_moduli, phases;
     for (const Answers& of_body : by_body) {
       const Answer& a = of_body[place_of_[i]];
-      out[i].modulus += share * a.modulus;
-      for (std::size_t k = 0; k < free; ++k) out[i].by[k] += share * a.by[k];
+      out[i].modulus += weight * a.modulus;
+      for (std::size_t k = 0; k < free; ++k) out[i].by[k] += weight * a.by[k];
       log_moduli.push_back(std::log(std::abs(a.modulus)));
       phases.push_back(degrees(a.modulus));
     }

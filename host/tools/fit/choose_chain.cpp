@@ -31,8 +31,8 @@ class ChainSeries {
   /// laws that this one contains, converted to these unknowns. A chain also starts from the known chains of the same
   /// length, and the series continues while a longer known chain has a smaller criterion.
   Chains fit(const std::vector<Chains>& known) {
-    const int most = options_.units.value_or(options_.most_units);
-    for (int units = 0; units <= most; ++units)
+    const int longest = options_.units.value_or(options_.most_units);
+    for (int units = 0; units <= longest; ++units)
       for (const bool flow : {false, true}) fit_one(units, flow, known);
     return std::move(chains_);
   }
