@@ -291,7 +291,7 @@ TEST(Calibration, WhatCannotBeToldApartIsNamed) {
   known.free[1].prior = 1, known.free[1].prior_deviation = 0.1;
   const Calibration with_prior = calibrate(t8_scene(), data, known);
   EXPECT_NEAR(with_prior.parameters[1].value, 1, 1e-6);
-  EXPECT_NEAR(with_prior.parameters[1].deviation, 0.1, 1e-3) << "what was known of it, no more";
+  EXPECT_NEAR(with_prior.parameters[1].deviation, 0.1, 1e-3) << "the prior alone";
   EXPECT_EQ(with_prior.combinations.size(), 1u) << "of the measurements alone";
 }
 

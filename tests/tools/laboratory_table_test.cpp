@@ -121,8 +121,8 @@ TEST_F(LaboratoryTable, UnitsThatCannotBeMeantAreAskedAbout) {
 TEST_F(LaboratoryTable, RadiansInAColumnOfDegreesAreAskedAbout) {
   const std::string header = "frequency_hz,e_star_mpa,phase_deg\n";
   EXPECT_HAS(refusal(header + "1,1000,0.55\n10,2150,0.5\n"),
-             "column phase_deg: found phases of 0.5 to 0.55, expected larger ones in degrees for moduli that change so "
-             "much: are these radians? They have a column phase_rad");
+             "column phase_deg: found phases of 0.5 to 0.55, expected larger ones in degrees for such a change of the "
+             "moduli: are these radians? They have a column phase_rad");
   EXPECT_HAS(refusal(header + "1,1000,0.12\n10,1200,0.1\n"), "are these radians?") << "nearly glassy: 0.079 · 90 = 7";
   EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg,temperature_c\n1,9000,0.2,0\n1,900,0.9,30\n"),
              "are these radians?")

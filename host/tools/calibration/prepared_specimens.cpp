@@ -57,8 +57,8 @@ bool follows_each_reading(const Scene& scene) {
          std::none_of(scene.shifts.begin(), scene.shifts.end(), is_table);
 }
 
-/// Returns the temperature of an isotherm at which the laws are evaluated: that of a shift table of the scene if it
-/// belongs to the same isotherm, otherwise the mean of the readings.
+/// Returns the temperature of an isotherm at which the laws are evaluated. If a shift table of the scene has an
+/// entry for this isotherm, it is the temperature of the entry, otherwise the mean of the readings.
 double temperature_of_laws(const Scene& scene, const fitting::Isotherm& isotherm) {
   for (const laws::Shift& shift : scene.shifts) {
     if (const auto* table = std::get_if<laws::ShiftTable>(&shift)) {

@@ -137,7 +137,8 @@ class DataReader {
       complaints_.add(table_.header_line, "column g_star_pa", "no Poisson's ratio",
                       "one (--poisson): |E*| = 2 (1 + ratio) |G*|");
     if (!shear && poisson_) {
-      complaints_.add(table_.header_line, "column e_star_pa", "a Poisson's ratio", "none: |E*| is what is fitted");
+      complaints_.add(table_.header_line, "column e_star_pa", "a Poisson's ratio",
+                      "none: the columns have |E*| already");
     } else if (poisson_ && !(*poisson_ > -1 && *poisson_ <= 0.5)) {
       complaints_.add(table_.header_line, "Poisson's ratio", fmt::format("{}", *poisson_),
                       "a number above -1, at most 0.5");

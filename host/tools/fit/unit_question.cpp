@@ -52,7 +52,7 @@ void ask_about_moduli(const ModulusData& data, const ColumnsRead& columns, Compl
                              smallest, column.substr(0, column.size() - 3)));
 }
 
-/// Returns whether the moduli rise with frequency so much that the phases must be far larger than they are. A phase φ
+/// Returns whether the moduli rise too steeply with frequency for the phases. A phase φ
 /// goes with a slope d ln|E*|/d ln f of about φ/90 degrees (the Kramers–Kronig relation between both), so phases that
 /// are radians look 57 times too small.
 bool moduli_contradict_phases(const ModulusData& data) {
@@ -84,7 +84,7 @@ void ask_about_phases(const ModulusData& data, const ColumnsRead& columns, Compl
   // without moduli, phases of 0.2 radians (11 degrees) and more are taken for radians
   if (data.moduli ? !moduli_contradict_phases(data) : high->phase_deg < 0.2) return;
   complaints.add(0, "column phase_deg", fmt::format("phases of {:.3g} to {:.3g}", low->phase_deg, high->phase_deg),
-                 data.moduli ? "larger ones in degrees for moduli that change so much: are these radians? They have a "
+                 data.moduli ? "larger ones in degrees for such a change of the moduli: are these radians? They have a "
                                "column phase_rad"
                              : "larger ones in degrees: are these radians? They have a column phase_rad");
 }
