@@ -125,7 +125,7 @@ class Part {
 
   const WeightedSites& sites_;
   const std::vector<SiteTree>& all_;
-  Bounds searched_;                  ///< all spheres that reach into these bounds are taken
+  BoundingBox searched_;             ///< all spheres that reach into these bounds are taken
   std::vector<bool> own_;            ///< for each particle: whether it belongs to the part
   std::vector<State> state_;         ///< for each particle
   std::vector<std::int32_t> taken_;  ///< particles that are taken but not inserted yet

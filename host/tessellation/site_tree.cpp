@@ -10,17 +10,17 @@ namespace {
 
 constexpr std::size_t most_in_a_leaf = 8;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr Bounds empty{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
+constexpr BoundingBox empty{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
 
-Bounds bounds_of(const WeightedSites& sites, std::span<const std::int32_t> numbers) {
-  Bounds out = empty;
+BoundingBox bounds_of(const WeightedSites& sites, std::span<const std::int32_t> numbers) {
+  BoundingBox out = empty;
   for (const std::int32_t i : numbers) out.grow(sites[i].centre);
   return out;
 }
 
 /// Reorders the numbers such that the sites with lower coordinates along the longest edge of the box come before index
 /// `middle`.
-void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t middle, const Bounds& bounds) {
+void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t middle, const BoundingBox& bounds) {
   const Vec3d edge = bounds.high - bounds.low;
   const double Vec3d::*along = edge.x >= edge.y && edge.x >= edge.z ? &Vec3d::x
                                : edge.y >= edge.z                   ? &Vec3d::y
@@ -44,21 +44,21 @@ void divide(const WeightedSites& sites, std::span<std::int32_t> numbers, std::si
 
 }  // namespace
 
-void Bounds::grow(const Vec3d& p) {
+void BoundingBox::grow(const Vec3d& p) {
   low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
   high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
 }
 
-bool Bounds::has(const Vec3d& p) const {
+bool BoundingBox::has(const Vec3d& p) const {
   return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z && p.z <= high.z;
 }
 
-bool Bounds::meets(const Bounds& other) const {
+bool BoundingBox::meets(const BoundingBox& other) const {
   return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
          low.z <= other.high.z && other.low.z <= high.z;
 }
 
-double Bounds::distance2(const Vec3d& p) const {
+double BoundingBox::distance2(const Vec3d& p) const {
   const auto beyond = [](double x, double from, double to) { return std::max({from - x, 0.0, x - to}); };
   const Vec3d way{beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)};
   return dot(way, way);
@@ -74,7 +74,7 @@ void SiteTree::divide(std::size_t begin, std::size_t end) {
   const std::span<std::int32_t> numbers = numbers_.subspan(begin, end - begin);
   double most_weight = -infinite;
   for (const std::int32_t i : numbers) most_weight = std::max(most_weight, sites_[i].weight);
-  const Bounds bounds = bounds_of(sites_, numbers);
+  const BoundingBox bounds = bounds_of(sites_, numbers);
   nodes_.push_back({bounds, most_weight, begin, end, 0});
   if (numbers.size() <= most_in_a_leaf) return;
   const std::size_t half = numbers.size() / 2;

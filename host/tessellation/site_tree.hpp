@@ -11,17 +11,17 @@
 namespace macadam {
 
 /// An axis-aligned box [m].
-struct Bounds {
+struct BoundingBox {
   Vec3d low, high;
 
   /// Extends the box to contain the point.
   void grow(const Vec3d& p);
   /// Returns the box extended by a length on all sides.
-  Bounds wider(double by) const { return {low - Vec3d{by, by, by}, high + Vec3d{by, by, by}}; }
+  BoundingBox wider(double by) const { return {low - Vec3d{by, by, by}, high + Vec3d{by, by, by}}; }
   /// Returns whether the box contains the point.
   bool has(const Vec3d& p) const;
   /// Returns whether the two boxes have a common point.
-  bool meets(const Bounds& other) const;
+  bool meets(const BoundingBox& other) const;
   /// Returns the squared distance of a point from the box [m²], 0 inside.
   double distance2(const Vec3d& p) const;
 };
@@ -34,12 +34,12 @@ class SiteTree {
   SiteTree(const WeightedSites& sites, std::span<std::int32_t> numbers);
 
   std::span<const std::int32_t> numbers() const { return numbers_; }
-  const Bounds& bounds() const { return nodes_.front().bounds; }
+  const BoundingBox& bounds() const { return nodes_.front().bounds; }
 
   /// Calls f(number) for each particle whose sphere may reach the box: its centre lies in the box widened by its
   /// radius.
   template <class F>
-  void each_reaching(const Bounds& bounds, F&& f) const {
+  void each_reaching(const BoundingBox& bounds, F&& f) const {
     visit([&](const Node& node) { return node.bounds.meets(bounds.wider(std::sqrt(node.most_weight))); },
           [&](std::int32_t i) {
             const WeightedSite site = sites_[i];
@@ -59,7 +59,7 @@ class SiteTree {
  private:
   /// A node: the range of its particles, their bounding box, and their largest weight.
   struct Node {
-    Bounds bounds;
+    BoundingBox bounds;
     double most_weight;
     std::size_t begin, end;  ///< range in numbers_
     /// Index of the node of the second half, 0 for a leaf; the node of the first half is the next one.

@@ -64,7 +64,8 @@ def calibrate(scene: SceneLike, target: Data, free: Sequence[str], *,
     temperature_c, e_star_std, phase_std. `Result.table` of a cyclic test or a sweep has these columns. A column of
     moduli or of phases that the misfit does not count is not needed.
     free: names of the parameters to find: "M-A.delta", "M-M.E_1", "inner.E", "A-A.alpha".
-    bounds: lowest and highest value by name. priors: a value and its relative deviation by name.
+    bounds: lowest and highest value by name. priors: a value and the standard deviation of its natural logarithm (0.1:
+    about 10 %) by name.
     seeds: number of specimens whose E* is averaged.
     misfit: the differences that count: "modulus-and-phase", "modulus", "phase" or "parts" (E' and E'').
     e_star_deviation [%], phase_deviation [degrees]: standard deviations of the measurements, if the target has none.

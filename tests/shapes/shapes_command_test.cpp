@@ -82,7 +82,7 @@ TEST_F(ShapesCommand, FaultyShapesAreNamedAllAtOnceAndRepairedWhenAsked) {
   std::ofstream(folder_ / "stones" / "text.obj") << "lorem ipsum";
   const Outcome refused = shapes("measure stones --out tables");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(contains(refused.err, "2 of 3 files are no good shapes")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "2 of 3 files have faults")) << refused.err;
   EXPECT_TRUE(contains(refused.err, "stones/open.off: surface: found open at 3 facets")) << refused.err;
   EXPECT_TRUE(contains(refused.err, "stones/text.obj:1: keyword: found")) << refused.err;
   EXPECT_FALSE(fs::exists(folder_ / "tables"));

@@ -158,7 +158,7 @@ TEST(SiteTree, FindsWhomALookAtEverybodyFinds) {
   std::size_t found_in_all = 0;
   for (int k = 0; k < 200; ++k) {
     const Vec3d p{share(random), share(random), share(random)};
-    const Bounds bounds = Bounds{p, p}.wider(0.1);
+    const BoundingBox bounds = BoundingBox{p, p}.wider(0.1);
     const double most = 0.02 * share(random);
     std::vector<std::int32_t> reaching, of_power, reach_wanted, power_wanted;
     tree.each_reaching(bounds, [&](std::int32_t i) { reaching.push_back(i); });

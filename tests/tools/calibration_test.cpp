@@ -3,6 +3,7 @@
 // and refuses nonsensical targets.
 #include "macadam/calibration.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 
 #include "tests/support/aggregate_cube.hpp"
 #include "host/tools/calibration/misfit.hpp"
+#include "host/tools/calibration/prepared_specimens.hpp"
 #include "host/tools/calibration/statistics.hpp"
 #include "tests/support/test_files.hpp"
 
@@ -240,6 +242,34 @@ TEST(Calibration, SeveralTemperaturesAndTheirShift) {
   EXPECT_SAYS([&] { calibrate(start, data, free); }, "25 degrees C, where the shift of");
 }
 
+/// Readings that differ by tenths of a kelvin are one isotherm, unless the laws follow each reading.
+TEST(Calibration, ReadingsThatDifferByTenthsAreOneIsotherm) {
+  Scene scene = t8_scene();
+  ModulusData data;
+  data.temperatures = true;
+  for (const double t : {19.9, 20.2, 20.3}) data.points.push_back({1, 1e9, 10, t, 0, 0});
+  const auto temperatures = [&] {
+    std::vector<double> out;
+    for (const std::optional<double>& t : calibration::temperatures_of(scene, data)) out.push_back(t.value_or(0));
+    return out;
+  };
+  EXPECT_EQ(temperatures(), (std::vector<double>{20.13, 20.13, 20.13})) << "the mean, rounded to 0.01 K";
+  scene.shifts[0] = scene.shifts[1] = laws::ShiftTable{{0, 20}, {0, -1}};
+  EXPECT_EQ(temperatures(), (std::vector<double>{20, 20, 20})) << "the isotherm of the table, which ends there";
+  scene.shifts[0] = scene.shifts[1] = laws::Arrhenius{200e3, 15};
+  EXPECT_EQ(temperatures(), (std::vector<double>{19.9, 20.2, 20.3}));
+}
+
+/// A scene without a file is refused before the calibration, and no file is written.
+TEST(Calibration, ASceneWithoutAFileIsRefusedBeforeFilesAreWritten) {
+  const fs::path out = fs::path(testing::TempDir()) / fmt::format("no_scene_file_{}", getpid());
+  fs::create_directories(out);
+  EXPECT_SAYS([&] { require_calibration_folder(t8_scene(), out); }, "found one that was not read from a file");
+  EXPECT_SAYS([&] { calibrate_into(out, t8_scene(), {}, {}); }, "found one that was not read from a file");
+  EXPECT_TRUE(fs::is_empty(out));
+  fs::remove_all(out);
+}
+
 /// Only the product of A-W.E and A-W.delta enters the moduli, so calibration reports their combination as undetermined.
 /// A prior for one of them makes both known.
 TEST(Calibration, WhatCannotBeToldApartIsNamed) {
@@ -260,7 +290,7 @@ TEST(Calibration, WhatCannotBeToldApartIsNamed) {
   known.free[1].prior = 1, known.free[1].prior_deviation = 0.1;
   const Calibration with_prior = calibrate(t8_scene(), data, known);
   EXPECT_NEAR(with_prior.parameters[1].value, 1, 1e-6);
-  EXPECT_NEAR(with_prior.parameters[1].deviation, 0.1, 1e-3) << "what was known of it, no more";
+  EXPECT_NEAR(with_prior.parameters[1].deviation, 0.1, 1e-3) << "the prior alone";
   EXPECT_EQ(with_prior.combinations.size(), 1u) << "of the measurements alone";
 }
 

@@ -105,9 +105,50 @@ TEST_F(LaboratoryTable, UnitsThatCannotBeMeantAreAskedAbout) {
   EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg\n1,9e9,15\n"), "another unit than the name of the column says");
   EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_deg\nHz,MPa,deg\n1,9000,15\n"),
              "unit of e_star_pa: found \"MPa\", expected Pa, which the name says");
+  // Shear moduli of a binder in kPa: at 46 degrees 5 MPa, at 68 degrees 0.6 MPa, at 82 degrees 40 kPa, at 88 degrees 2
+  // kPa.
+  for (const char* row : {"10,5000,46", "10,600,68", "10,40,82", "10,2,88"}) {
+    const std::string said = refusal(std::string("frequency_hz,g_star_pa,phase_deg\n1,0.5,89\n") + row + "\n", 0.5);
+    EXPECT_HAS(said, "column g_star_pa: found moduli of 0.5 to ") << row;
+    EXPECT_HAS(said, "is it in Pa? Moduli in MPa, GPa or kPa have a column such as g_star_mpa") << row;
+  }
   // A hot binder is soft, and a rubber has a modulus of some MPa; both are accepted.
   EXPECT_NO_THROW(read_text(header + "0.01,20,89,80\n10,9e3,84,80\n"));
   EXPECT_NO_THROW(read_text("frequency_hz,e_star_mpa,phase_deg\n1,2,5\n"));
+}
+
+/// |E*| that rises as f^(1/3) has a phase of about 30 degrees, which is 0.52 radians.
+TEST_F(LaboratoryTable, RadiansInAColumnOfDegreesAreAskedAbout) {
+  const std::string header = "frequency_hz,e_star_mpa,phase_deg\n";
+  EXPECT_HAS(refusal(header + "1,1000,0.55\n10,2150,0.5\n"),
+             "column phase_deg: found phases of 0.5 to 0.55, expected larger ones in degrees for such a change of the "
+             "moduli: are these radians? They have a column phase_rad");
+  EXPECT_HAS(refusal(header + "1,1000,0.12\n10,1200,0.1\n"), "are these radians?") << "nearly glassy: 0.079 · 90 = 7";
+  EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg,temperature_c\n1,9000,0.2,0\n1,900,0.9,30\n"),
+             "are these radians?")
+      << "one frequency, two temperatures";
+  EXPECT_HAS(refusal("frequency_hz,phase_deg\n1,0.5\n", {}, Measured::phase), "are these radians?");
+  EXPECT_NO_THROW(read_text(header + "1,60000,0.5\n10,60500,0.4\n")) << "a rock, nearly elastic";
+  EXPECT_NO_THROW(read_text("frequency_hz,e_star_mpa,phase_rad\n1,1000,0.55\n10,2150,0.5\n"));
+}
+
+TEST_F(LaboratoryTable, DeviationsHaveTheUnitOfTheirColumnBelowARowOfUnitsToo) {
+  const std::string header = "frequency_hz,e_star_mpa,phase_deg,e_star_std,phase_std\n";
+  const std::string said = refusal(header + "Hz,MPa,deg,Pa,rad\n1,2500,30,5e7,0.01\n");
+  EXPECT_HAS(said, "lab.csv:2: unit of e_star_std: found \"Pa\", expected MPa, the unit of e_star_mpa");
+  EXPECT_HAS(said, "lab.csv:2: unit of phase_std: found \"rad\", expected degrees, the unit of phase_deg");
+  EXPECT_DOUBLE_EQ(read_text(header + "Hz,MPa,deg,[MPa],\xC2\xB0\n1,2500,30,50,1\n").points[0].e_star_std, 50e6);
+}
+
+TEST_F(LaboratoryTable, OneMessageListsFaultsOfHeaderRowsAndUnits) {
+  const std::string said = refusal(
+      "frequency_hz,e_star_pa,phase_deg,temperature_c\n1,9000,0.3,293.15\n10,20000,0.2,293.15\nx,14000,0.2,293.15\n");
+  for (const char* part :
+       {"lab.csv:4: column frequency_hz: found \"x\"", "is it in Pa?", "are these radians?", "are these kelvins?"})
+    EXPECT_HAS(said, part);
+  const std::string header = refusal("frequency_hz,e_star_pa,phase_dg\n1,-9e9,15\n");
+  EXPECT_HAS(header, "found \"phase_dg\"");
+  EXPECT_HAS(header, "lab.csv:2: column e_star_pa: found \"-9e9\"");
 }
 
 TEST_F(LaboratoryTable, ColumnsThatAreNotNeededNeedNotBeThere) {

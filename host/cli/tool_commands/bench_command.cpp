@@ -183,14 +183,14 @@ void add_bench_command(CLI::App& app) {
   add_list(command, "--blocks", axes.blocks, "blocks of steps in the shortest time of load and laws; 4000 is usual",
            1.0, 1e18);
   add_list(command, "--units", axes.units, "Kelvin units of every law in place of its own; -1: its own", -1, 16);
-  command.add_flag("--elastic", axes.elastic, "every law as the spring that it is at once");
+  command.add_flag("--elastic", axes.elastic, "replace every law by its instantaneous spring");
   add_list(command, "--multiprocessors", axes.multiprocessors,
-           "of a device that are used, as if it had no more; 0: all", 0, 4096);
-  add_list(command, "--loads", axes.loads, "frequencies that are solved side by side", 1, 4);
+           "number of multiprocessors of a device that are used; 0: all", 0, 4096);
+  add_list(command, "--loads", axes.loads, "number of frequencies that are solved at the same time", 1, 4);
   add_choice(command, "--only", arguments->only,
-             "steps in time, solutions in the frequency domain, or what comes before a step",
+             "steps in time, solutions in the frequency domain, or the preparation of a run",
              {{"step", "step"}, {"harmonic", "harmonic"}, {"preparation", "preparation"}});
-  add_number(command, "--repetitions", axes.repetitions, "of each row", 1, 1000);
+  add_number(command, "--repetitions", axes.repetitions, "number of measurements per row", 1, 1000);
   add_number(command, "--seconds", axes.seconds, "of a repetition, at the least", 1e-6, 1e4);
   add_text(command, "--json", arguments->json, "write the rows in the format of Google Benchmark");
   add_text(command, "--against", arguments->against, "compare with such a file: exit code 1 where a row is slower");

@@ -66,7 +66,7 @@ void read_parameters(CalibrateArguments& arguments) {
     p.parameter->low = p.first, p.parameter->high = p.second;
   }
   for (const std::string& text : arguments.priors) {
-    const Pair p = pair_of("--prior", text, free, "NAME=VALUE:RELATIVE_DEVIATION");
+    const Pair p = pair_of("--prior", text, free, "NAME=VALUE:DEVIATION");
     if (p.parameter->prior) throw InputError("command line", 0, "--prior", p.parameter->name + " twice", "each once");
     p.parameter->prior = p.first, p.parameter->prior_deviation = p.second;
   }
@@ -104,39 +104,46 @@ void add_calibrate_command(CLI::App& app) {
   CalibrationOptions& options = arguments->options;
   add_job_options(command, arguments->job);
   add_text(command, "--target", arguments->target,
-           "table: frequency_hz, e_star_pa or e_star_mpa, phase_deg (or e_prime_pa, e_double_prime_pa), maybe "
-           "temperature_c, e_star_std, phase_std")
+           "table: frequency_hz, e_star_pa or e_star_mpa, phase_deg (or e_prime_pa, e_double_prime_pa), "
+           "optionally temperature_c, e_star_std, phase_std")
       ->required();
   command
-      .add_option("--free", arguments->free, "parameters to be found, with commas: M-A.delta,M-M.E_1,inner.E,A-A.alpha")
+      .add_option("--free", arguments->free,
+                  "parameters to find, separated by commas: M-A.delta,M-M.E_1,inner.E,A-A.alpha")
       ->delimiter(',')
       ->required()
       ->type_name("NAME");
-  command.add_option("--bounds", arguments->bounds, "of a parameter, with commas; else four decades to either side")
+  command
+      .add_option("--bounds", arguments->bounds,
+                  "limits of parameters, separated by commas; default: four decades to either side")
       ->delimiter(',')
       ->type_name("NAME=LOW:HIGH");
-  command.add_option("--prior", arguments->priors, "known beforehand, with commas; the deviation is relative")
+  command
+      .add_option(
+          "--prior", arguments->priors,
+          "values known beforehand, separated by commas; DEVIATION is the standard deviation of the natural logarithm "
+          "(0.1: about 10 %)")
       ->delimiter(',')
       ->type_name("NAME=VALUE:DEVIATION");
   add_number(command, "--seeds", options.seeds,
-             "specimens of the scene's seed and those after it, whose E* is averaged", 1, 1000);
-  add_choice(command, "--misfit", options.misfit, "what counts; parts: E' and E''",
+             "number of specimens, with the scene's seed and the seeds after it, whose E* is averaged", 1, 1000);
+  add_choice(command, "--misfit", options.misfit, "the differences that are minimised; parts: E' and E''",
              {{"modulus-and-phase", Misfit::modulus_and_phase},
               {"modulus", Misfit::modulus},
               {"phase", Misfit::phase},
               {"parts", Misfit::parts}});
   add_number(command, "--e-star-deviation", arguments->e_star_deviation,
-             "standard deviation of |E*| in %, where the file has no e_star_std", 1e-6, 100.0);
+             "standard deviation of |E*| in %, if the file has no e_star_std", 1e-6, 100.0);
   add_number(command, "--phase-deviation", options.phase_deviation,
-             "the same of the phase angle in degrees, where the file has no phase_std", 1e-6, 90.0);
+             "standard deviation of the phase angle in degrees, if the file has no phase_std", 1e-6, 90.0);
   command.add_flag("--nearest", options.nearest,
-                   "where the targets cannot be reached, the nearest values with a warning");
-  add_choice(command, "--backend", arguments->backend, "what computes: auto is a CUDA device if there is one",
+                   "if the targets cannot be reached, give the nearest values with a warning");
+  add_choice(command, "--backend", arguments->backend, "device that computes: auto is a CUDA device if there is one",
              {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}})
       ->group(instead_of_scene);
-  add_number(command, "--threads", arguments->threads, "of the CPU; results do not depend on it", 1, 1024)
+  add_number(command, "--threads", arguments->threads, "number of CPU threads; results do not depend on it", 1, 1024)
       ->group(instead_of_scene);
-  command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
+  command.add_flag("--no-pictures", arguments->no_pictures, "draw no pictures");
   for (const char* name : {"--misfit", "--e-star-deviation", "--phase-deviation", "--seeds", "--nearest"})
     command.get_option(name)->group("What is fitted");
   add_examples(command,

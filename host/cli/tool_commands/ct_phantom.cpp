@@ -51,22 +51,26 @@ void add_ct_phantom(CLI::App& ct) {
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
   add_text(command, "--voxel", arguments->voxel, "edge of a voxel, as \"100 um\"", "LENGTH")->required();
   add_out(command, arguments->out);
-  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-  add_number(command, "--specimen-seed", arguments->specimen_seed, "instead of the scene's", 0, most);
-  add_number(command, "--seed", spec.seed, "of the faults of the scan", 0, most);
-  add_choice(command, "--shape", spec.shape, "outline of what is scanned",
+  constexpr std::uint64_t largest_seed = std::numeric_limits<std::uint64_t>::max();
+  add_number(command, "--specimen-seed", arguments->specimen_seed, "seed of the specimen, instead of the scene's seed",
+             0, largest_seed);
+  add_number(command, "--seed", spec.seed, "seed of the noise and the rings of the scan", 0, largest_seed);
+  add_choice(command, "--shape", spec.shape, "outline of the scanned specimen",
              {{"prism", CoreShape::prism}, {"cylinder", CoreShape::cylinder}});
-  add_text(command, "--sawn", arguments->sawn, "taken off each side of the box before it is scanned", "LENGTH");
-  add_text(command, "--air", arguments->air, "around the specimen", "LENGTH");
-  add_number(command, "--samples", spec.samples, "columns along each edge of a voxel", 1, 16);
-  add_number(command, "--blur", spec.blur, "standard deviation in voxels", 0.0, 10.0);
-  add_fraction(command, "--noise", spec.noise, "standard deviation, fraction of aggregate - air", 0.0, 1.0);
-  add_fraction(command, "--cupping", spec.cupping, "loss of grey value on the axis, fraction", 0.0, 1.0);
-  add_fraction(command, "--rings", spec.rings, "offsets of the rings, fraction of aggregate - air", 0.0, 1.0);
-  add_fraction(command, "--drift", spec.drift, "brightness of the slices, fraction", 0.0, 1.0);
-  add_number(command, "--grey-air", spec.grey_air, "of air", 0.0, 65535.0);
-  add_number(command, "--grey-mastic", spec.grey_mastic, "of mastic", 0.0, 65535.0);
-  add_number(command, "--grey-aggregate", spec.grey_aggregate, "of aggregate", 0.0, 65535.0);
+  add_text(command, "--sawn", arguments->sawn, "thickness that is sawn off each side of the box before the scan",
+           "LENGTH");
+  add_text(command, "--air", arguments->air, "thickness of the air around the specimen", "LENGTH");
+  add_number(command, "--samples", spec.samples, "number of sample columns along each edge of a voxel", 1, 16);
+  add_number(command, "--blur", spec.blur, "standard deviation of the blur, in voxels", 0.0, 10.0);
+  add_fraction(command, "--noise", spec.noise,
+               "standard deviation of the noise, as a fraction of the grey values aggregate - air", 0.0, 1.0);
+  add_fraction(command, "--cupping", spec.cupping, "loss of grey value on the axis, as a fraction", 0.0, 1.0);
+  add_fraction(command, "--rings", spec.rings, "offsets of the rings, as a fraction of the grey values aggregate - air",
+               0.0, 1.0);
+  add_fraction(command, "--drift", spec.drift, "change of brightness between slices, as a fraction", 0.0, 1.0);
+  add_number(command, "--grey-air", spec.grey_air, "grey value of air", 0.0, 65535.0);
+  add_number(command, "--grey-mastic", spec.grey_mastic, "grey value of mastic", 0.0, 65535.0);
+  add_number(command, "--grey-aggregate", spec.grey_aggregate, "grey value of aggregate", 0.0, 65535.0);
   for (const char* name : {"--seed", "--blur", "--noise", "--cupping", "--rings", "--drift"})
     command.get_option(name)->group("Faults of the scan");
   for (const char* name : {"--grey-air", "--grey-mastic", "--grey-aggregate"})

@@ -52,13 +52,13 @@ void segment(CtSegmentArguments arguments) {
       std::count_if(out.grains.begin(), out.grains.end(), [](const auto& grain) { return grain.border; });
   line.clear();
   const ScanCorrections& c = out.corrections;
-  say("taken out, in shares of the contrast: slices {:.1f} %, rings {:.1f} %, hardening {:.1f} %\n", 100 * c.slices,
+  say("corrections, as parts of the contrast: slices {:.1f} %, rings {:.1f} %, hardening {:.1f} %\n", 100 * c.slices,
       100 * c.rings, 100 * c.hardening);
   say("air voids {:.2f} %, mastic {:.2f} %, aggregate {:.2f} % of the specimen; confidence {:.3f}\n",
       100 * out.air_voids, 100 * out.mastic, 100 * out.aggregate, out.confidence_mean);
   if (out.block > 1) {
-    say("larger than memory: images are of blocks of {0} x {0} x {0} voxels, {1} surfaces are finer\n", out.block,
-        out.refined);
+    say("the scan is larger than memory: images have blocks of {0} x {0} x {0} voxels, and {1} surfaces are finer\n",
+        out.block, out.refined);
   }
   say("{} grains, {} of them cut by the end of the specimen; {:.2f} % of the aggregate is in no grain\n",
       out.grains.size(), border, 100 * out.in_no_grain);
@@ -77,40 +77,41 @@ void add_ct_segment(CLI::App& ct) {
   command.add_option("images", arguments->images, "scan: .mha, .mhd, .nrrd, .tif, .h5, or a folder of .tif")
       ->required()
       ->type_name("FILE");
-  add_text(command, "--dataset", arguments->dataset, "of an HDF5 file: the dataset; z, y, x", "NAME");
+  add_text(command, "--dataset", arguments->dataset, "dataset of an HDF5 file, with the axes z, y, x", "NAME");
   command
       .add_option("--voxel", arguments->voxel,
-                  "edges of a voxel: \"25 um\", or three: \"25 um,25 um,50 um\"; in place of those in the file")
+                  "edges of a voxel: \"25 um\", or three: \"25 um,25 um,50 um\"; instead of the edges in the file")
       ->delimiter(',')
       ->expected(1, 3)
       ->type_name("LENGTH");
   add_out(command, arguments->out);
   add_text(command, "--region", arguments->region,
-           "what of the scan is the specimen: found, whole, cylinder, prism, cylinder:x,y,diameter[,z0,z1] or "
-           "prism:x0,y0,z0,x1,y1,z1; else it is found",
+           "the specimen in the scan: found, whole, cylinder, prism, cylinder:x,y,diameter[,z0,z1] or "
+           "prism:x0,y0,z0,x1,y1,z1; default: found",
            "REGION");
-  command.add_flag("--no-slices", arguments->no_slices, "slices keep their grey levels");
-  command.add_flag("--no-rings", arguments->no_rings, "rings are left in the scan");
-  command.add_flag("--no-hardening", arguments->no_hardening,
-                   "grey levels over radius and height are left as they are");
-  add_choice(command, "--denoise", options.denoising, "how noise is taken out; diffusion keeps edges",
+  command.add_flag("--no-slices", arguments->no_slices, "do not correct the grey levels of slices");
+  command.add_flag("--no-rings", arguments->no_rings, "do not correct rings");
+  command.add_flag("--no-hardening", arguments->no_hardening, "do not correct grey levels over radius and height");
+  add_choice(command, "--denoise", options.denoising, "filter of the noise; diffusion keeps edges",
              {{"diffusion", Denoising::diffusion}, {"median", Denoising::median}, {"none", Denoising::none}});
   add_fraction(command, "--air-voids", options.air_voids,
                "fraction of the specimen's volume, from the laboratory (0.04, \"4 %\")", 0.0, 0.5);
   add_fraction(command, "--aggregate", options.aggregate,
                "fraction of the specimen's volume, from the laboratory (0.4, \"40 %\")", 0.05, 0.95);
   add_text(command, "--memory", arguments->memory,
-           "that may be taken (\"3 GB\"; four fifths of what is free): a larger scan is decided on block means",
+           "memory that may be used (\"3 GB\"; default: four fifths of the free memory); a larger scan is segmented by "
+           "means of blocks",
            "BYTES");
-  add_text(command, "--smallest", arguments->smallest, "diameter of the smallest grain that matters (\"4 mm\")",
+  add_text(command, "--smallest", arguments->smallest, "diameter of the smallest grain to keep apart (\"4 mm\")",
            "LENGTH");
   add_text(command, "--gradation", arguments->gradation,
-           "the laboratory's: a CSV file, sieve_mm,passing_percent or sieve_m,passing");
-  add_text(command, "--cuts", arguments->cuts, "a cuts.csv of the same scan, in which `cut` was changed by hand");
+           "gradation from the laboratory: a CSV file, sieve_mm,passing_percent or sieve_m,passing");
+  add_text(command, "--cuts", arguments->cuts, "a cuts.csv of the same scan, in which the column `cut` was edited");
   add_choice(command, "--recipe", options.recipe, "steps of the segmentation",
              {{"own", SegmentRecipe::own}, {"paper", SegmentRecipe::paper}});
-  add_number(command, "--facets", options.facets, "of a grain's surface; up to 800 where it needs them", 100, 10'000);
-  add_number(command, "--threads", arguments->threads, "of the CPU; results do not depend on it", 1, 1024);
+  add_number(command, "--facets", options.facets, "facets of a grain's surface; up to 800 for a grain that needs more",
+             100, 10'000);
+  add_number(command, "--threads", arguments->threads, "number of CPU threads; results do not depend on it", 1, 1024);
   for (const char* name : {"--no-slices", "--no-rings", "--no-hardening", "--denoise"})
     command.get_option(name)->group("Faults of the scan");
   for (const char* name : {"--air-voids", "--aggregate", "--gradation"})

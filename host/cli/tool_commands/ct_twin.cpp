@@ -58,19 +58,21 @@ void twin_command(CtTwinArguments arguments) {
 void add_ct_twin(CLI::App& ct) {
   const auto arguments = std::make_shared<CtTwinArguments>();
   CLI::App& command = *ct.add_subcommand("twin", "the specimen in a scan as a scene that runs");
-  add_text(command, "folder", arguments->folder, "what ct segment wrote, or the truth of a phantom", "FOLDER")
+  add_text(command, "folder", arguments->folder, "folder that ct segment wrote, or the folder truth of a phantom",
+           "FOLDER")
       ->required();
   add_text(command, "--scene", arguments->scene, "scene with materials, contacts, loading, radii of the spheres")
       ->required();
-  add_out(command, arguments->out, "of the scene");
+  add_out(command, arguments->out, "folder for the scene");
   command.add_option("--box", arguments->box, "lower and upper corner in the scan: \"1 mm,1 mm,0,21 mm,21 mm,30 mm\"")
       ->delimiter(',')
       ->expected(6)
       ->type_name("LENGTH");
-  add_fraction(command, "--porosity", arguments->spec.porosity, "of the mastic, in place of the scene's", -1.0, 1.0);
+  add_fraction(command, "--porosity", arguments->spec.porosity, "porosity of the mastic, instead of the scene's", -1.0,
+               1.0);
   add_text(command, "--least-void", arguments->least_void, "radius below which a void is left out; 0: two voxels",
            "LENGTH");
-  add_number(command, "--seed", arguments->spec.seed, "of the mastic and of the fillings", 0,
+  add_number(command, "--seed", arguments->spec.seed, "seed of the mastic and of the fillings of grains", 0,
              std::numeric_limits<std::uint64_t>::max());
   add_examples(command, {"macadam ct segment results/phantom/scan.mha --out results/segmented",
                          "macadam ct twin results/segmented --scene examples/ct/scene.toml --out results/twin"});

@@ -25,7 +25,8 @@ struct FitArguments {
   FitOptions fit;
 };
 
-/// \throws InputError for an option that has no effect beside the other options, so that nobody believes it had one.
+/// \throws InputError for an option that has no effect beside the other options, because the user would believe that it
+/// has one.
 void require_uses(const CLI::App& command, const FitArguments& arguments) {
   const auto refuse = [&](const std::string& found, const char* expected, std::initializer_list<const char*> names) {
     for (const char* name : names)
@@ -88,34 +89,38 @@ void add_fit_command(CLI::App& app) {
   FitOptions& fit = arguments->fit;
   command
       .add_option("data", arguments->data,
-                  "table: frequency_hz, e_star_pa, e_star_mpa or g_star_pa, phase_deg, maybe temperature_c, "
+                  "table: frequency_hz, e_star_pa, e_star_mpa or g_star_pa, phase_deg, optionally temperature_c, "
                   "e_star_std, phase_std")
       ->type_name("FILE");
   add_out(command, arguments->out);
-  command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
-  add_choice(command, "--model", fit.model, "what is fitted",
+  command.add_flag("--no-pictures", arguments->no_pictures, "draw no pictures");
+  add_choice(command, "--model", fit.model, "model to fit",
              {{"kelvin", FitModel::kelvin}, {"2s2p1d", FitModel::two_s2p1d}, {"huet-sayegh", FitModel::huet_sayegh}});
   add_number(command, "--units", fit.units, "Kelvin units; without it the criterion chooses", 0,
              laws::GeneralisedKelvin::max_units);
-  add_number(command, "--most-units", fit.most_units, "that the criterion may choose", 0,
+  add_number(command, "--most-units", fit.most_units, "largest number of Kelvin units that the criterion may choose", 0,
              laws::GeneralisedKelvin::max_units);
-  add_choice(command, "--criterion", fit.criterion, "that weighs misfit against parameters",
+  add_choice(command, "--criterion", fit.criterion, "information criterion that chooses the number of Kelvin units",
              {{"aicc", Criterion::aicc}, {"bic", Criterion::bic}});
-  auto* flow = command.add_flag("--flow", arguments->flow, "a dashpot in series, whatever the criterion says");
-  command.add_flag("--no-flow", arguments->no_flow, "no dashpot in series")->excludes(flow);
-  add_choice(command, "--shift", fit.shift, "how temperature shifts the curves",
+  auto* flow = command.add_flag("--flow", arguments->flow, "always a dashpot in series, without the criterion");
+  command.add_flag("--no-flow", arguments->no_flow, "never a dashpot in series")->excludes(flow);
+  add_choice(command, "--shift", fit.shift, "law by which temperature shifts the curves",
              {{"none", ShiftKind::none},
               {"wlf", ShiftKind::wlf},
               {"arrhenius", ShiftKind::arrhenius},
               {"free", ShiftKind::free}});
   add_number(command, "--reference-temperature", fit.reference_temperature,
-             "degrees Celsius; else the measured one in the middle", -273.0, 1000.0);
-  add_number(command, "--poisson", arguments->poisson, "ratio, for |E*| from a column g_star_pa", -0.99, 0.5);
+             "temperature at which a_T is 1 [degrees Celsius]; default: the middle one of the measured temperatures",
+             -273.0, 1000.0);
+  add_number(command, "--poisson", arguments->poisson, "Poisson's ratio, which gives |E*| from a column g_star_pa",
+             -0.99, 0.5);
   add_text(command, "--parameters", arguments->parameters,
-           "in place of data: TOML file of a 2S2P1D or Huet-Sayegh model");
-  add_number(command, "--from", arguments->from, "Hz: range of the chain; else that of the data", 1e-15, 1e15);
-  add_number(command, "--to", arguments->to, "Hz: its end", 1e-15, 1e15);
-  add_number(command, "--error", arguments->error, "largest relative error of that chain", 1e-6, 0.5);
+           "TOML file of a 2S2P1D or Huet-Sayegh model, instead of data");
+  add_number(command, "--from", arguments->from, "lowest frequency of the chain [Hz]; default: the lowest of the data",
+             1e-15, 1e15);
+  add_number(command, "--to", arguments->to, "highest frequency of the chain [Hz]; default: the highest of the data",
+             1e-15, 1e15);
+  add_number(command, "--error", arguments->error, "largest relative error of the chain", 1e-6, 0.5);
   const std::string model = "The model", temperatures = "Temperatures", chain = "The Kelvin chain of another model";
   for (const char* name : {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson"})
     command.get_option(name)->group(model);

@@ -41,7 +41,7 @@ fs::path package_folder() {
   if (!runs({python, "-c", look})) {
     throw InputError(
         fmt::format("macadam {0}: found no Python package macadam.{0} by {1}, expected one: pip install it, or name "
-                    "a Python that has it in MACADAM_PYTHON",
+                    "a Python with this package in MACADAM_PYTHON",
                     command, python));
   }
   std::vector<std::string> words{python, "-m", "macadam", command};

@@ -85,7 +85,7 @@ void throw_errors(const std::vector<Outcome<T>>& outcomes) {
     }
   }
   if (faulty == 0) return;
-  throw InputError(fmt::format("{} of {} files are no good shapes:{}", faulty, outcomes.size(), messages));
+  throw InputError(fmt::format("{} of {} files have faults:{}", faulty, outcomes.size(), messages));
 }
 
 void measure(const ShapesArguments& arguments) {
@@ -175,7 +175,7 @@ void add_shapes_command(CLI::App& app) {
   add_wrap(measure_app)->needs("--repair");
   measure_app.callback([arguments] { measure(*arguments); });
 
-  CLI::App& check_app = *shapes.add_subcommand("check", "what is wrong with each, and where");
+  CLI::App& check_app = *shapes.add_subcommand("check", "faults of each surface, and where they are");
   add_paths(check_app);
   check_app.callback([arguments] { check(*arguments); });
 

@@ -77,9 +77,10 @@ void add_shapes_fill(CLI::App& shapes) {
       ->expected(1, 2)
       ->type_name("LENGTH");
   add_fraction(*fill, "--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape", -0.5, 1.0);
-  add_number(*fill, "--least", spec.least, "fewer spheres than this: a single one", 1, 1'000'000);
+  add_number(*fill, "--least", spec.least, "a shape that needs fewer spheres than this becomes a single sphere", 1,
+             1'000'000);
   add_choice(*fill, "--single", spec.single,
-             "radius of a single sphere: D^I/2, that of the sphere around, of the volume",
+             "radius of a single sphere: D^I/2, the circumscribed radius, or the radius of equal volume",
              {{"intermediate", SingleSphere::intermediate},
               {"circumscribed", SingleSphere::circumscribed},
               {"volume", SingleSphere::volume}});

@@ -44,7 +44,7 @@ double coordinate_rounding(const std::vector<Vec3d>& points) {
   return 64 * std::numeric_limits<double>::epsilon() * magnitude;
 }
 
-Bounds bounds_of(std::span<const Vec3d> points) {
+PointBounds bounds_of(std::span<const Vec3d> points) {
   Vec3d low = points.front(), high = low;
   for (const Vec3d& p : points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

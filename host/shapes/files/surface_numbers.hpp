@@ -22,10 +22,10 @@ void require_sound_numbers(const Surface& surface);
 double coordinate_rounding(const std::vector<Vec3d>& points);
 
 /// The bounding box of a set of points, which must not be empty.
-struct Bounds {
+struct PointBounds {
   Vec3d low, high;
 };
-Bounds bounds_of(std::span<const Vec3d> points);
+PointBounds bounds_of(std::span<const Vec3d> points);
 
 /// Returns the middle of the bounding box. Sums relative to it do not lose digits when the surface is far from the
 /// origin.

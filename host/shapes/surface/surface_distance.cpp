@@ -51,7 +51,7 @@ SurfaceDistance::SurfaceDistance(const Surface& surface) {
     }
   }
 
-  const Bounds box = bounds_of(surface.points);
+  const PointBounds box = bounds_of(surface.points);
   low_ = box.low, high_ = box.high;
   for (std::size_t i = 0; i < facet_.size(); ++i) all_.push_back({0, static_cast<std::int32_t>(i)});
   node_.emplace_back();

@@ -52,7 +52,7 @@ class Calibrator {
  public:
   Calibrator(const Scene& scene, const ModulusData& data, const CalibrationOptions& options, const Watcher& watcher)
       : scene_(scene), data_(data), options_(options), watcher_(watcher) {
-    require_sense(scene, data, options);
+    require_valid_input(scene, data, options);
     out_.options = options;
     out_.temperatures = data.temperatures;
     out_.deviations = data.deviations;
@@ -60,10 +60,10 @@ class Calibrator {
     out_.phases = data.phases;
     free_ = free_parameters(scene, options, out_.parameters);
     for (const FreeParameter& p : options.free) priors_ += p.prior ? 1 : 0;
-    const std::size_t told = static_cast<std::size_t>(residuals_each(options.misfit)) * data.points.size() + priors_;
-    if (told < free_.size()) {
+    const std::size_t numbers = static_cast<std::size_t>(residuals_each(options.misfit)) * data.points.size() + priors_;
+    if (numbers < free_.size()) {
       throw InputError(data.source, 0, "measurements",
-                       fmt::format("{} numbers, priors included, for {} free parameters", told, free_.size()),
+                       fmt::format("{} numbers, priors included, for {} free parameters", numbers, free_.size()),
                        "as many or more");
     }
   }
@@ -78,7 +78,7 @@ class Calibrator {
     try {
       finish(find(specimens));
     } catch (const InterruptedError&) {
-      throw InterruptedError("interrupted while calibrating; nothing was written, what the folder held is as it was");
+      throw InterruptedError("interrupted while calibrating; no file was written, and the folder is unchanged");
     }
     out_.seconds_solving = seconds(Clock::now() - prepared);
     return std::move(out_);
@@ -127,7 +127,7 @@ class Calibrator {
   /// Returns the state of least misfit according to the estimates. The search starts at θ and stays within a factor of
   /// e², beyond which the estimates are poor.
   State least_by_estimate(const Specimens& specimens, std::vector<double> theta) const {
-    std::vector<Bounds> bounds;
+    std::vector<ParameterBounds> bounds;
     for (std::size_t i = 0; i < theta.size(); ++i) {
       bounds.push_back({std::max(std::log(out_.parameters[i].low), theta[i] - farthest),
                         std::min(std::log(out_.parameters[i].high), theta[i] + farthest)});
@@ -182,26 +182,26 @@ class Calibrator {
       State there = solved_near(specimens, next.theta, best);
       if (there.misfit < best.misfit) best = std::move(there);
     }
-    out_.warnings.push_back(
-        fmt::format("the way to the least misfit did not end within {} solutions: these are the best values on it",
-                    out_.solutions));
+    out_.warnings.push_back(fmt::format(
+        "the search for the smallest misfit did not end within {} solutions: these are the best values so far",
+        out_.solutions));
     return best;
   }
 
   /// Fills in the results for the final state.
-  void finish(const State& found) {
-    out_.laws = laws_at_theta(found.theta);
-    const std::size_t n = free_.size(), measured = found.residuals.size() - priors_;
-    for (std::size_t i = 0; i < measured; ++i) out_.misfit += found.residuals[i] * found.residuals[i];
+  void finish(const State& last) {
+    out_.laws = laws_at_theta(last.theta);
+    const std::size_t n = free_.size(), measured = last.residuals.size() - priors_;
+    for (std::size_t i = 0; i < measured; ++i) out_.misfit += last.residuals[i] * last.residuals[i];
     for (std::size_t i = 0; i < n; ++i) {
       CalibratedParameter& p = out_.parameters[i];
-      p.value = std::exp(found.theta[i]);
+      p.value = std::exp(last.theta[i]);
       const double near = 1e-6 * std::log(p.high / p.low);
-      p.at_bound = found.theta[i] < std::log(p.low) + near || found.theta[i] > std::log(p.high) - near;
+      p.at_bound = last.theta[i] < std::log(p.low) + near || last.theta[i] > std::log(p.high) - near;
     }
-    compare(found.predicted);
-    const auto split = found.jacobian.begin() + static_cast<std::ptrdiff_t>(measured * n);
-    add_statistics(out_, {found.jacobian.begin(), split}, {split, found.jacobian.end()});
+    compare(last.predicted);
+    const auto split = last.jacobian.begin() + static_cast<std::ptrdiff_t>(measured * n);
+    add_statistics(out_, {last.jacobian.begin(), split}, {split, last.jacobian.end()});
     judge();
     warn();
   }
@@ -231,8 +231,8 @@ class Calibrator {
     e.phase_rms_deg = std::sqrt(e.phase_rms_deg / static_cast<double>(predicted.size()));
   }
 
-  /// Checks that the prediction is near the targets, and that no parameter without bounds ran to the limit of its
-  /// search range. \throws RunError if not, or adds a warning if the options ask for the nearest values.
+  /// Checks that the prediction is near the targets, and that parameters without bounds stayed within their search
+  /// range. \throws RunError if not, or adds a warning if the options ask for the nearest values.
   void judge() {
     const FitErrors& e = out_.errors;
     std::vector<std::string> ends;
@@ -256,14 +256,13 @@ class Calibrator {
                      : "");
     for (const std::string& end : ends) what += "; " + end;
     if (ratio < wrong_unit || ratio > 1 / wrong_unit)
-      what += fmt::format("; what was measured is {:.1e} times the prediction: is it in Pa?", ratio);
+      what += fmt::format("; the measured modulus is {:.1e} times the prediction: is it in Pa?", ratio);
     const std::string first = modulus || phase
                                   ? "the targets are not reached by any values of the free parameters"
                                   : "the targets do not determine the free parameters, the misfit falls without end";
     if (!options_.nearest) {
-      throw RunError(
-          fmt::format("{}: {}: {}; bounds that stop a parameter, a prior, or other free parameters may mend it",
-                      data_.source, first, what));
+      throw RunError(fmt::format("{}: {}: {}; bounds of a parameter, a prior, or other free parameters may help",
+                                 data_.source, first, what));
     }
     out_.warnings.push_back(first + ": " + what);
   }
@@ -275,15 +274,15 @@ class Calibrator {
       const CalibratedParameter& p = out_.parameters[i];
       if (p.at_bound)
         out_.warnings.push_back(
-            fmt::format("{} lies at a bound, {:.4g}: the deviations are those with it held there", p.name, p.value));
+            fmt::format("{} lies at a bound, {:.4g}: the deviations hold for this value of it", p.name, p.value));
     }
     const std::string alone = priors_ > 0 ? " without the priors" : "";
     for (const Combination& c : out_.combinations) {
       out_.warnings.push_back(
           std::isfinite(c.deviation)
               ? fmt::format("the measurements{} hardly determine {}: within a factor of {:.2g} to either side, 95 %",
-                            alone, words(out_, c), std::exp(two_sided * c.deviation))
-              : fmt::format("the measurements{} say nothing of {}", alone, words(out_, c)));
+                            alone, name_of(out_, c), std::exp(two_sided * c.deviation))
+              : fmt::format("the measurements{} do not determine {}", alone, name_of(out_, c)));
     }
     const double missed = std::sqrt(out_.misfit / static_cast<double>(out_.points.size()) /
                                     residuals_each(options_.misfit));  // in standard deviations (rms)
@@ -296,9 +295,9 @@ class Calibrator {
     const auto shifts = [](const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); };
     if (data_.temperatures && std::none_of(scene_.shifts.begin(), scene_.shifts.end(), shifts))
       out_.warnings.push_back(
-          "no law of the scene changes with temperature: that of the measurements has no part in it");
+          "no law of the scene changes with temperature: the temperatures of the measurements have no effect");
     if (scene_.solver.method == SolverMethod::explicit_ && scene_.solver.damping_kind == Damping::local) {
-      out_.warnings.push_back("local damping of the scene has no part in the frequency domain");
+      out_.warnings.push_back("local damping of the scene has no effect in the frequency domain");
     }
   }
 

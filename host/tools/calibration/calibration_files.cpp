@@ -33,7 +33,7 @@ Json matrix(const std::vector<double>& values, std::size_t n) {
 Json parameter_json(const CalibratedParameter& p, const FreeParameter& asked) {
   Json out{{"name", p.name},   {"unit", p.unit}, {"value", p.value}, {"standard_deviation", finite(p.deviation)},
            {"start", p.start}, {"low", p.low},   {"high", p.high},   {"at_bound", p.at_bound}};
-  if (asked.prior) out["prior"] = {{"value", *asked.prior}, {"relative_deviation", asked.prior_deviation}};
+  if (asked.prior) out["prior"] = {{"value", *asked.prior}, {"deviation_of_logarithm", asked.prior_deviation}};
   return out;
 }
 
@@ -142,6 +142,10 @@ namespace {
 /// Checks the output folder. \throws InputError if it has a scene.toml that would be overwritten and that was not
 /// written by a calibration.
 void require_calibration_folder(const Scene& scene, const std::filesystem::path& out) {
+  if (scene.text.empty()) {
+    throw InputError("calibrated scene", 0, "scene", "one that was not read from a file",
+                     "a scene file: scene.toml is its text with the calibrated values");
+  }
   std::error_code error;
   if (std::filesystem::equivalent(scene.file, out / "scene.toml", error)) {
     throw InputError("command line", 0, "--out", "the folder of the scene, whose scene.toml would be replaced",
@@ -170,6 +174,7 @@ void write_scene(const Scene& scene, const Calibration& calibration, const std::
 /// Writes the files of a calibration. \throws InputError if the scene was not read from a file; RunError if a file
 /// cannot be written, or if the scene.toml does not give the calibrated values when it is read.
 void write_calibration(const std::filesystem::path& out, const Scene& scene, const Calibration& calibration) {
+  require_calibration_folder(scene, out);
   std::error_code error;
   std::filesystem::remove(out / "calibration.png", error);  // from an older calibration
   write_whole(out / "calibration.json", calibration_json(calibration));

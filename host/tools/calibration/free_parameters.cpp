@@ -23,7 +23,7 @@ constexpr double unbounded = 1e4;
 
 }  // namespace
 
-void require_sense(const Scene& scene, const ModulusData& data, const CalibrationOptions& options) {
+void require_valid_input(const Scene& scene, const ModulusData& data, const CalibrationOptions& options) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
   if (data.points.empty()) throw InputError(data.source, 0, "measurements", "none", "at least one");
   const bool counts_modulus = options.misfit != Misfit::phase, counts_phase = options.misfit != Misfit::modulus;
@@ -37,7 +37,7 @@ void require_sense(const Scene& scene, const ModulusData& data, const Calibratio
         (data.temperatures && !std::isfinite(p.temperature_c)) ||
         (data.deviations &&
          ((counts_modulus && !positive(p.e_star_std)) || (counts_phase && !positive(p.phase_std))))) {
-      throw InputError(data.source, 0, fmt::format("measurement {}", i + 1), "a number without sense",
+      throw InputError(data.source, 0, fmt::format("measurement {}", i + 1), "an invalid number",
                        "finite ones; frequency, |E*| and standard deviations positive");
     }
   }
@@ -75,7 +75,7 @@ std::vector<Parameter> free_parameters(const Scene& scene, const CalibrationOpti
     if (asked.prior && !(*asked.prior > 0 && std::isfinite(*asked.prior) && asked.prior_deviation > 0 &&
                          std::isfinite(asked.prior_deviation))) {
       refuse("prior of " + p.name, fmt::format("{:g} with deviation {:g}", *asked.prior, asked.prior_deviation),
-             "a positive value and a positive relative standard deviation");
+             "a positive value and a positive standard deviation of its natural logarithm");
     }
     free.push_back(p);
     out.push_back({p.name, p.unit, p.value, p.value, 0, low, high, false});

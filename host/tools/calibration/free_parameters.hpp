@@ -7,7 +7,7 @@
 namespace macadam::calibration {
 
 /// \throws InputError when measurements, standard deviations or the number of seeds are invalid.
-void require_sense(const Scene& scene, const ModulusData& data, const CalibrationOptions& options);
+void require_valid_input(const Scene& scene, const ModulusData& data, const CalibrationOptions& options);
 
 /// Returns the free parameters, and in `out` their values and bounds. \throws InputError for a parameter that the scene
 /// does not have, and for invalid bounds or priors.

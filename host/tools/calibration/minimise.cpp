@@ -45,7 +45,7 @@ class Cost : public ceres::CostFunction {
 
 }  // namespace
 
-bool minimise(const Residuals& residuals, std::size_t count, const std::vector<Bounds>& bounds,
+bool minimise(const Residuals& residuals, std::size_t count, const std::vector<ParameterBounds>& bounds,
               std::vector<double>& theta) {
   ceres::Problem problem;
   problem.AddResidualBlock(std::make_unique<Cost>(residuals, count, theta.size()).release(), nullptr, theta.data());
@@ -74,10 +74,10 @@ Directions directions(const std::vector<double>& jacobian, std::size_t columns) 
   full.topRows(full.rows() - n) = Eigen::Map<const RowMajor>(jacobian.data(), full.rows() - n, n);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(full, Eigen::ComputeThinV);
   const Eigen::VectorXd& s = svd.singularValues();
-  const double least = 1e-10 * s[0];  // smaller singular values are errors of the solutions, which have a tolerance
+  const double smallest = 1e-10 * s[0];  // smaller singular values are errors of the solutions, which have a tolerance
   Directions out;
   for (Eigen::Index i = 0; i < n; ++i) {
-    out.deviation.push_back(s[i] > least ? 1 / s[i] : std::numeric_limits<double>::infinity());
+    out.deviation.push_back(s[i] > smallest ? 1 / s[i] : std::numeric_limits<double>::infinity());
     out.vector.emplace_back(svd.matrixV().col(i).begin(), svd.matrixV().col(i).end());
   }
   return out;

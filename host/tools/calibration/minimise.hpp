@@ -13,15 +13,15 @@ namespace macadam::calibration {
 using Residuals = std::function<bool(const std::vector<double>& theta, std::vector<double>& residuals,
                                      std::vector<double>& jacobian)>;
 
-/// Bounds of an unknown.
-struct Bounds {
+/// Bounds of the logarithm of a parameter.
+struct ParameterBounds {
   double low, high;
 };
 
 /// Minimises the sum of the squared residuals by Levenberg–Marquardt within bounds. It starts from θ, which must lie
 /// within the bounds, and returns the result in θ. `count`: number of residuals. Returns whether it ended with finite
 /// residuals.
-bool minimise(const Residuals& residuals, std::size_t count, const std::vector<Bounds>& bounds,
+bool minimise(const Residuals& residuals, std::size_t count, const std::vector<ParameterBounds>& bounds,
               std::vector<double>& theta);
 
 /// Principal directions of θ for a Jacobian: unit vectors, and the standard deviation of θ along each (∞ if the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// prepared_specimens.cpp  Solves the specimens for given laws, each solution starting from its estimate, and computes these
-// estimates.
+// prepared_specimens.cpp  Solves the specimens for given laws, each solution starting from its estimate, and computes
+// these estimates.
 #include "host/tools/calibration/prepared_specimens.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 #include "kernels/base/parallel.hpp"
 #include "host/scene/shift_keys.hpp"
 #include "host/run/harmonic_options.hpp"
+#include "host/tools/fit/isotherms.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::calibration {
@@ -48,6 +49,39 @@ Loading loading_of(const Scene& scene) {
   return {};
 }
 
+/// Returns whether every reading has its own laws: all shifts of the scene are formulas of temperature (WLF,
+/// Arrhenius). The entries of a table are isotherms, and so are the readings without any shift.
+bool follows_each_reading(const Scene& scene) {
+  const auto is_table = [](const laws::Shift& shift) { return std::holds_alternative<laws::ShiftTable>(shift); };
+  return std::any_of(scene.shifts.begin(), scene.shifts.end(), shifts) &&
+         std::none_of(scene.shifts.begin(), scene.shifts.end(), is_table);
+}
+
+/// Returns the temperature of an isotherm at which the laws are evaluated. If a shift table of the scene has an
+/// entry for this isotherm, it is the temperature of the entry, otherwise the mean of the readings.
+double temperature_of_laws(const Scene& scene, const fitting::Isotherm& isotherm) {
+  for (const laws::Shift& shift : scene.shifts) {
+    if (const auto* table = std::get_if<laws::ShiftTable>(&shift)) {
+      for (const double t : table->temperatures)
+        if (fitting::distance_from(isotherm, t) <= fitting::same_isotherm) return t;
+    }
+  }
+  return isotherm.temperature;
+}
+
+/// Returns the temperature at which the laws are evaluated for each measurement, which has a temperature. Readings
+/// that differ by tenths of a kelvin are one isotherm, as in a fit with a free shift.
+std::vector<std::optional<double>> measured_temperatures(const Scene& scene, const ModulusData& data) {
+  std::vector<double> readings;
+  for (const ModulusPoint& p : data.points) readings.push_back(p.temperature_c);
+  if (follows_each_reading(scene)) return {readings.begin(), readings.end()};
+  const std::vector<fitting::Isotherm> isotherms = fitting::isotherms_of(readings);
+  std::vector<std::optional<double>> out;
+  for (const double reading : readings)
+    out.emplace_back(temperature_of_laws(scene, isotherms[fitting::isotherm_at(isotherms, reading)]));
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data) {
@@ -60,14 +94,12 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
     refuse("column temperature_c", fmt::format("none beside the {} temperatures of the scene", several.size()),
            "it, or one temperature in the scene");
   }
-  for (const ModulusPoint& p : data.points) {
-    if (data.temperatures) {
-      out.emplace_back(p.temperature_c);
-    } else if (!several.empty()) {
-      out.emplace_back(several.front());
-    } else {
-      out.push_back(scene.materials.temperature);
-    }
+  if (data.temperatures) {
+    out = measured_temperatures(scene, data);
+  } else if (!several.empty()) {
+    out.assign(data.points.size(), several.front());
+  } else {
+    out.assign(data.points.size(), scene.materials.temperature);
   }
   const bool shifted = std::any_of(scene.shifts.begin(), scene.shifts.end(), shifts);
   for (const std::optional<double>& t : out) {
@@ -227,14 +259,14 @@ std::vector<Predicted> Specimens::estimate(const LawTable& laws, const std::vect
 
 std::vector<Predicted> Specimens::mean_of(const std::vector<Answers>& by_body, std::size_t free) const {
   std::vector<Predicted> out(data_.points.size());
-  const double share = 1 / static_cast<double>(by_body.size());
+  const double weight = 1 / static_cast<double>(by_body.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].by.assign(free, 0);
     std::vector<double> log_moduli, phases;
     for (const Answers& of_body : by_body) {
       const Answer& a = of_body[place_of_[i]];
-      out[i].modulus += share * a.modulus;
-      for (std::size_t k = 0; k < free; ++k) out[i].by[k] += share * a.by[k];
+      out[i].modulus += weight * a.modulus;
+      for (std::size_t k = 0; k < free; ++k) out[i].by[k] += weight * a.by[k];
       log_moduli.push_back(std::log(std::abs(a.modulus)));
       phases.push_back(degrees(a.modulus));
     }

@@ -20,7 +20,9 @@ struct Predicted {
   double e_star_scatter = 0, phase_scatter_deg = 0;
 };
 
-/// Returns the temperature of each measurement, empty if neither scene nor data have one. \throws InputError if the
+/// Returns the temperature at which the laws are evaluated for each measurement, empty if neither scene nor data have
+/// one. If all shifts of the scene are WLF or Arrhenius laws, this is the reading itself, otherwise the temperature of
+/// its isotherm. \throws InputError if the
 /// scene has no valid laws at a measured temperature, or does not say which of its temperatures is meant.
 std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data);
 

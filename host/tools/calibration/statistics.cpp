@@ -15,10 +15,11 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A combination of parameters counts as undetermined when the standard deviation of its logarithm exceeds this (a
 /// factor of 2).
-constexpr double untold = 0.7;
-/// `named`: exponents below this fraction of the largest are left out of a combination's name. `no_part`: a parameter
-/// belongs to an undetermined direction only if its component of the unit vector exceeds this.
-constexpr double named = 0.02, no_part = 1e-3;
+constexpr double undetermined_deviation = 0.7;
+/// `smallest_exponent`: exponents below this fraction of the largest are left out of a combination's name.
+/// `smallest_component`: a parameter belongs to an undetermined direction only if its component of the unit vector
+/// exceeds this.
+constexpr double smallest_exponent = 0.02, smallest_component = 1e-3;
 
 /// Returns the rows with only the columns in `kept`. `all`: number of columns.
 std::vector<double> columns_of(const std::vector<double>& rows, std::size_t all, const std::vector<std::size_t>& kept) {
@@ -62,30 +63,32 @@ void add_statistics(Calibration& out, std::vector<double> data, std::vector<doub
   for (double& v : data) v /= scale;
   const Directions by_data = directions(data, n);
   for (std::size_t i = 0; i < n; ++i) {
-    if (by_data.deviation[i] > untold)
+    if (by_data.deviation[i] > undetermined_deviation)
       out.combinations.push_back(combination(by_data.vector[i], kept, all, by_data.deviation[i]));
   }
   data.insert(data.end(), priors.begin(), priors.end());
-  const Directions whole = directions(data, n);
-  const auto undetermined = [&](std::size_t i) {
+  const Directions with_priors = directions(data, n);
+  const auto is_undetermined = [&](std::size_t i) {
     for (std::size_t d = 0; d < n; ++d)
-      if (!std::isfinite(whole.deviation[d]) && std::abs(whole.vector[d][i]) > no_part) return true;
+      if (!std::isfinite(with_priors.deviation[d]) && std::abs(with_priors.vector[d][i]) > smallest_component)
+        return true;
     return false;
   };
   const auto covariance = [&](std::size_t i, std::size_t k) {
     double sum = 0;
     for (std::size_t d = 0; d < n; ++d) {
-      if (std::isfinite(whole.deviation[d]))
-        sum += whole.vector[d][i] * whole.vector[d][k] * whole.deviation[d] * whole.deviation[d];
+      if (std::isfinite(with_priors.deviation[d]))
+        sum +=
+            with_priors.vector[d][i] * with_priors.vector[d][k] * with_priors.deviation[d] * with_priors.deviation[d];
     }
     return sum;
   };
   for (std::size_t i = 0; i < n; ++i) {
-    if (undetermined(i)) continue;
+    if (is_undetermined(i)) continue;
     CalibratedParameter& p = out.parameters[kept[i]];
     p.deviation = p.value * std::sqrt(covariance(i, i));
     for (std::size_t k = 0; k < n; ++k) {
-      if (undetermined(k)) continue;
+      if (is_undetermined(k)) continue;
       const std::size_t at = kept[i] * all + kept[k];
       out.covariance[at] = covariance(i, k);
       if (i != k) out.correlation[at] = covariance(i, k) / std::sqrt(covariance(i, i) * covariance(k, k));
@@ -93,11 +96,11 @@ void add_statistics(Calibration& out, std::vector<double> data, std::vector<doub
   }
 }
 
-std::string words(const Calibration& calibration, const Combination& combination) {
+std::string name_of(const Calibration& calibration, const Combination& combination) {
   std::string out;
   for (std::size_t i = 0; i < combination.exponents.size(); ++i) {
     const double e = combination.exponents[i];
-    if (std::abs(e) < named) continue;
+    if (std::abs(e) < smallest_exponent) continue;
     out += (out.empty() ? "" : " * ") + calibration.parameters[i].name;
     if (std::abs(e - 1) > 1e-6) out += fmt::format("^{:.2g}", e);
   }

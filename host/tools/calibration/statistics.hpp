@@ -13,6 +13,6 @@ namespace macadam::calibration {
 void add_statistics(Calibration& out, std::vector<double> data, std::vector<double> priors);
 
 /// Returns the name of a combination, for example "M-A.delta * M-A.E_m^-0.98".
-std::string words(const Calibration& calibration, const Combination& combination);
+std::string name_of(const Calibration& calibration, const Combination& combination);
 
 }  // namespace macadam::calibration

@@ -9,6 +9,8 @@
 #include <limits>
 #include <optional>
 
+#include "host/tools/fit/chain_fit.hpp"
+#include "host/tools/fit/shift_start.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::fitting {
@@ -43,8 +45,7 @@ void order(const Unknowns& u, std::vector<double>& theta) {
   std::swap(k, h);
 }
 
-}  // namespace
-
+/// Returns bounds for the unknowns of the model.
 std::vector<Limits> analogue_limits(const Unknowns& u, const std::vector<Target>& targets) {
   const Extent e = extent_of(targets);
   const double shifts = u.shift == ShiftKind::none ? 0 : 25;  // eleven decades for the effect of temperature
@@ -57,8 +58,6 @@ std::vector<Limits> analogue_limits(const Unknowns& u, const std::vector<Target>
   if (u.model == FitModel::two_s2p1d) out.push_back({-3, 40});
   return out;
 }
-
-namespace {
 
 constexpr std::size_t refined = 6;  ///< number of best starts that are refined
 
@@ -84,33 +83,63 @@ std::vector<std::vector<double>> usual_starts(const Unknowns& u, const std::vect
   return out;
 }
 
-}  // namespace
+/// Returns starts of 2S2P1D from a fitted Huet–Sayegh model, with dashpots of several sizes. At its upper limit the
+/// dashpot has no effect, so the start has the same misfit.
+std::vector<std::vector<double>> with_dashpot(const std::vector<double>& huet_sayegh,
+                                              const std::vector<Limits>& limits) {
+  constexpr std::ptrdiff_t beta = 6;  // position of ln β in θ
+  std::vector<std::vector<double>> out;
+  for (const double log_beta : {5.0, 12.0, limits[beta].high}) {
+    out.push_back(huet_sayegh);
+    out.back().insert(out.back().begin() + beta, log_beta);
+  }
+  return out;
+}
 
-Minimum fit_analogue(const Unknowns& u, const std::vector<Target>& targets, const std::vector<Limits>& limits,
-                     const std::vector<double>& shift, const std::vector<std::vector<double>>& contained) {
-  std::vector<std::vector<double>> starts = usual_starts(u, targets, shift);
-  starts.insert(starts.end(), contained.begin(), contained.end());
-  if (u.model == FitModel::two_s2p1d) {
-    Unknowns without = u;
-    without.model = FitModel::huet_sayegh;
-    std::vector<Limits> fewer = limits;
-    const std::ptrdiff_t beta = 6;
-    fewer.erase(fewer.begin() + beta);
-    std::vector<double> theta = fit_analogue(without, targets, fewer, shift).theta;
-    theta.insert(theta.begin() + beta, 0);
-    for (const double log_beta : {5.0, 12.0, limits[beta].high}) {  // at its upper limit the dashpot has no effect
-      theta[beta] = log_beta;
-      starts.push_back(theta);
+/// Returns the smallest misfit that is reached from usual values and from the fitted models that this one contains;
+/// empty if no start has a finite misfit.
+std::optional<Minimum> fit_from(const Unknowns& u, const Problem& problem, const std::vector<Chain>& contained) {
+  const std::vector<Limits> limits = joined(analogue_limits(u, problem.targets), shift_limits(u, problem.temperatures));
+  std::vector<std::vector<double>> starts =
+      usual_starts(u, problem.targets, start_shift(u, problem.targets, problem.temperatures));
+  for (const Chain& smaller : contained) {
+    const std::vector<double>& theta = smaller.minimum.theta;
+    if (smaller.unknowns.model == u.model) {
+      starts.push_back(convert_shift(smaller.unknowns, theta, u.shift, problem.temperatures));
+    } else if (smaller.unknowns.shift == u.shift) {
+      const std::vector<std::vector<double>> more = with_dashpot(theta, limits);
+      starts.insert(starts.end(), more.begin(), more.end());
     }
   }
-  std::optional<Minimum> out;
+  std::optional<Minimum> best;
   for (std::vector<double>& start : starts) {
-    Minimum minimum = refine(u, targets, limits, std::move(start));
-    if (!out || minimum.misfit < out->misfit) out = std::move(minimum);
+    Minimum minimum = refine(u, problem.targets, limits, std::move(start));
+    if (std::isfinite(minimum.misfit) && (!best || minimum.misfit < best->misfit)) best = std::move(minimum);
   }
-  if (!out || !std::isfinite(out->misfit)) throw RunError("fit: no start of the model gives a finite misfit");
-  order(u, out->theta);
-  return *out;
+  if (best) order(u, best->theta);
+  return best;
+}
+
+}  // namespace
+
+Minimum fit_analogue(const Problem& problem) {
+  std::vector<FitModel> models{FitModel::huet_sayegh};
+  if (problem.unknowns.model == FitModel::two_s2p1d) models.push_back(FitModel::two_s2p1d);
+  std::vector<ShiftKind> shifts = contained_shift_laws(problem);
+  shifts.push_back(problem.unknowns.shift);
+  std::vector<Chain> fitted;
+  for (const FitModel model : models) {
+    for (const ShiftKind shift : shifts) {
+      Unknowns u = problem.unknowns;
+      u.model = model, u.shift = shift;
+      const bool is_asked = model == models.back() && shift == shifts.back();
+      if (std::optional<Minimum> minimum = fit_from(u, problem, fitted)) {
+        if (is_asked) return *minimum;
+        fitted.push_back({u, std::move(*minimum)});
+      }
+    }
+  }
+  throw RunError("fit: no start of the model gives a finite misfit");
 }
 
 AnalogueModel analogue_of(const Unknowns& u, const std::vector<double>& theta) {

@@ -4,18 +4,15 @@
 
 #include <vector>
 
-#include "host/tools/fit/least_squares.hpp"
+#include "host/tools/fit/problem.hpp"
 
 namespace macadam::fitting {
 
-/// Returns bounds for the unknowns of the model.
-std::vector<Limits> analogue_limits(const Unknowns& unknowns, const std::vector<Target>& targets);
-
-/// Returns the model with the smallest misfit that the best of many starts reach, with k < h. `shift` and `limits` are
-/// as for fit_chain(). 2S2P1D also starts from the Huet–Sayegh model, which it contains; a free shift also starts from
-/// `contained`, fits with shift laws that are converted to these unknowns. The misfit is not above theirs.
-Minimum fit_analogue(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
-                     const std::vector<double>& shift, const std::vector<std::vector<double>>& contained = {});
+/// Fits the problem's model and shift law, and returns the result with the smallest misfit that the best of many starts
+/// reach, with k < h. All smaller models are fitted first: 2S2P1D contains Huet–Sayegh, and contained_shift_laws() are
+/// the smaller shift laws. Each model also starts from those that it contains, so its misfit is not above theirs.
+/// \throws RunError if no start has a finite misfit.
+Minimum fit_analogue(const Problem& problem);
 
 /// Returns the model with the constants θ.
 AnalogueModel analogue_of(const Unknowns& unknowns, const std::vector<double>& theta);

@@ -62,9 +62,9 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
   }
   const std::vector<double> fine = between(lowest_hz, highest_hz, 100);
   std::optional<Chain> fewer;
-  double least = std::numeric_limits<double>::infinity();
-  constexpr int most = laws::GeneralisedKelvin::max_units;
-  for (int units = 0; units <= most; ++units) {
+  double smallest_error = std::numeric_limits<double>::infinity();
+  constexpr int most_units = laws::GeneralisedKelvin::max_units;
+  for (int units = 0; units <= most_units; ++units) {
     Unknowns u;
     u.units = units;
     u.flow = model.E_00 == 0 && std::isfinite(model.beta);
@@ -80,11 +80,11 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
       out.largest_error = std::max(out.largest_error, std::abs(out.law.stiffness(s_of(f)) - exact) / std::abs(exact));
     }
     if (out.largest_error <= largest_error) return out;
-    least = std::min(least, out.largest_error);
+    smallest_error = std::min(smallest_error, out.largest_error);
     fewer = std::move(chain);
   }
   refuse("largest error", fmt::format("{} from {} to {} Hz", largest_error, lowest_hz, highest_hz),
-         fmt::format("at least {:.3g}, which up to {} units reach, or a shorter range", least, most));
+         fmt::format("at least {:.3g}, which up to {} units reach, or a shorter range", smallest_error, most_units));
   return {};
 }
 

@@ -8,8 +8,8 @@
 
 namespace macadam::fitting {
 
-/// Returns bounds for the unknowns of a chain: moduli and times several decades beyond those of the targets.
-/// `shift`: first values of the unknowns of the shift.
+/// Returns bounds for the unknowns of a chain: moduli and times several decades beyond the moduli and times of the
+/// targets. `shift`: first values of the unknowns of the shift.
 std::vector<Limits> chain_limits(const Unknowns& unknowns, const std::vector<Target>& targets,
                                  const std::vector<double>& shift);
 

@@ -85,9 +85,9 @@ std::vector<double> spaced(double low, double high, std::size_t count) {
 /// left.
 std::vector<double> merged(Linear grid, std::size_t count) {
   std::vector<std::pair<double, double>> peaks;  // ln τ, compliance
-  const double most = *std::max_element(grid.unit.begin(), grid.unit.end());
+  const double largest = *std::max_element(grid.unit.begin(), grid.unit.end());
   for (std::size_t l = 0; l < grid.unit.size(); ++l)
-    if (grid.unit[l] > 1e-9 * most) peaks.emplace_back(std::log(grid.tau[l]), grid.unit[l]);
+    if (grid.unit[l] > 1e-9 * largest) peaks.emplace_back(std::log(grid.tau[l]), grid.unit[l]);
   while (peaks.size() > count) {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i + 1 < peaks.size(); ++i)
@@ -109,11 +109,11 @@ std::vector<double> theta_of(const Unknowns& unknowns, const Linear& linear, con
                              const Reduced& at) {
   double sum = linear.spring;
   for (const double unit : linear.unit) sum += unit;
-  const double least = 1e-4 * sum;
-  std::vector<double> theta{-std::log(std::max(linear.spring, least))};
-  if (unknowns.flow) theta.push_back(-std::log(std::max(linear.dashpot, least * at.lowest)));
+  const double smallest = 1e-4 * sum;
+  std::vector<double> theta{-std::log(std::max(linear.spring, smallest))};
+  if (unknowns.flow) theta.push_back(-std::log(std::max(linear.dashpot, smallest * at.lowest)));
   for (std::size_t l = 0; l < linear.tau.size(); ++l) {
-    theta.push_back(-std::log(std::max(linear.unit[l], least)));
+    theta.push_back(-std::log(std::max(linear.unit[l], smallest)));
     theta.push_back(theta.back() + std::log(linear.tau[l]));
   }
   theta.insert(theta.end(), shift.begin(), shift.end());

@@ -27,11 +27,12 @@ class ChainSeries {
         deviations_(deviations),
         shift_(start_shift(problem.unknowns, problem.targets, problem.temperatures)) {}
 
-  /// Fits all chains up to the length at which the criterion has risen twice in a row. `known` has chains of other
-  /// shift laws, converted to these unknowns; a chain also starts from the known chains of the same length.
+  /// Fits all chains up to the length at which the criterion has risen twice in a row. `known` has chains with shift
+  /// laws that this one contains, converted to these unknowns. A chain also starts from the known chains of the same
+  /// length, and the series continues while a longer known chain has a smaller criterion.
   Chains fit(const std::vector<Chains>& known) {
-    const int most = options_.units.value_or(options_.most_units);
-    for (int units = 0; units <= most; ++units)
+    const int longest = options_.units.value_or(options_.most_units);
+    for (int units = 0; units <= longest; ++units)
       for (const bool flow : {false, true}) fit_one(units, flow, known);
     return std::move(chains_);
   }
@@ -52,10 +53,20 @@ class ChainSeries {
     int worse = 0;
   };
 
+  /// Returns whether a known chain of at least this length would have a smaller criterion than `best` with these
+  /// unknowns.
+  bool is_longer_one_better(int units, bool flow, const std::vector<Chains>& known, double best) const {
+    for (const Chains& chains : known) {
+      for (const auto& [of, chain] : chains)
+        if (of.first >= units && of.second == flow && criterion_of(chain) < best) return true;
+    }
+    return false;
+  }
+
   /// Fits one chain, unless its series has ended or the measurements are too few.
   void fit_one(int units, bool flow, const std::vector<Chains>& known) {
     Course& course = courses_[flow];
-    if (!options_.units && course.worse >= 2) return;
+    if (!options_.units && course.worse >= 2 && !is_longer_one_better(units, flow, known, course.best)) return;
     Unknowns u = problem_.unknowns;
     u.units = units;
     u.flow = flow;
@@ -90,21 +101,33 @@ class ChainSeries {
   Chains chains_;
 };
 
-/// Returns the chains of every shift law that a free shift contains, converted to one factor per temperature.
-std::vector<Chains> contained_laws(const Problem& problem, const FitOptions& options, bool deviations) {
-  std::vector<Chains> out;
-  for (const ShiftKind kind : laws_in(problem)) {
+/// Returns the same chains with the shift law of `problem`, which must contain theirs.
+Chains converted(Chains chains, const Problem& problem) {
+  for (auto& [of, chain] : chains) {
+    Minimum& minimum = chain.minimum;
+    minimum.theta = convert_shift(chain.unknowns, minimum.theta, problem.unknowns.shift, problem.temperatures);
+    chain.unknowns.shift = problem.unknowns.shift;
+    minimum.misfit = misfit_at(chain.unknowns, problem.targets, minimum.theta);
+  }
+  return chains;
+}
+
+/// Fits chains with every shift law that the problem's shift contains, each law also from the laws before it. Returns
+/// them converted to the problem's shift.
+std::vector<Chains> fit_contained_laws(const Problem& problem, const FitOptions& options, bool deviations) {
+  std::vector<Chains> fitted;
+  const auto converted_to = [&](const Problem& larger) {
+    std::vector<Chains> out;
+    for (const Chains& chains : fitted) out.push_back(converted(chains, larger));
+    return out;
+  };
+  for (const ShiftKind kind : contained_shift_laws(problem)) {
     Problem law = problem;
     law.unknowns.shift = kind;
-    Chains& chains = out.emplace_back(ChainSeries(law, options, deviations).fit({}));
-    for (auto& [of, chain] : chains) {
-      Minimum& minimum = chain.minimum;
-      minimum.theta = with_free_shift(chain.unknowns, minimum.theta, problem.temperatures);
-      chain.unknowns.shift = ShiftKind::free;
-      minimum.misfit = misfit_at(chain.unknowns, problem.targets, minimum.theta);
-    }
+    Chains chains = ChainSeries(law, options, deviations).fit(converted_to(law));
+    fitted.push_back(std::move(chains));
   }
-  return out;
+  return converted_to(problem);
 }
 
 }  // namespace
@@ -112,7 +135,7 @@ std::vector<Chains> contained_laws(const Problem& problem, const FitOptions& opt
 Chain choose_chain(const Problem& problem, const ModulusData& data, Fit& fit) {
   const FitOptions& options = fit.options;
   ChainSeries series(problem, options, data.deviations);
-  const Chains all = series.fit(contained_laws(problem, options, data.deviations));
+  const Chains all = series.fit(fit_contained_laws(problem, options, data.deviations));
   std::vector<const Chain*> asked;
   for (const bool flow : {true, false}) {
     if (options.flow.value_or(flow) != flow) continue;

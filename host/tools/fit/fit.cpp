@@ -10,7 +10,6 @@
 #include "host/tools/fit/choose_chain.hpp"
 #include "host/tools/fit/criterion.hpp"
 #include "host/tools/fit/reference.hpp"
-#include "host/tools/fit/shift_start.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -25,28 +24,17 @@ Chain fit_any(const Problem& problem, const ModulusData& data, Fit& fit) {
     throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
                      fmt::format("more, for the {} parameters of {}", u.count(), to_string(u.model)));
   }
-  const auto fit_with = [&](const Unknowns& with, const std::vector<std::vector<double>>& contained) {
-    const auto limits = joined(analogue_limits(with, problem.targets), shift_limits(with, problem.temperatures));
-    return fit_analogue(with, problem.targets, limits, start_shift(with, problem.targets, problem.temperatures),
-                        contained);
-  };
-  std::vector<std::vector<double>> contained;
-  for (const ShiftKind kind : laws_in(problem)) {
-    Unknowns law = u;
-    law.shift = kind;
-    contained.push_back(with_free_shift(law, fit_with(law, {}).theta, problem.temperatures));
-  }
-  return {u, fit_with(u, contained)};
+  return {u, fit_analogue(problem)};
 }
 
 /// Returns the shift law with the constants θ.
 laws::Shift shift_of(const Unknowns& u, const std::vector<double>& theta, const std::vector<double>& temperatures) {
-  const double* own = theta.data() + u.of_model();
+  const double* constants = theta.data() + u.of_model();
   switch (u.shift) {
     case ShiftKind::wlf:
-      return laws::Wlf{std::exp(own[0]), std::exp(own[1]), u.reference_temperature};
+      return laws::Wlf{std::exp(constants[0]), std::exp(constants[1]), u.reference_temperature};
     case ShiftKind::arrhenius:
-      return laws::Arrhenius{std::exp(own[0]), u.reference_temperature};
+      return laws::Arrhenius{std::exp(constants[0]), u.reference_temperature};
     case ShiftKind::free: {
       laws::ShiftTable table{temperatures, {}};
       for (std::size_t i = 0; i < temperatures.size(); ++i)
@@ -128,7 +116,7 @@ void add_statistics(const Problem& problem, const Chain& fitted, Fit& fit) {
     fit.warnings.push_back(fmt::format("the data hardly determine {}: standard deviations of 100 % and more", unknown));
   if (!fitted.minimum.determined)
     fit.warnings.emplace_back(
-        "a parameter lies at the bounds of sense: fewer units, or another model, would do as well");
+        "a parameter lies at the limits of plausible values: fewer units, or another model, would fit as well");
 }
 
 /// Adds measured and fitted values of each measurement, and the errors.
@@ -215,7 +203,7 @@ void warn_of_shift(Fit& fit, const std::vector<double>& temperatures) {
 
 Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   using namespace fitting;
-  const Problem problem = make_problem(data, options);
+  Problem problem = make_problem(data, options);
   Fit fit;
   fit.options = options;
   fit.temperatures = data.temperatures;
@@ -223,6 +211,9 @@ Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   fit.deviations = data.deviations;
   Chain fitted = fit_any(problem, data, fit);
   move_reference(problem, data, fitted);
+  // A free shift has one factor per isotherm. The isotherm of the reference temperature is then named by the
+  // temperature that the user gives, which may differ by tenths of a kelvin from the mean of its readings.
+  if (options.shift == ShiftKind::free) problem.temperatures[problem.wanted_isotherm] = problem.wanted_reference;
   sort_units(fitted.unknowns, fitted.minimum.theta);
   if (options.model == FitModel::kelvin) {
     fit.model = chain_of(fitted.unknowns, fitted.minimum.theta);
@@ -239,13 +230,13 @@ Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   if (fit.errors.e_star_rms > 0.1) {
     fit.warnings.push_back(
         fmt::format("the fit misses |E*| by {:.3g} % (rms): too few measurements for more parameters, "
-                    "temperatures in the wrong rows, or no moduli of one linear material",
+                    "temperatures in the wrong rows, or moduli that are not of one linear material",
                     100 * fit.errors.e_star_rms));
   }
   if (fit.deviations && fit.misfit > 2 * fit.degrees_of_freedom + 10) {
     fit.warnings.push_back(
-        fmt::format("the misfit is {:.3g} times what the standard deviations of the data allow: the "
-                    "model or they are wrong, and the bands too narrow",
+        fmt::format("the misfit is {:.3g} times the misfit that the standard deviations of the data allow: "
+                    "the model or the deviations are wrong, and the bands are too narrow",
                     fit.misfit / fit.degrees_of_freedom));
   }
   return fit;

@@ -65,13 +65,13 @@ struct Polar {
 template <class T>
 T log_shift(const Unknowns& u, const T* theta, const Place& place) {
   using std::exp;
-  const T* own = theta + u.of_model();
+  const T* constants = theta + u.of_model();
   const double d = place.temperature - u.reference_temperature;
-  if (u.shift == ShiftKind::wlf) return -exp(own[0]) * (d * std::numbers::ln10) / (exp(own[1]) + d);
+  if (u.shift == ShiftKind::wlf) return -exp(constants[0]) * (d * std::numbers::ln10) / (exp(constants[1]) + d);
   if (u.shift == ShiftKind::arrhenius) {
     const double inverse =
         1 / (laws::zero_celsius + place.temperature) - 1 / (laws::zero_celsius + u.reference_temperature);
-    return exp(own[0]) * (inverse / laws::gas_constant);
+    return exp(constants[0]) * (inverse / laws::gas_constant);
   }
   if (u.shift == ShiftKind::free && place.isotherm != u.reference_isotherm)
     return theta[u.of_isotherm(place.isotherm)] * std::numbers::ln10;

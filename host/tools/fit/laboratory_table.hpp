@@ -18,6 +18,7 @@ class Complaints {
   /// Adds `source:line: what: found F, expected E`. Line 0 means that no line applies.
   void add(int line, const std::string& what, const std::string& found, const std::string& expected);
   bool empty() const { return lines_.empty(); }
+  std::size_t count() const { return lines_.size(); }
   /// \throws InputError with one line per fault, if there are any; at most ten are shown, with the number of the
   /// others.
   void throw_if_any() const;

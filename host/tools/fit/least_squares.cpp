@@ -128,12 +128,12 @@ Covariance covariance_at(const Unknowns& unknowns, const std::vector<Target>& ta
   const Eigen::VectorXd& s = svd.singularValues();
   // A direction with a smaller singular value has no effect in double precision, since θ consists of logarithms of
   // order one.
-  const double least = 1e-10 * (s.size() > 0 ? s[0] : 0);
+  const double smallest = 1e-10 * (s.size() > 0 ? s[0] : 0);
   Covariance out;
   out.undetermined.assign(theta.size(), false);
   Eigen::VectorXd inverse = Eigen::VectorXd::Zero(s.size());
   for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (s[i] > least) {
+    if (s[i] > smallest) {
       inverse[i] = 1 / (s[i] * s[i]);
       continue;
     }

@@ -27,16 +27,16 @@ void check(const ModulusData& data, const FitOptions& options) {
     if (!positive(p.frequency_hz) || !positive(p.e_star_pa) || !std::isfinite(p.phase_deg) ||
         (data.temperatures && !(p.temperature_c > -laws::zero_celsius && std::isfinite(p.temperature_c))) ||
         (data.deviations && !(positive(p.e_star_std) && positive(p.phase_std)))) {
-      refuse(fmt::format("measurement {}", i + 1), "a number without sense",
+      refuse(fmt::format("measurement {}", i + 1), "an invalid number",
              "finite ones; frequency, |E*| and standard deviations positive");
     }
   }
-  constexpr int most = laws::GeneralisedKelvin::max_units;
-  if (options.units && (*options.units < 0 || *options.units > most)) {
-    refuse("units", fmt::format("{}", *options.units), fmt::format("0 to {}", most));
+  constexpr int most_possible = laws::GeneralisedKelvin::max_units;
+  if (options.units && (*options.units < 0 || *options.units > most_possible)) {
+    refuse("units", fmt::format("{}", *options.units), fmt::format("0 to {}", most_possible));
   }
-  if (options.most_units < 0 || options.most_units > most) {
-    refuse("most units", fmt::format("{}", options.most_units), fmt::format("0 to {}", most));
+  if (options.most_units < 0 || options.most_units > most_possible) {
+    refuse("most units", fmt::format("{}", options.most_units), fmt::format("0 to {}", most_possible));
   }
   if (!(options.e_star_deviation > 0 && options.phase_deviation > 0)) {
     refuse("standard deviations", fmt::format("{} and {}", options.e_star_deviation, options.phase_deviation),
@@ -53,10 +53,11 @@ void check_shift(const ModulusData& data, const FitOptions& options, const std::
   if (options.shift == ShiftKind::none && count > 1) {
     refuse("temperatures", fmt::format("{} of them", count), "one, or a shift law: wlf, arrhenius or free");
   }
-  const std::size_t least = options.shift == ShiftKind::none ? 0 : options.shift == ShiftKind::wlf ? 3 : 2;
-  if (count < least) {
+  const std::size_t needed = options.shift == ShiftKind::none ? 0 : options.shift == ShiftKind::wlf ? 3 : 2;
+  if (count < needed) {
     refuse(fmt::format("temperatures for the shift law {}", to_string(options.shift)),
-           data.temperatures ? fmt::format("{}", count) : "no column temperature_c", fmt::format("at least {}", least));
+           data.temperatures ? fmt::format("{}", count) : "no column temperature_c",
+           fmt::format("at least {}", needed));
   }
   if (options.shift == ShiftKind::free) {
     for (std::size_t i = 1; i < count; ++i) {
@@ -90,9 +91,10 @@ void check_shift(const ModulusData& data, const FitOptions& options, const std::
 
 }  // namespace
 
-std::vector<ShiftKind> laws_in(const Problem& problem) {
-  if (problem.unknowns.shift != ShiftKind::free) return {};
-  if (problem.temperatures.size() < 3) return {ShiftKind::arrhenius};
+std::vector<ShiftKind> contained_shift_laws(const Problem& problem) {
+  const ShiftKind shift = problem.unknowns.shift;
+  if (shift != ShiftKind::wlf && shift != ShiftKind::free) return {};
+  if (shift == ShiftKind::wlf || problem.temperatures.size() < 3) return {ShiftKind::arrhenius};
   return {ShiftKind::arrhenius, ShiftKind::wlf};
 }
 
@@ -112,9 +114,6 @@ Problem make_problem(const ModulusData& data, const FitOptions& options) {
   u.reference_temperature = out.temperatures[u.reference_isotherm];
   out.wanted_reference = options.reference_temperature.value_or(u.reference_temperature);
   out.wanted_isotherm = isotherm_at(isotherms, out.wanted_reference);
-  // with a free shift only the isotherms have factors, so the reference temperature becomes the temperature of an
-  // isotherm
-  if (u.shift == ShiftKind::free) out.wanted_reference = out.temperatures[out.wanted_isotherm];
   for (const ModulusPoint& p : data.points) {
     Target t;
     t.place = {2 * std::numbers::pi * p.frequency_hz, data.temperatures ? p.temperature_c : 0, 0};

@@ -38,16 +38,20 @@ class DataReader {
   ModulusData read() {
     for (std::size_t i = 0; i < table_.names.size(); ++i) understand(i);
     choose();
-    complaints_.throw_if_any();
-    if (table_.rows.empty()) complaints_.add(0, "measurements", "a header alone", "lines of numbers");
+    const bool is_header_sound = complaints_.empty();
+    if (is_header_sound && table_.rows.empty())
+      complaints_.add(0, "measurements", "a header alone", "lines of numbers");
     if (table_.rows.size() > most_points) {
       complaints_.add(0, "measurements", fmt::format("{}", table_.rows.size()), fmt::format("at most {}", most_points));
       complaints_.throw_if_any();
     }
-    for (const LaboratoryTable::Row& row : table_.rows) add_point(row);
-    complaints_.throw_if_any();
-    ask_about_units(data_, modulus_unit(),
-                    has(Quantity::temperature) ? used_.at(Quantity::temperature).column.name : "", complaints_);
+    ModulusData sound = data_;  // the measurements without complaints
+    for (const LaboratoryTable::Row& row : table_.rows) {
+      const std::size_t before = complaints_.count();
+      add_point(row);
+      if (complaints_.count() == before) sound.points.push_back(data_.points.back());
+    }
+    if (is_header_sound) ask_about_units(sound, columns_read(), complaints_);
     complaints_.throw_if_any();
     return std::move(data_);
   }
@@ -133,7 +137,8 @@ class DataReader {
       complaints_.add(table_.header_line, "column g_star_pa", "no Poisson's ratio",
                       "one (--poisson): |E*| = 2 (1 + ratio) |G*|");
     if (!shear && poisson_) {
-      complaints_.add(table_.header_line, "column e_star_pa", "a Poisson's ratio", "none: |E*| is what is fitted");
+      complaints_.add(table_.header_line, "column e_star_pa", "a Poisson's ratio",
+                      "none: the columns have |E*| already");
     } else if (poisson_ && !(*poisson_ > -1 && *poisson_ <= 0.5)) {
       complaints_.add(table_.header_line, "Poisson's ratio", fmt::format("{}", *poisson_),
                       "a number above -1, at most 0.5");
@@ -160,17 +165,28 @@ class DataReader {
     const auto take_unit = [&](Quantity of, Quantity from) {
       if (!has(of) || !has(from)) return;
       LaboratoryColumn& column = used_.at(of).column;
-      column.unit = used_.at(from).column.unit, column.factor = used_.at(from).column.factor;
+      const LaboratoryColumn& source = used_.at(from).column;
+      column.unit = source.unit, column.factor = source.factor;
+      if (!table_.units) return;
+      const std::string& cell = table_.units->cells[used_.at(of).at];
+      const std::string unit = unit_suffix(cell);
+      if (unit.empty() || unit == "-" || source.name.ends_with("_" + unit)) return;
+      complaints_.add(table_.units->line, "unit of " + column.name, in_quotes(cell),
+                      source.unit + ", the unit of " + source.name);
     };
     take_unit(deviation_, parts_ ? real_ : star_);
     take_unit(phase_std, phase);
     if (has(phase_std) && used_.at(phase_std).column.unit.empty()) used_.at(phase_std).column.unit = "degrees";
   }
 
-  /// Returns the name of the column that gives the modulus; empty if there is none.
-  std::string modulus_unit() const {
-    if (!data_.moduli) return "";
-    return used_.at(parts_ ? real_ : star_).column.name;
+  /// Returns the factor by which a modulus of the table becomes |E*|.
+  double modulus_factor() const { return star_ == Quantity::g_star && poisson_ ? 2 * (1 + *poisson_) : 1; }
+
+  /// Returns the names of the columns that give modulus, phase and temperature.
+  ColumnsRead columns_read() const {
+    const auto name_of = [&](Quantity quantity) { return has(quantity) ? used_.at(quantity).column.name : ""; };
+    return {name_of(parts_ ? real_ : star_), parts_ ? "" : name_of(Quantity::phase), name_of(Quantity::temperature),
+            modulus_factor()};
   }
 
   /// Returns the value of a quantity in a row [SI]; 0 if there is no such column. Impossible values become complaints.
@@ -187,8 +203,7 @@ class DataReader {
 
   void add_point(const LaboratoryTable::Row& row) {
     using enum Quantity;
-    const bool shear = star_ == g_star;
-    const double factor = shear && poisson_ ? 2 * (1 + *poisson_) : 1;
+    const double factor = modulus_factor();
     ModulusPoint p;
     p.frequency_hz = value(row, frequency);
     if (parts_) {

@@ -29,25 +29,25 @@ void move_reference(const Problem& problem, const ModulusData& data, Chain& fitt
   const double wanted = problem.wanted_reference, change = wanted - u.reference_temperature;
   if (u.shift == ShiftKind::none || change == 0) return;
   std::vector<double>& theta = fitted.minimum.theta;
-  double* const own = theta.data() + u.of_model();
-  if (u.shift == ShiftKind::wlf && !(std::exp(own[1]) + change > 0)) {
+  double* const constants = theta.data() + u.of_model();
+  if (u.shift == ShiftKind::wlf && !(std::exp(constants[1]) + change > 0)) {
     throw InputError(data.source, 0, "reference temperature", fmt::format("{}", wanted),
                      fmt::format("one above {:.4g} degrees C, where a_T of the fitted law becomes infinite",
-                                 u.reference_temperature - std::exp(own[1])));
+                                 u.reference_temperature - std::exp(constants[1])));
   }
   const double log_a = log_shift(u, theta.data(), {1, wanted, problem.wanted_isotherm});
   scale_times(u, log_a, theta.data());
   if (u.shift == ShiftKind::wlf) {  // C1'·C2' = C1·C2, C2' = C2 + change
-    const double moved = std::log(std::exp(own[1]) + change);
-    own[0] += own[1] - moved;
-    own[1] = moved;
+    const double moved = std::log(std::exp(constants[1]) + change);
+    constants[0] += constants[1] - moved;
+    constants[1] = moved;
   }
   if (u.shift == ShiftKind::free) {
-    std::vector<double> factors(own, own + u.of_shift());
+    std::vector<double> factors(constants, constants + u.of_shift());
     factors.insert(factors.begin() + static_cast<std::ptrdiff_t>(u.reference_isotherm), 0.0);
     const double at_wanted = factors[problem.wanted_isotherm];
     factors.erase(factors.begin() + static_cast<std::ptrdiff_t>(problem.wanted_isotherm));
-    for (std::size_t i = 0; i < factors.size(); ++i) own[i] = factors[i] - at_wanted;
+    for (std::size_t i = 0; i < factors.size(); ++i) constants[i] = factors[i] - at_wanted;
   }
   u.reference_temperature = wanted;
   u.reference_isotherm = problem.wanted_isotherm;

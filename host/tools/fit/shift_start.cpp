@@ -38,17 +38,17 @@ double distance(const Curve& cold, const Curve& hot, double otherwise) {
 }
 
 /// Returns log10 a_T of every temperature that lays the curves on each other, 0 at the first temperature.
-std::vector<double> laid(const std::vector<Target>& targets, const std::vector<double>& temperatures) {
+std::vector<double> master_curve_shift(const std::vector<Target>& targets, const std::vector<double>& temperatures) {
   std::vector<Curve> curves(temperatures.size());
   for (const Target& t : targets) curves[t.place.isotherm].emplace_back(std::log10(t.place.omega), t.log_modulus);
   for (Curve& curve : curves) std::sort(curve.begin(), curve.end());
   std::vector<double> out{0};
   // Decades per kelvin: as usual for binders at room temperature, and more than any polymer has. Flat curves far apart
   // would otherwise be laid thousands of decades apart. All steps together stay within the range of a double.
-  constexpr double usual = 0.1, most = 1, range = 150;
+  constexpr double usual = 0.1, largest_rate = 1, range = 150;
   for (std::size_t i = 1; i < curves.size(); ++i) {
     const double kelvins = temperatures[i] - temperatures[i - 1];
-    const double largest = std::min(most * kelvins, range / static_cast<double>(curves.size() - 1));
+    const double largest = std::min(largest_rate * kelvins, range / static_cast<double>(curves.size() - 1));
     out.push_back(out.back() + std::clamp(distance(curves[i - 1], curves[i], -usual * kelvins), -largest, 0.0));
   }
   return out;
@@ -59,7 +59,7 @@ std::vector<double> laid(const std::vector<Target>& targets, const std::vector<d
 std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& targets,
                                 const std::vector<double>& temperatures) {
   if (u.shift == ShiftKind::none) return {};
-  std::vector<double> log_a = laid(targets, temperatures);
+  std::vector<double> log_a = master_curve_shift(targets, temperatures);
   // log_a is made 0 at the reference temperature; if that was not measured, by linear interpolation
   const auto above = std::clamp<std::ptrdiff_t>(
       std::lower_bound(temperatures.begin(), temperatures.end(), u.reference_temperature) - temperatures.begin(), 1,
@@ -106,9 +106,17 @@ std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& ta
   return {std::log(c[0]), std::log(c[1])};
 }
 
-std::vector<double> with_free_shift(const Unknowns& u, const std::vector<double>& theta,
-                                    const std::vector<double>& temperatures) {
+std::vector<double> convert_shift(const Unknowns& u, const std::vector<double>& theta, ShiftKind larger,
+                                  const std::vector<double>& temperatures) {
   std::vector<double> out(theta.begin(), theta.begin() + static_cast<std::ptrdiff_t>(u.of_model()));
+  if (larger == ShiftKind::wlf) {
+    // With temperatures in kelvins, 1/T − 1/T_r = −(T − T_r)/(T_r·T). So Arrhenius is WLF with C2 = T_r and
+    // C1 = E_a/(R·T_r·ln 10).
+    const double reference = laws::zero_celsius + u.reference_temperature;
+    out.push_back(theta[u.of_model()] - std::log(laws::gas_constant * reference * std::numbers::ln10));
+    out.push_back(std::log(reference));
+    return out;
+  }
   for (std::size_t i = 0; i < temperatures.size(); ++i) {
     if (i != u.reference_isotherm)
       out.push_back(log_shift(u, theta.data(), {1, temperatures[i], i}) / std::numbers::ln10);
@@ -120,8 +128,8 @@ std::vector<Limits> shift_limits(const Unknowns& u, const std::vector<double>& t
   switch (u.shift) {
     case ShiftKind::wlf: {
       // C2 + T − T_r must be positive at every temperature
-      const double least = std::max(u.reference_temperature - temperatures.front() + 0.5, 0.5);
-      return {{std::log(1e-3), std::log(1e4)}, {std::log(least), std::log(1e5)}};
+      const double smallest_c2 = std::max(u.reference_temperature - temperatures.front() + 0.5, 0.5);
+      return {{std::log(1e-3), std::log(1e4)}, {std::log(smallest_c2), std::log(1e5)}};
     }
     case ShiftKind::arrhenius:
       return {{std::log(1e2), std::log(1e8)}};

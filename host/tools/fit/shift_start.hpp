@@ -14,10 +14,10 @@ namespace macadam::fitting {
 std::vector<double> start_shift(const Unknowns& unknowns, const std::vector<Target>& targets,
                                 const std::vector<double>& temperatures);
 
-/// Converts θ with a shift law (as in `unknowns`) to θ with one factor per temperature and the same reference
-/// temperature.
-std::vector<double> with_free_shift(const Unknowns& unknowns, const std::vector<double>& theta,
-                                    const std::vector<double>& temperatures);
+/// Converts θ, whose shift law is that of `unknowns`, to θ of the same curve and reference temperature with the shift
+/// law `larger`, which must contain the former: Arrhenius to WLF, or any law to a free shift.
+std::vector<double> convert_shift(const Unknowns& unknowns, const std::vector<double>& theta, ShiftKind larger,
+                                  const std::vector<double>& temperatures);
 
 /// Returns the bounds of the unknowns of the shift.
 std::vector<Limits> shift_limits(const Unknowns& unknowns, const std::vector<double>& temperatures);

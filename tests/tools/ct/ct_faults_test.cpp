@@ -268,7 +268,7 @@ TEST(CtFaults, OneGrainThatIsMostOfTheSpecimenIsDoubted) {
   Image<float> scan = scan_of({46, 46, 46}, {block({-9, -9, 8}, {60, 60, 60})}, {ball(20, 20, 24, 6)});
   add_noise(scan, 0.1);
   const Outcome o = outcome(scan);
-  EXPECT_TRUE(o.says("of the specimen: what was taken for aggregate")) << o.error << o.warnings;
+  EXPECT_TRUE(o.says("of the specimen: the phase called aggregate")) << o.error << o.warnings;
   EXPECT_LE(o.confidence, 0.5);
 }
 

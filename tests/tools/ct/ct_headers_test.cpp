@@ -230,15 +230,15 @@ std::string tiff(const std::vector<Page>& pages, std::uint32_t last = 0) {
 /// TIFF directories that ITK misreads, each refused with its tag.
 TEST_F(CtHeaders, OfATiff) {
   const auto refused_page = [&](const Page& page, const std::string& words) { refused("a.tif", tiff({page}), words); };
-  refused_page({{277, Entry{3, 1, 3}}}, "tag 277 of the TIFF file: found 3 values a voxel, expected one grey");
+  refused_page({{277, Entry{3, 1, 3}}}, "tag 277 of the TIFF file: found 3 values per voxel, expected one grey");
   refused_page({{258, Entry{3, 3, 8}}, {277, Entry{3, 1, 3}}},
-               "tag 258 of the TIFF file: found bits of 3 values a voxel");
+               "tag 258 of the TIFF file: found bits of 3 values per voxel");
   refused_page({{258, {}}}, "tag 258 of the TIFF file: found no bits of a voxel, expected 8 or 16");
   for (const auto& [bits, format] :
        {std::pair{1u, 1u}, {12u, 1u}, {32u, 1u}, {32u, 2u}, {64u, 1u}, {64u, 3u}, {16u, 3u}})
     refused_page({{258, Entry{3, 1, bits}}, {339, Entry{3, 1, format}}},
-                 "found " + std::to_string(bits) + " bits a voxel, of format " + std::to_string(format));
-  refused_page({{339, {}}, {258, Entry{3, 1, 32}}}, "found 32 bits a voxel, of format 1");
+                 "found " + std::to_string(bits) + " bits per voxel, of format " + std::to_string(format));
+  refused_page({{339, {}}, {258, Entry{3, 1, 32}}}, "found 32 bits per voxel, of format 1");
   refused_page({{257, Entry{5, 1, 8}}},
                "tag 257 of the TIFF file: found 1 values of type 5, expected one whole number");
   refused_page({{336, Entry{3, 2, 5}}}, "tag 336 of the TIFF file: found a range of dots");

@@ -138,9 +138,14 @@ TEST_F(CtImage, AStrayImageBesideTheSlicesIsRefused) {
         << fault<std::uint16_t>(folder_);
     fs::remove(folder_ / stray);
   }
-  write_image(folder_ / "slice_7_preview.tif", slice);
-  EXPECT_NE(fault<std::uint16_t>(folder_).find("slice_7_preview.tif"), std::string::npos);
-  fs::remove(folder_ / "slice_7_preview.tif");
+  // names that differ only after the number, also with the next number of the sequence
+  for (const std::string stray : {"slice_7_preview.tif", "slice_12_preview.tif", "slice_12b.tif"}) {
+    write_image(folder_ / stray, slice);
+    EXPECT_NE(fault<std::uint16_t>(folder_).find("slices: found " + stray + " beside 12 files such as slice_"),
+              std::string::npos)
+        << fault<std::uint16_t>(folder_);
+    fs::remove(folder_ / stray);
+  }
   write_image(folder_ / "slice_12.tif", slice);
   EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 13);
 }

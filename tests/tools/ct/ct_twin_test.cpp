@@ -175,6 +175,25 @@ TEST(VoidSpheres, ARoundVoidIsOneSphere) {
   EXPECT_NEAR(found.left_out, 1e-12, 1e-24);
 }
 
+/// Two cubes of 11 and 7 voxels, joined by a thin neck: the inscribed spheres touch the faces, so their radii are 5.5
+/// and 3.5 voxels, multiplied by one factor to match the volume.
+TEST(VoidSpheres, InscribedSpheresReachTheFacesOfTheVoid) {
+  Image<std::uint8_t> image = mastic_image();
+  const auto carve = [&](std::array<std::int64_t, 3> low, std::array<std::int64_t, 3> size) {
+    for (std::int64_t k = 0; k < size[2]; ++k)
+      for (std::int64_t j = 0; j < size[1]; ++j)
+        for (std::int64_t i = 0; i < size[0]; ++i) image.at(low[0] + i, low[1] + j, low[2] + k) = 0;
+  };
+  carve({4, 9, 9}, {11, 11, 11});
+  carve({15, 14, 14}, {3, 1, 1});
+  carve({18, 11, 11}, {7, 7, 7});
+  const ct::VoidSpheres result = ct::void_spheres(image, 2e-4);
+  ASSERT_EQ(result.spheres.size(), 2U);
+  // depths are stored in single precision
+  EXPECT_NEAR(result.spheres[0].radius / result.spheres[1].radius, 5.5 / 3.5, 1e-6);
+  EXPECT_LT(norm(result.spheres[1].centre - image.centre(21, 14, 14)), 1e-9);
+}
+
 TEST(VoidSpheres, ALongVoidIsARowOfThem) {
   Image<std::uint8_t> image = mastic_image();
   for (std::int64_t k = 12; k < 18; ++k)

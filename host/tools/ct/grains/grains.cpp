@@ -219,7 +219,7 @@ Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts) {
   const auto name = [](std::uint32_t a, std::uint32_t b) { return fmt::format("fragments {} and {}", a, b); };
   if (cuts.size() != fragments.faces.size()) {
     throw InputError("cuts", 0, "rows", std::to_string(cuts.size()),
-                     fmt::format("{}, as many as this scan has with these options", fragments.faces.size()));
+                     fmt::format("{}, the number of cuts of this scan with these options", fragments.faces.size()));
   }
   Groups groups(fragments.radius.size());
   for (std::size_t f = 0; f < cuts.size(); ++f) {

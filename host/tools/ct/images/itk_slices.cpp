@@ -141,8 +141,8 @@ ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
   if (io.GetNumberOfComponents() != 1 || io.GetNumberOfDimensions() < 2 || io.GetNumberOfDimensions() > 3) {
     throw InputError(
         file, 0, "image",
-        fmt::format("{} values a voxel in {} dimensions", io.GetNumberOfComponents(), io.GetNumberOfDimensions()),
-        "one grey value a voxel, in two or three dimensions");
+        fmt::format("{} values per voxel in {} dimensions", io.GetNumberOfComponents(), io.GetNumberOfDimensions()),
+        "one grey value per voxel, in two or three dimensions");
   }
   ImageHeader header;
   bool known = false;  // formats without a spacing report 1 on all axes

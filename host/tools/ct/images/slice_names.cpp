@@ -38,7 +38,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 /// The parts of a file's name, without its ending.
 struct Name {
-  std::string prefix;                 ///< text before the last number, with # in place of each number in it
+  std::string pattern;                ///< the name with # in place of each number
   std::vector<std::int64_t> numbers;  ///< all numbers; empty also if one is too large
 };
 
@@ -47,35 +47,34 @@ Name name_of(const std::filesystem::path& file) {
   constexpr const char* digits = "0123456789";
   const std::string text = file.stem().string();
   Name name;
-  std::string before;
   for (std::size_t at = 0;;) {
     const std::size_t first = std::min(text.find_first_of(digits, at), text.size());
-    before += text.substr(at, first - at);
+    name.pattern += text.substr(at, first - at);
     if (first == text.size()) return name;
     at = std::min(text.find_first_not_of(digits, first), text.size());
     if (at - first > 18) return {};
-    name.prefix = before;
-    before += '#';
+    name.pattern += '#';
     name.numbers.push_back(std::stoll(text.substr(first, at - first)));
   }
 }
 
-/// Checks that all names have the same text before their number. \throws InputError if some files have no number or
-/// another text before it than most files: they are not slices of this stack.
+/// Checks that the names differ only in their numbers. \throws InputError if some files have no number or another text
+/// before or after it than most files: they are not slices of this stack.
 void check_sequence(const std::vector<std::filesystem::path>& slices, const std::vector<Name>& names) {
-  const auto key_of = [](const Name& name) { return name.numbers.empty() ? "no number" : name.prefix; };
+  const auto key_of = [](const Name& name) { return name.numbers.empty() ? "no number" : name.pattern; };
   std::map<std::string, std::size_t> count;
   for (const Name& name : names) ++count[key_of(name)];
   if (count.size() < 2) return;
-  const auto most = std::ranges::max_element(count, {}, [](const auto& one) { return one.second; });
-  const auto find = [&](bool of_most) {
-    const auto at = std::ranges::find_if(names, [&](const Name& n) { return (key_of(n) == most->first) == of_most; });
+  const auto commonest = std::ranges::max_element(count, {}, [](const auto& one) { return one.second; });
+  const auto example = [&](bool of_commonest) {
+    const auto at =
+        std::ranges::find_if(names, [&](const Name& n) { return (key_of(n) == commonest->first) == of_commonest; });
     return slices[static_cast<std::size_t>(at - names.begin())].filename().string();
   };
-  const std::size_t others = slices.size() - most->second;
+  const std::size_t others = slices.size() - commonest->second;
   throw InputError(slices.front().parent_path().string(), 0, "slices",
-                   find(false) + (others > 1 ? " and " + std::to_string(others - 1) + " more" : "") + " beside " +
-                       std::to_string(most->second) + " files such as " + find(true),
+                   example(false) + (others > 1 ? " and " + std::to_string(others - 1) + " more" : "") + " beside " +
+                       std::to_string(commonest->second) + " files such as " + example(true),
                    "the slices of one stack, numbered in one sequence; move other images to another folder");
 }
 

@@ -106,7 +106,7 @@ struct Directory {
     if (tag == 336) refuse(tag, "a range of dots", "none, as in a scan");
     if (std::ranges::count(of_page, tag) > 0) {
       if (tag == tags::bits && values > 1)
-        refuse(tag, fmt::format("bits of {} values a voxel", values), std::string("of one grey value") + to_grey);
+        refuse(tag, fmt::format("bits of {} values per voxel", values), std::string("of one grey value") + to_grey);
       if (values != 1 || !is_whole(type))
         refuse(tag, fmt::format("{} values of type {}", values, type), "one whole number, of type 1, 3 or 4");
       if (!page.numbers.emplace(tag, numbers.at(inside, static_cast<int>(bytes))).second)
@@ -135,7 +135,7 @@ struct Directory {
     const std::uint64_t n = page.at(tags::bits), as = page.at(tags::format, whole);
     const bool is_known = as == floating ? n == 32 : (as == whole || as == 2 || as == 4) && (n == 8 || n == 16);
     if (!is_known)
-      refuse(tags::bits, fmt::format("{} bits a voxel, of format {} (tag {})", n, as, tags::format), known);
+      refuse(tags::bits, fmt::format("{} bits per voxel, of format {} (tag {})", n, as, tags::format), known);
     if (as == floating && page.at(tags::meaning, 1) == white_is_zero)
       refuse(tags::meaning, "PhotometricInterpretation 0 (white is 0) of floats",
              "1: of floats nothing tells which value is black, so they cannot be inverted");

@@ -36,7 +36,8 @@ void check(const PhantomSpec& spec, const Box& box) {
   refuse(!(spec.air >= 0 && std::isfinite(spec.air)), "air", spec.air, "a length of 0 or more");
   const double edge = std::min({box.size.x, box.size.y, box.size.z});
   refuse(!(spec.sawn >= 0 && 2 * spec.sawn < edge), "sawn", spec.sawn, "0 to below half of the shortest edge");
-  refuse(!(spec.voxel <= edge - 2 * spec.sawn), "voxel", spec.voxel, "at most the shortest edge of what is scanned");
+  refuse(!(spec.voxel <= edge - 2 * spec.sawn), "voxel", spec.voxel,
+         "at most the shortest edge of the scanned specimen");
   refuse(spec.samples < 1 || spec.samples > 16, "samples", spec.samples, "1 to 16");
   refuse(!(spec.grey_air >= 0 && spec.grey_mastic > spec.grey_air && spec.grey_aggregate >= spec.grey_mastic &&
            spec.grey_aggregate <= 65535),

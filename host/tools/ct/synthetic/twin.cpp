@@ -216,7 +216,8 @@ Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
   };
   SpecimenSpec how = scene.specimen;
   if (!how.mastic)
-    throw InputError(how.source, how.line, "[specimen.mastic]", "none", "one: its radius is that of the twin's mastic");
+    throw InputError(how.source, how.line, "[specimen.mastic]", "none",
+                     "one, which gives the radius of the twin's mastic particles");
   if (spec.porosity) how.mastic->porosity = spec.porosity, how.mastic->count.reset();
   if (!how.mastic->porosity)
     throw InputError(how.source, how.mastic->line, "mastic", "a count", "a porosity, here or with --porosity");

@@ -85,9 +85,7 @@ VoidSpheres void_spheres(const Image<std::uint8_t>& phases, double least) {
   auto mask = Image<std::uint8_t>::like(phases);
   for (std::size_t v = 0; v < phases.count(); ++v)
     mask.voxels[v] = phases.voxels[v] == static_cast<std::uint8_t>(VoxelPhase::air_void);
-  Image<float> depth = distance_inside(mask);
-  // adds half a voxel, beyond the half voxel that distance_inside() adds
-  for (float& d : depth.voxels) d += static_cast<float>(0.5 * std::cbrt(phases.voxel_volume()));
+  const Image<float> depth = distance_inside(mask);
   std::vector<std::uint8_t> met(phases.count());
   for (std::int64_t k = 0; k < phases.size[2]; ++k) {
     for (std::int64_t j = 0; j < phases.size[1]; ++j) {

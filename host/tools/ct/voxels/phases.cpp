@@ -25,7 +25,8 @@ double within(double wanted, double low, double high, const char* what, std::vec
   const double from = low + 0.25 * (high - low), to = low + 0.75 * (high - low);
   if (wanted >= from && wanted <= to) return wanted;
   warnings.push_back(fmt::format(
-      "the share of {} given for the specimen is not that of its grey values; it was approached only", what));
+      "the given volume fraction of {} does not agree with the grey values; the thresholds come only near to it",
+      what));
   return std::clamp(wanted, from, to);
 }
 

@@ -115,8 +115,8 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
   if (around && std::abs(*around - levels.mastic) < 0.25 * levels.contrast()) {
     throw InputError(
         "the scan", 0, "grey levels",
-        fmt::format("two, {:.5g} and {:.5g}, and the lower one is that of the air around the specimen", levels.mastic,
-                    levels.aggregate),
+        fmt::format("two, {:.5g} and {:.5g}, and the lower one is the level of the air around the specimen",
+                    levels.mastic, levels.aggregate),
         "air, mastic and aggregate: a phase is missing, or has the grey value of another (where grains lie in air "
         "alone, give --air-voids 0: the air is then taken for mastic)");
   }
@@ -165,12 +165,12 @@ double trust_in_grains(const Image<std::uint32_t>& labels, const Image<std::uint
     if (labels.voxels[i] >= voxels.size()) voxels.resize(labels.voxels[i] + 1);
     ++voxels[labels.voxels[i]];
   }
-  voxels[0] = 0;  // label 0 is no grain
-  const double share = *std::max_element(voxels.begin(), voxels.end()) / specimen;
-  if (share < 0.5) return 1;
+  voxels[0] = 0;  // label 0 is not a grain
+  const double fraction = *std::max_element(voxels.begin(), voxels.end()) / specimen;
+  if (fraction < 0.5) return 1;
   warnings.push_back(fmt::format(
-      "one grain is {:.0f} % of the specimen: what was taken for aggregate is another phase, or several at once",
-      100 * share));
+      "one grain is {:.0f} % of the specimen: the phase called aggregate is another phase, or several phases",
+      100 * fraction));
   return doubtful;
 }
 
