@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sections after the tables of docs/paper-specimens.md: why our values differ, the effect of the fillings, and the
 run times."""
-from pages.data import mean, memory, minus
+from paper_data import mean, memory, minus
 from paper_document import deviations, table, wrapped
 from paper_reasons import REASONS, Facts, several
 from paper_tables import CLASSES, CLUSTERS, FREQUENCIES, PAPER

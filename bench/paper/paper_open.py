@@ -3,7 +3,7 @@
 bench/results/paper-study.csv."""
 import math
 
-from pages.data import RESULTS, listed, mean, minus
+from paper_data import RESULTS, listed, mean, minus
 from paper_document import table, wrapped
 from paper_runs import rows
 from paper_study import (CONTACT_SCALE, DEVIATION_SCALE, NARROW, OURS, QUANTITIES, SHORT, Choice, merits,

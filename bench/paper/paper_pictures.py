@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
-from pages.data import mean  # noqa: E402
+from paper_data import mean  # noqa: E402
 from paper_document import deviations  # noqa: E402
 from paper_runs import ROOT, committed, rows  # noqa: E402
 from paper_tables import DEVIATION, FREQUENCIES, PAPER  # noqa: E402

@@ -10,10 +10,8 @@ import subprocess
 import time
 from pathlib import Path
 
-from pages.data import RESULTS, mean
+from paper_data import RESULTS, ROOT, mean
 from paper_tables import BOX, FREQUENCIES, PAIRS
-
-ROOT = Path(__file__).resolve().parent.parent
 
 
 def program(given):

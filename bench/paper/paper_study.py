@@ -6,7 +6,7 @@ import re
 from collections import namedtuple
 from dataclasses import asdict, dataclass, replace
 
-from pages.data import mean
+from paper_data import mean
 from paper_tables import CLUSTERS, DEVIATION, PAIRS, PAPER
 
 SHORT = [2, 20]  # Hz: the mean deviation at these two frequencies is within 0.3 points of that at all four
