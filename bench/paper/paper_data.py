@@ -31,7 +31,7 @@ def converted(value):
 
 
 def where(table, **wanted):
-    """Returns the rows with these values. Raises LookupError if there are none."""
+    """Returns the rows with these values. Raises LookupError if no row has them."""
     found = [r for r in table if all(r[key] == want for key, want in wanted.items())]
     if not found:
         raise LookupError(f"no row with {wanted}")

@@ -61,10 +61,10 @@ def choices():
         f"""*narrow radii*: coarse spheres of {1e3 * NARROW[0]:.2f}–{1e3 * NARROW[1]:.2f} mm, which have the mean volume
             of the paper's (ᶜ).""",
         "*spacing*: least thickness of mastic between two aggregates where they are placed; of SS too.",
-        "*area_min*: facets below so many mean ones are no contacts, in SS neither.",
+        "*area_min*: facets below this multiple of the mean facet are not contacts. It applies to SS too.",
         """*library aggregates and icosahedron*: the icosahedron as the 83rd shape of Poly, as the paper has it;
             *composition of Ico*: Table 3's shares of Ico, given to Poly.""",
-        "*inner moduli × 0.5*: no choice that the paper leaves open, but a probe of what is missing."]
+        "*inner moduli × 0.5*: not a choice that the paper leaves open. It probes the size of the remaining difference."]
     return [line for entry in entries for line in wrapped(entry, "- ")]
 
 

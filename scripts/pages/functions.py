@@ -104,7 +104,7 @@ class Aggregate:
 
 
 class One(Aggregate):
-    """one(x): the value of the only row. Refused if there is none, or more than one."""
+    """one(x): the value of the only row. Refused without a row, and with several."""
 
     def finalize(self):
         if len(self.found) != 1:

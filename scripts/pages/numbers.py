@@ -60,7 +60,7 @@ def shown(value):
 
 
 def line(cells):
-    """Returns a row of a Markdown table."""
+    """Returns one row of a Markdown table."""
     return "| " + " | ".join(str(cell) for cell in cells) + " |"
 
 

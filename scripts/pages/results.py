@@ -57,7 +57,7 @@ class Results:
         return call
 
     def load(self, name):
-        """Reads a file into a table of its name."""
+        """Reads a file into the table of its name."""
         lines = [line for line in path(name).read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
         if name.endswith(".csv"):
             heads, *rows = csv.reader(line for line in lines if line)

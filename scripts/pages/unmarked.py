@@ -55,7 +55,7 @@ def cells(line):
 
 
 def tables(name, lines):
-    """Returns messages for tables with numbers outside marks. A table after a comment `by hand: REASON` is ignored."""
+    """Returns messages for tables with numbers outside marks. A table after a comment with a reason (marks.BY_HAND) is ignored."""
     wrong = []
     for k in range(1, len(lines)):
         if not DELIMITER.match(lines[k]) or "|" not in lines[k - 1] + lines[k]:
