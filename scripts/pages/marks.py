@@ -10,18 +10,19 @@ the table
 
 <!-- end -->
 
-`turned` in place of `table` makes columns of the rows, and `lines` makes preformatted text of one column."""
+`turned` in place of `table` makes columns of the rows, `lines` makes preformatted text of one column, and `copy` writes
+its rows as they are, such as the lines of another page's table."""
 import re
 from dataclasses import dataclass, field
 
 from pages.functions import Refused
 
-BLOCK = re.compile(r"^( *)<!-- (table|turned|lines)$")
+BLOCK = re.compile(r"^( *)<!-- (table|turned|lines|copy)$")
 CLOSE = re.compile(r"^ *-->$")
 END = re.compile(r"^ *<!-- end -->$")
 VALUE = re.compile(r"<!--= (.+?) -->(.*?)<!--/-->")
 BY_HAND = re.compile(r"^ *<!-- by hand: \S+( \S+){2,} -->$")  # a reason has three words or more
-ANY = re.compile(r"<!--(=|/| *(table|turned|lines|end|by hand)\b)")
+ANY = re.compile(r"<!--(=|/| *(table|turned|lines|copy|end|by hand)\b)")
 WITHIN = re.compile(r"<!--(?:(?!-->).)*?<!--", re.S)
 
 

@@ -2,7 +2,8 @@
 """The committed files of results as tables of an SQLite database. Marks of pages are queries of it.
 
 `FROM "voids.csv"` reads bench/results/voids.csv; a name with a slash is a path from the top folder. All numbers are
-floating-point numbers, and an empty cell is NULL. A text file (.txt) has the columns n (number of the line) and line.
+floating-point numbers, and an empty cell is NULL. A text file (.txt, .md) has the columns n (number of the line), line,
+and heading (the last Markdown heading before the line).
 Lines that begin with # are comments: comment('voids.csv', 0) is the first one. views.sql has the named selections
 that several marks use. Beside SQLite's own functions there are those of
 functions.py.
@@ -17,7 +18,7 @@ from pages import numbers
 from pages.functions import AGGREGATES, FUNCTIONS, Refused, path
 
 VIEWS = Path(__file__).with_name("views.sql")
-FILE = re.compile(r'"([^"\s]+\.(?:csv|txt))"')
+FILE = re.compile(r'"([^"\s]+\.(?:csv|txt|md))"')
 
 
 def cell(text):
@@ -58,14 +59,19 @@ class Results:
 
     def load(self, name):
         """Reads a file into the table of its name."""
-        lines = [line for line in path(name).read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+        lines = path(name).read_text(encoding="utf-8").splitlines()
+        if not name.endswith(".md"):
+            lines = [line for line in lines if not line.startswith("#")]
         if name.endswith(".csv"):
             heads, *rows = csv.reader(line for line in lines if line)
             rows = [[cell(text) for text in row] for row in rows]
             if wrong := [row for row in rows if len(row) != len(heads)]:
                 raise Refused(f"{name} has {len(heads)} columns, and a row of {len(wrong[0])}: {wrong[0]}")
         else:
-            heads, rows = ("n", "line"), [(float(n), line.rstrip()) for n, line in enumerate(lines)]
+            heads, rows, heading = ("n", "line", "heading"), [], None
+            for n, line in enumerate(lines):
+                heading = line.lstrip("#").strip() if line.startswith("#") else heading
+                rows.append((float(n), line.rstrip(), heading))
         self.add(name, heads, rows)
 
     def add(self, name, heads, rows):
@@ -120,10 +126,14 @@ class Results:
         lines = [[name, *(numbers.shown(row[k]) for row in rows)] for k, name in enumerate(names, 1)]
         return numbers.table(heads, lines, range(1, len(heads)) if corner.endswith(":") else ())
 
+    def copy(self, query):
+        """Returns the rows of a query with one column as lines."""
+        _, rows = self.rows(query)
+        return [numbers.shown(row[0]) for row in rows]
+
     def lines(self, query):
         """Returns the rows of a query with one column as lines of preformatted text."""
-        _, rows = self.rows(query)
-        return [f"    {numbers.shown(row[0])}".rstrip() for row in rows]
+        return [f"    {line}".rstrip() for line in self.copy(query)]
 
 
 @functools.cache

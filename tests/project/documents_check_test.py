@@ -111,7 +111,7 @@ def of_queries():
     """Tests the functions of queries with tables of their own."""
     base = results.Results()
     base.add("numbers.csv", ("name", "x", "other"), [("a", 1.0, -2e-7), ("b", 3.0, 0.0052), ("a", 2.0, None)])
-    base.add("words.txt", ("n", "line"), [(0.0, "12 particles, 7 contacts")])
+    base.add("words.txt", ("n", "line", "heading"), [(0.0, "12 particles, 7 contacts", None)])
     wrong = []
     for query, expected in (
             ('count(*) FROM "numbers.csv"', "3"),
@@ -136,6 +136,9 @@ def of_queries():
     table = base.table('SELECT name, x AS "x (s):" FROM "numbers.csv" WHERE x > 1')
     if table != ["| name | x (s) |", "|---|---:|", "| b | 3 |", "| a | 2 |"]:
         wrong.append(f"a table: {table}")
+    copy = base.copy('SELECT line FROM "docs/keys.md" WHERE heading = \'`[loading]`\' AND line GLOB \'|*\'')
+    if not copy[1].startswith("|---") or not any("`kind`" in line for line in copy):
+        wrong.append(f"lines of another page: {copy}")
     turned = base.turned('SELECT name AS ":", x FROM "numbers.csv" WHERE x > 1')
     if turned != ["|  | b | a |", "|---|---:|---:|", "| x | 3 | 2 |"]:
         wrong.append(f"a turned table: {turned}")
