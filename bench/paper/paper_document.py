@@ -51,7 +51,7 @@ def table(head, rows):
 
 
 def over(runs, name, base, value):
-    """Returns the ratio of a value to the same value of another specimen, for each seed."""
+    """Returns the ratio of a value to the value of another specimen, for each seed."""
     return [value(a) / value(b) for a, b in zip(runs[name], runs[base])]
 
 

@@ -34,7 +34,7 @@ def implied_voids(facts):
     for name in CLUSTERS:
         for classes in ([0], [1], [2], [0, 1, 2]):
             v, together = facts.void(name, classes), len(classes) == 3
-            # if a class has many single spheres, they change the mean radius of its spheres, which is then not the clusters' mean radius
+            # if a class has many single spheres, the mean radius of its spheres differs from the mean radius in clusters
             by_spheres = all(facts.of(name, "single", k) < 0.1 * facts.of(name, "particles", k) for k in classes)
             rows.append([f"{name[3:]}, {'together' if together else CLASSES[classes[0]]}", two(v.ratio), two(v.size),
                          two(1 - 1 / v.ratio), two(v.chance), two(v.number),

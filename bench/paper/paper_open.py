@@ -59,12 +59,12 @@ def choices():
         """*hold-out k*: the surfaces hold mastic out while it relaxes, k times as stiffly as a sphere does
             (`hold_out`).""",
         f"""*narrow radii*: coarse spheres of {1e3 * NARROW[0]:.2f}–{1e3 * NARROW[1]:.2f} mm, which have the mean volume
-            of the paper's (ᶜ).""",
-        "*spacing*: least thickness of mastic between two aggregates where they are placed; of SS too.",
-        "*area_min*: facets below this multiple of the mean facet are not contacts. It applies to SS too.",
-        """*library aggregates and icosahedron*: the icosahedron as the 83rd shape of Poly, as the paper has it;
-            *composition of Ico*: Table 3's shares of Ico, given to Poly.""",
-        "*inner moduli × 0.5*: not a choice that the paper leaves open. It probes the size of the remaining difference."]
+            of the paper's spheres (ᶜ).""",
+        "*spacing*: least distance between two aggregates when they are placed, also in SS.",
+        "*area_min*: facets below this fraction of the mean area are not contacts, also in SS.",
+        """*library aggregates and icosahedron*: the icosahedron as the 83rd shape of Poly, as in the paper;
+            *composition of Ico*: the shares of Ico in Table 3, used for Poly.""",
+        "*inner moduli × 0.5*: the paper states these moduli; the factor shows the effect of softer clusters."]
     return [line for entry in entries for line in wrapped(entry, "- ")]
 
 

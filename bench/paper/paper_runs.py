@@ -10,8 +10,10 @@ import subprocess
 import time
 from pathlib import Path
 
-from paper_data import RESULTS, ROOT, mean
+from paper_data import RESULTS, mean
 from paper_tables import BOX, FREQUENCIES, PAIRS
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def program(given):
