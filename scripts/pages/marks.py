@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds marks in Markdown, which are the places that scripts/documents writes, and fills them. A mark holds a query of
-the committed results (results.py, functions.py): `<!--= QUERY -->text<!--/-->` in a sentence, without the word SELECT, and
+the committed results (results.py, functions.py): `<!--= QUERY -->text<!--/-->` in a sentence, without the word SELECT,
+and
 
 <!-- table
 QUERY
@@ -86,6 +87,8 @@ def sentence(page, results, number, line, check):
             page.say(number, "a mark begins the line, which Markdown then takes for HTML")
         if "|" in m[1].replace("\\|", "") and line.lstrip().startswith("|"):
             page.say(number, f"a mark with a bar in a table: '{m[1]}'")
+        if not results.reads_results(m[1]):
+            page.say(number, f"a mark that reads no results: '{m[1]}'")
         new = asked(page, number, results.value, m[1])
         if new is None:
             return m[0]

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The committed files of results as tables of an SQLite database. Marks of pages are queries of it.
+"""The committed files of results as tables of an SQLite database. Marks of pages are queries of it:
+
+    text('{:.1f} %', 100 * max(void_cells)) FROM "voids.csv" WHERE fraction = 0.1
 
 `FROM "voids.csv"` reads bench/results/voids.csv; a name with a slash is a path from the top folder. All numbers are
-floating-point numbers, and an empty cell is NULL. A text file (.txt, .md) has the columns n (number of the line), line,
-and heading (the last Markdown heading before the line).
-Lines that begin with # are comments: comment('voids.csv', 0) is the first one. views.sql has the named selections
-that several marks use. Beside SQLite's own functions there are those of
-functions.py.
+floating-point numbers, so that a quotient is not cut off, and an empty cell is NULL. A text file (.txt, .md) has the
+columns n (number of the line), line, and heading (the last Markdown heading before the line). Lines that begin with #
+are comments: comment('voids.csv') is the first one. views.sql has the selections that several marks use, and
+functions.py has the functions beside SQLite's own.
 """
 import csv
 import functools
@@ -19,6 +20,8 @@ from pages.functions import AGGREGATES, FUNCTIONS, Refused, path
 
 VIEWS = Path(__file__).with_name("views.sql")
 FILE = re.compile(r'"([^"\s]+\.(?:csv|txt|md))"')
+FACTS = re.compile(r"\b(comment|asserted)\(")  # functions that read a file
+NAMES = ("commit", "sha256", "version", "cgal", "hdf5", "itk", "fmt")  # columns whose cells may look like numbers
 
 
 def cell(text):
@@ -44,8 +47,7 @@ class Results:
         self.base.executescript(VIEWS.read_text(encoding="utf-8"))
         self.of_view = {}  # view: the files that it reads
         for name, query in self.base.execute("SELECT name, sql FROM sqlite_schema WHERE type = 'view'"):
-            used = [files for other, files in self.of_view.items() if re.search(rf"\b{other}\b", query)]
-            self.of_view[name] = set(FILE.findall(query)).union(*used)
+            self.of_view[name] = self.files_of(query)
 
     def reporting(self, function):
         """Returns a function of the database that keeps the message of an exception, which SQLite does not show."""
@@ -64,9 +66,9 @@ class Results:
             lines = [line for line in lines if not line.startswith("#")]
         if name.endswith(".csv"):
             heads, *rows = csv.reader(line for line in lines if line)
-            rows = [[cell(text) for text in row] for row in rows]
             if wrong := [row for row in rows if len(row) != len(heads)]:
                 raise Refused(f"{name} has {len(heads)} columns, and a row of {len(wrong[0])}: {wrong[0]}")
+            rows = [[text if head in NAMES else cell(text) for head, text in zip(heads, row)] for row in rows]
         else:
             heads, rows, heading = ("n", "line", "heading"), [], None
             for n, line in enumerate(lines):
@@ -82,13 +84,19 @@ class Results:
         self.base.executemany(f'INSERT INTO "{name}" VALUES ({", ".join("?" for _ in heads)})', rows)
         self.answers.clear()
 
+    def files_of(self, query):
+        """Returns the names of the files that a query reads, also through views."""
+        views = (files for view, files in self.of_view.items() if re.search(rf"\b{view}\b", query))
+        return set(FILE.findall(query)).union(*views)
+
+    def reads_results(self, query):
+        """Returns whether a query reads a committed file. A typed number does not."""
+        return bool(self.files_of(query) or FACTS.search(query))
+
     def ask(self, query):
         """Returns heads and rows of a query. Raises Refused, with the reason, if it has no answer."""
         if query not in self.answers:
-            wanted = set(FILE.findall(query))
-            for view, files in self.of_view.items():
-                wanted |= files if re.search(rf"\b{view}\b", query) else set()
-            for name in sorted(wanted - self.files):
+            for name in sorted(self.files_of(query) - self.files):
                 self.load(name)
             self.said = None
             try:

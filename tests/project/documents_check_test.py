@@ -60,6 +60,7 @@ FAULTS = [
     ("docs/filling.md", queried('max(spheres) FROM "fill-study.csv" WHERE spheres < 0'), "no value"),
     ("docs/filling.md", queried('one(spheres) FROM "fill-study.csv"'), "rows where one is expected"),
     ("docs/filling.md", queried('fail(\'not so\') FROM "fill-study.csv"'), "not so"),
+    ("docs/filling.md", queried("text('{:.1f} %', 12)"), "a mark that reads no results"),
     ("bench/README.md", lambda t: t.replace("<!--/-->", "", 1), "a broken mark"),
     ("docs/filling.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | 1.5 % |\n", "stands in no mark"),
     ("docs/shapes.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | −2e-3 |\n", "stands in no mark"),
