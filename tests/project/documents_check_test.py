@@ -123,6 +123,8 @@ def of_queries():
             ('one(x / other) FROM "numbers.csv" WHERE x = 1', "-5000000"),
             ('part(line, \'(\\d+) contacts\') FROM "words.txt"', "7"),
             ('part(line, \'(\\d+) walls\') FROM "words.txt"', "refused: no value"),
+            ('count(*) FROM "mutation.csv" WHERE typeof(line) <> \'real\'', "0"),
+            ('count(*) FROM "many.csv" WHERE typeof("commit") <> \'text\'', "0"),
             ("power(upto(0.00012345))", "1.3e-4"), ("signed(-0.5)", "−5e-1"), ("bound(-0.0123)", "0.013"),
             ("plain(0.0456)", "0.046"), ("downto(0.0456, 1)", "0.04"),
             ('x FROM "none.csv"', "refused: bench/results/none.csv is not there: bench/README.md says which command makes it")):
