@@ -36,8 +36,8 @@ struct Element {
   double f[6] = {}, change[6] = {}, sum[6] = {}, drive[6] = {};
   std::vector<double> x[6];
 
-  /// Ends a block of `steps` steps by updating the viscoelastic state, and begins the next block. With 0 steps it only
-  /// begins the first block.
+  /// Updates the viscoelastic state at the end of a block of `steps` steps, and begins the next block. With 0 steps it
+  /// only begins the first block.
   void settle(int steps, const std::vector<Twist<double>>& u) {
     double at[6];
     relative_rates(frame, Twist<double>{{}, u[a].angular}, {u[b].linear - u[a].linear, u[b].angular}, at);
@@ -136,7 +136,7 @@ Stiffness stepped(const test::TestScene& scene, const StartState& start, const d
   return evaluate_cyclic(response, loading.frequency, 1).fit;
 }
 
-/// Prints one row per block length. The length is given as the number of blocks in the shortest time of load and
+/// Prints one row for each block length. The length is given as the number of blocks in the shortest time of load and
 /// laws.
 void run(const Case& c) {
   auto scene = test::make_scene(test::random_specimen(3, c.cells, c.cells, c.cells * 3 / 2), {},
@@ -171,7 +171,7 @@ int main() {
   fmt::print(
       "# steps in blocks against single steps, in double precision on the processor; random spheres, geometry of "
       "the start, steady start, the last period of 500 samples fitted; blocks: in the shortest time of load and "
-      "laws; envelope: what the plan counts with\n"
+      "laws; envelope: the bound that the plan uses\n"
       "binder,hz,cycles,particles,steps_per_period,blocks,steps,e_star,phase_rad,over_envelope\n");
   using macadam::bench::Case;
   for (const Case& c : {Case{"AM1", 2, 40000, 1, 4}, Case{"AM1", 5, 20000, 1, 4}, Case{"AM1", 10, 8000, 3, 4},

@@ -2,8 +2,8 @@
 // block_precision.cpp  Measures the rounding error of |E*| and phase for several block lengths. Writes CSV to standard
 // output.
 //
-// Changes of force and their sums within a block are in single precision. The program steps the specimen t8 with fixed
-// geometry through one cycle of 20 Hz from the steady state. There are so many steps per period that blocks can be as
+// Changes of force within a block, and their sums, are in single precision. The program steps the specimen t8 with
+// fixed geometry through one cycle of 20 Hz from the steady state. The period has enough steps that blocks can be as
 // long as kernels::longest_block allows. It compares with the same steps in double precision, which does not use
 // blocks. It takes some minutes.
 //

@@ -20,7 +20,7 @@ struct Case {
                                  ///< "clusters", "few clusters", "grid NxNxN" (spheres of all pair types at jittered
                                  ///< grid points)
   std::string mix = "AM1";       ///< binder: "AM1" or "AM2"
-  std::string stiff;             ///< what is made stiffer: "aggregate" or "walls"; empty: nothing
+  std::string stiff;             ///< stiffened part: "aggregate" or "walls"; empty: none
   double factor = 1;             ///< factor of its stiffness
   double frequency = 20;         ///< [Hz]
   double density_scaling = 1;    ///< multiplies mass and inertia
@@ -53,11 +53,11 @@ struct Outcome {
   double seconds = 0;           ///< time of the stepping
   double seconds_harmonic = 0;  ///< time of the frequency-domain solution that a steady start needs, with its
                                 ///< factorisation
-  double seconds_by_hand = 0;   ///< for a run with a tolerance: stepping time of the best settings found by hand that
+  double seconds_by_hand = 0;   ///< for a run with a tolerance: stepping time of the fastest settings that
                                 ///< meet the tolerance
   double dt = 0, step_share = 0;
   std::int64_t steps = 0, bytes = 0, contacts = 0;
-  std::string status = "done";  ///< otherwise the reason why there is no result
+  std::string status = "done";  ///< otherwise the reason of the failure
 };
 
 /// Writes the CSV of all runs: one line per outcome, with every setting in a column of its own. Each line is flushed.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws figures from the CSV of bench/accuracy: `draw.py FILE.csv` writes FILE-*.png and FILE-*.svg. The tables are
+"""Draws figures from the CSV of bench/accuracy: `draw.py FILE.csv` writes FILE-*.png. The tables are
 made by scripts/documents."""
 import csv
 import math
@@ -75,8 +75,7 @@ class Drawing:
     def save(self, figure, name):
         note = f"{self.about['machine']}, {self.about['date']}"
         figure.supxlabel(note + (", " + self.about["note"] if "note" in self.about else ""), fontsize=7, color="grey")
-        for kind in ("png", "svg"):
-            figure.savefig(f"{self.stem}-{name}.{kind}", dpi=120, metadata={"Date": None} if kind == "svg" else {})
+        figure.savefig(f"{self.stem}-{name}.png", dpi=120)
         plt.close(figure)
 
     def front(self, name, mix="AM1"):
@@ -281,7 +280,6 @@ class Drawing:
 
 def main():
     drawing = Drawing(Path(sys.argv[1]))
-    matplotlib.rcParams["svg.hashsalt"] = "macadam"
     drawing.front("t8")
     drawing.front("demo")
     drawing.front_clusters()

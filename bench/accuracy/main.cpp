@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   app.add_option("--backend", backend, "of --precision")
       ->transform(
           CLI::CheckedTransformer(std::map<std::string, Backend>{{"cpu", Backend::cpu}, {"cuda", Backend::cuda}}));
-  app.add_option("--only", only, "only runs whose description (as it is printed) holds this text");
+  app.add_option("--only", only, "only runs whose printed description contains this text");
   app.add_option("root", root, "of the repository")->required();
   app.add_option("csv", csv, "file to write")->required();
   CLI11_PARSE(app, argc, argv);
@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
       std::vector<Outcome> outcomes;
       try {
         outcomes = runner.run(c);
-      } catch (const InputError& error) {  // filters may remove so many contacts that the specimen is not connected
+      } catch (const InputError& error) {  // filters may disconnect the specimen
         outcomes.emplace_back().status = error.what();
       }
       for (const Outcome& o : outcomes) table.add(c, o);

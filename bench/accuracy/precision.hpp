@@ -11,8 +11,8 @@ namespace macadam::accuracy {
 /// GPU.
 std::vector<Case> precision_cases(Backend backend);
 
-/// Makes the runs and writes a line for each run in mixed and in single precision: the differences of |E*| (relative)
-/// and φ from double precision, and the values of rounding_scale() for the run. Lines of other backends in the file are
+/// Makes the runs. Writes one line for each run in mixed or single precision: the differences of |E*| (relative) and φ
+/// from double precision, and the values of rounding_scale() for the run. Lines of other backends in the file are
 /// kept. `only` selects the runs whose description contains this text. \throws RunError, InputError.
 void measure_precision(Runner& runner, Backend backend, const std::filesystem::path& csv, const std::string& machine,
                        const std::string& only);

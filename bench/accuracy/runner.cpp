@@ -81,8 +81,8 @@ struct Runner::Network {
 Runner::Runner(std::filesystem::path root, std::filesystem::path out) : root_(std::move(root)), out_(std::move(out)) {}
 Runner::~Runner() = default;
 
-/// Returns the scene for a specimen name. The materials and laws are those of the specimens of [1]: the laws of `mix`,
-/// and those of the contacts within clusters.
+/// Returns the scene for a specimen name. It has the materials and laws of the specimens of [1]: the laws of `mix`, and
+/// the laws of the contacts within clusters.
 const Scene& Runner::scene(const std::string& name, const std::string& mix) {
   auto [at, fresh] = scenes_.try_emplace({name, mix});
   if (!fresh) return at->second;

@@ -13,8 +13,8 @@ namespace macadam::accuracy {
 /// Runs cases and keeps what several of them need.
 class Runner {
  public:
-  /// `root` is the folder of the repository, which contains tests/data and examples/demo. `out` is a folder for the
-  /// files of run().
+  /// `root` is the folder of the repository, which contains tests/data and examples/demo. run() writes its files into
+  /// the folder `out`.
   Runner(std::filesystem::path root, std::filesystem::path out);
   ~Runner();
 

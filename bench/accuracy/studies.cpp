@@ -152,7 +152,7 @@ class List {
     }
   }
 
-  /// Strain amplitudes up to those at which fixed geometry, and the linear solution itself, are no longer accurate.
+  /// Strain amplitudes. At the largest, fixed geometry and the linear solution itself are inaccurate.
   void strain() {
     for (const char* scene : {"t8", "demo"}) {
       const bool demo = scene[0] == 'd';

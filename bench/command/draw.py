@@ -11,13 +11,12 @@ CASE = ("scene", "method", "specimen", "backend", "threads")
 
 
 def draw(files, out):
-    """Writes a PNG and an SVG from several CSV files, each of one machine."""
+    """Writes a PNG from several CSV files, each of one machine."""
     bars = {}  # machine and case → phase → seconds
     for file in files:
         for row in rows(file):
             where = (file.stem, *(row[key] for key in CASE))
             bars.setdefault(where, {"on": row["device"] or row["machine"]})[row["phase"]] = float(row["seconds"])
-    matplotlib.rcParams["svg.hashsalt"] = "macadam"
     figure, ax = plt.subplots(figsize=(11, 1.6 + 0.5 * len(bars)), layout="constrained")
     left = [0.0] * len(bars)
     colours = matplotlib.colormaps["tab20"].colors
@@ -36,5 +35,4 @@ def draw(files, out):
     ax.set_xticks(range(0, 101, 20))
     ax.set_xlabel("share of the wall time of macadam run (%)")
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncol=6, fontsize=8)
-    for suffix in (".png", ".svg"):
-        figure.savefig(out.with_suffix(suffix), dpi=110, metadata={"Date": None} if suffix == ".svg" else None)
+    figure.savefig(out.with_suffix(".png"), dpi=110)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws a figure from the CSV of iterations_bench: `draw.py FILE.csv` writes FILE.png and FILE.svg."""
+"""Draws a figure from the CSV of iterations_bench: `draw.py FILE.csv` writes FILE.png."""
 import csv
 import sys
 from pathlib import Path
@@ -23,7 +23,6 @@ def main():
     path = Path(sys.argv[1])
     with open(path, encoding="utf-8") as f:
         rows = list(csv.DictReader(line for line in f if not line.startswith("#")))
-    matplotlib.rcParams["svg.hashsalt"] = "macadam"
     figure, ax = plt.subplots(figsize=(6.5, 4.5), layout="constrained")
     for chosen, label, colour in LINES:
         line = [(int(r["particles"]), int(r["iterations"])) for r in rows
@@ -43,8 +42,7 @@ def main():
     ax.set_title("AM1, 20 Hz")
     ax.grid(True, which="both", alpha=0.3)
     ax.legend()
-    for suffix in (".png", ".svg"):
-        figure.savefig(path.with_suffix(suffix), dpi=110, metadata={"Date": None} if suffix == ".svg" else None)
+    figure.savefig(path.with_suffix(".png"), dpi=110)
 
 
 if __name__ == "__main__":

@@ -4,8 +4,8 @@ bold and has the letter of its reason in paper_reasons.py; a bold value without 
 import textwrap
 from fnmatch import fnmatchcase
 
-from pages import data
-from pages.data import half_range, line, mean, minus
+import paper_data as data
+from paper_data import half_range, line, mean, minus
 from paper_runs import kolmogorov_smirnov
 from paper_tables import (CLASSES, CLUSTERS, DESIGN, DEVIATION, FREQUENCIES, ICO_OVER_POLY, MASTIC, PAIRS, PAPER)
 
@@ -51,7 +51,7 @@ def table(head, rows):
 
 
 def over(runs, name, base, value):
-    """Returns the ratio of a value to that of another specimen, for each seed."""
+    """Returns the ratio of a value to the value of another specimen, for each seed."""
     return [value(a) / value(b) for a, b in zip(runs[name], runs[base])]
 
 

@@ -3,7 +3,7 @@
 the calibrated specimens (Figs. 12 and 13), and specimens stepped in time."""
 import math
 
-from pages.data import RESULTS, between, half_range, listed, mean, minus, rows, span, thousands, upto, where
+from paper_data import RESULTS, between, half_range, listed, mean, minus, rows, span, thousands, upto, where
 from paper_document import table, wrapped
 from paper_runs import committed
 from paper_tables import CALIBRATED, CLASSES, DELTA_MA, DEVIATION, FREQUENCIES, PAPER

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sections after the tables of docs/paper-specimens.md: why our values differ, the effect of the fillings, and the
 run times."""
-from pages.data import mean, memory, minus
+from paper_data import mean, memory, minus
 from paper_document import deviations, table, wrapped
 from paper_reasons import REASONS, Facts, several
 from paper_tables import CLASSES, CLUSTERS, FREQUENCIES, PAPER
@@ -34,7 +34,7 @@ def implied_voids(facts):
     for name in CLUSTERS:
         for classes in ([0], [1], [2], [0, 1, 2]):
             v, together = facts.void(name, classes), len(classes) == 3
-            # if a class has many single spheres, the mean radius of its spheres is not that of its clusters' spheres
+            # if a class has many single spheres, the mean radius of its spheres differs from the mean radius in clusters
             by_spheres = all(facts.of(name, "single", k) < 0.1 * facts.of(name, "particles", k) for k in classes)
             rows.append([f"{name[3:]}, {'together' if together else CLASSES[classes[0]]}", two(v.ratio), two(v.size),
                          two(1 - 1 / v.ratio), two(v.chance), two(v.number),

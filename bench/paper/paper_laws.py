@@ -6,7 +6,7 @@ import math
 import re
 import tomllib
 
-from pages.data import between, half_range, mean, minus, rows, upto_percent
+from paper_data import between, half_range, mean, minus, rows, upto_percent
 from paper_document import table, wrapped
 from paper_runs import ROOT
 from paper_tables import DELTA_MM, FREQUENCIES, INNER_GPA, ROCK

@@ -3,7 +3,7 @@
 bench/results/paper-study.csv."""
 import math
 
-from pages.data import RESULTS, listed, mean, minus
+from paper_data import RESULTS, listed, mean, minus
 from paper_document import table, wrapped
 from paper_runs import rows
 from paper_study import (CONTACT_SCALE, DEVIATION_SCALE, NARROW, OURS, QUANTITIES, SHORT, Choice, merits,
@@ -59,12 +59,12 @@ def choices():
         """*hold-out k*: the surfaces hold mastic out while it relaxes, k times as stiffly as a sphere does
             (`hold_out`).""",
         f"""*narrow radii*: coarse spheres of {1e3 * NARROW[0]:.2f}–{1e3 * NARROW[1]:.2f} mm, which have the mean volume
-            of the paper's (ᶜ).""",
-        "*spacing*: least thickness of mastic between two aggregates where they are placed; of SS too.",
-        "*area_min*: facets below so many mean ones are no contacts, in SS neither.",
-        """*library aggregates and icosahedron*: the icosahedron as the 83rd shape of Poly, as the paper has it;
-            *composition of Ico*: Table 3's shares of Ico, given to Poly.""",
-        "*inner moduli × 0.5*: no choice that the paper leaves open, but a probe of what is missing."]
+            of the paper's spheres (ᶜ).""",
+        "*spacing*: least distance between two aggregates when they are placed, also in SS.",
+        "*area_min*: facets below this fraction of the mean area are not contacts, also in SS.",
+        """*library aggregates and icosahedron*: the icosahedron as the 83rd shape of Poly, as in the paper;
+            *composition of Ico*: the shares of Ico in Table 3, used for Poly.""",
+        "*inner moduli × 0.5*: the paper states these moduli; the factor shows the effect of softer clusters."]
     return [line for entry in entries for line in wrapped(entry, "- ")]
 
 

@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
-from pages.data import mean  # noqa: E402
+from paper_data import mean  # noqa: E402
 from paper_document import deviations  # noqa: E402
 from paper_runs import ROOT, committed, rows  # noqa: E402
 from paper_tables import DEVIATION, FREQUENCIES, PAPER  # noqa: E402
@@ -37,7 +37,7 @@ def gradations(results):
 
 
 def axes(results):
-    """Draws Figs. 9a and b: D^L of every cluster above 4.75 mm, as a line at its position."""
+    """Draws Figs. 9a and b: a line along D^L at the position of each cluster above 4.75 mm."""
     for name in ("MS-Poly-fine", "MS-Poly-coarse"):
         scene = PAPER[name].scene
         figure = plt.figure(figsize=(4.4, 6), layout="constrained")

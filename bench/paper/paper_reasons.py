@@ -4,7 +4,7 @@ its patterns name. Every number comes from the results or from the paper's table
 import math
 from collections import namedtuple
 
-from pages.data import between, listed, mean, minus
+from paper_data import between, listed, mean, minus
 from paper_document import deviations
 from paper_study import OURS, Choice, choice_of, merits
 from paper_tables import BOX, CLASSES, CLUSTERS, COARSE, DEVIATION, ICO_OVER_POLY, PAPER, mean_sphere

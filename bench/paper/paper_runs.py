@@ -10,10 +10,10 @@ import subprocess
 import time
 from pathlib import Path
 
-from pages.data import RESULTS, mean
+from paper_data import RESULTS, mean
 from paper_tables import BOX, FREQUENCIES, PAIRS
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def program(given):
@@ -81,13 +81,13 @@ def commit_of_tree():
 
 
 def device(macadam):
-    """Returns the name of the GPU that the program finds; empty if there is none."""
+    """Returns the name of the GPU that the program finds; empty without a GPU."""
     found = re.search(r"^cuda +yes.*\n +([^,\n]+),", said(macadam, "info"), re.M)
     return found[1] if found else ""
 
 
-# Returns the status of the run in a folder; None if there is no summary.
 def status(folder):
+    """Returns the status of the run in a folder; None if its summary is missing."""
     file = folder / "summary.json"
     return json.loads(file.read_text())["status"] if file.is_file() else None
 

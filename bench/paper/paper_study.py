@@ -6,7 +6,7 @@ import re
 from collections import namedtuple
 from dataclasses import asdict, dataclass, replace
 
-from pages.data import mean
+from paper_data import mean
 from paper_tables import CLUSTERS, DEVIATION, PAIRS, PAPER
 
 SHORT = [2, 20]  # Hz: the mean deviation at these two frequencies is within 0.3 points of that at all four
@@ -29,7 +29,7 @@ class Choice:
 
     @property
     def making(self):
-        """The choices that determine the specimen, without those of its contacts."""
+        """The choices that determine the specimen, without the choices of its contacts."""
         return replace(self, inner_gap=None, inner_modulus=1, area_min=0)
 
     @property
@@ -56,7 +56,7 @@ MAKINGS = [OURS, Choice(voids=1), Choice(test="spheres"), Choice(voids=1, test="
            Choice(test="spheres", hold_out=3), Choice(voids=0.5, test="spheres")]
 CONTACTS = [OURS, Choice(inner_gap=0.0), Choice(inner_gap=-0.05), Choice(inner_gap=-0.1), Choice(inner_gap=-0.15),
             Choice(inner_modulus=0.5), Choice(area_min=0.026), Choice(inner_gap=-0.1, area_min=0.026)]
-# radii [m]: their mean volume is 0.82 of that of the uniform law in 1 to 2 mm, which is the least ratio in Table 3
+# radii [m]: their mean volume is 0.82 times the mean volume of radii uniform in 1 to 2 mm, the least ratio in Table 3
 NARROW = (1.35e-3, 1.55e-3)
 
 
@@ -135,7 +135,7 @@ def making_scene(text, name, choice):
 
 
 def contact_scene(text, choice, specimen):
-    """Returns a scene with the same contact laws whose specimen is a file, with the choices of its contacts, if any."""
+    """Returns a scene that reads its specimen from a file. Its contact laws follow the choices of contacts."""
     box = re.search(r"^box = .*", text, flags=re.M)[0]
     text = f'[specimen]\n{box}\nfile = "{specimen}"\n\n' + text[text.index("[materials."):]
     if choice is None:

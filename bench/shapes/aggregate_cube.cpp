@@ -25,7 +25,7 @@ struct Choice {
   std::uint64_t seeds = 3;
 };
 
-/// Prints a row for each seed of a group of cubes.
+/// Prints one row for each seed of a group of cubes.
 void measure(const InnerSpheres& spheres, CubeFilling filling, const Choice& choice) {
   for (std::uint64_t seed = 1; seed <= choice.seeds; ++seed) {
     const Specimen cube = aggregate_cube(spheres, filling, choice.porosity, seed, choice.edge);

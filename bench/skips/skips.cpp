@@ -93,7 +93,7 @@ Comparison compare(const Way& with, const Way& without) {
           test::relative_difference(steppers[0]->particles().velocity, steppers[1]->particles().velocity)};
 }
 
-/// Prints one row: what is skipped, what is stepped with and without the skip, and the difference. If the skip changes
+/// Prints one row: the skip, the stepped scenes with and without it, and the difference. If the skip changes
 /// the model, `change` is the relative change of |E*|.
 void row(const char* what, const char* with, const char* without, const Comparison& c, const char* compared,
          double change = 0) {

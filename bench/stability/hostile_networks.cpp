@@ -32,8 +32,8 @@ void judge(Rows& rows, const std::string& name, const test::TestScene& scene, Ef
                     energy_over_bound(setting, scene, options, limit, steps, 1e-5)});
   }
   const HarmonicResult found = harmonic_solution(scene, 10, 0, residual);
-  rows.push_back(
-      {name, "harmonic", "residual", 0, 10 * residual, "what the solver promises, computed anew", found.residual});
+  rows.push_back({name, "harmonic", "residual", 0, 10 * residual,
+                  "the residual that the solver promises, computed independently", found.residual});
   if (!compared) return;
   const double expected = reference_static_modulus(scene.specimen, scene.network, scene.laws);
   rows.push_back({name, "harmonic", "modulus against the reference's direct solution, relative", 0,
@@ -80,17 +80,17 @@ Rows slivers(Effort effort) {
     const std::string name = fmt::format("cubic lattice off by {:.0e} of its edge", jitter);
     const auto invariants = measure_invariants(scene.specimen, tessellate(scene.specimen));
     rows.push_back({name, "double", "smallest facet / mean facet", 0, jitter,
-                    "that there are such facets: a corner's is of the square of what the lattice is off by",
+                    "such facets exist: the area of a facet at a corner grows with the square of the offset",
                     smallest_share(scene.network)});
     rows.push_back({name, "double", "volume and closure of the cells, relative", 0, jitter < 1e-7 ? 2e-10 : 1e-12,
-                    "cells fill the box to rounding; at 1e-8 also facets narrower than 1e-10 of the distance, which "
-                    "are none, up to one at each of twelve edges",
+                    "cells fill the box to rounding; at 1e-8 up to twelve facets, one at each edge, are narrower "
+                    "than 1e-10 of the distance and are left out",
                     std::max(invariants.volume, invariants.closure)});
     judge(rows, name, scene, effort, 1);
     const double modulus = harmonic_solution(scene, 10).top.e_star_pa;
     rows.push_back({name, "harmonic", "modulus / E − 1", -20 * jitter - 1e-10, 20 * jitter + 1e-10,
                     "a column of equal contacts has the modulus E; areas and distances are off by up to four times "
-                    "the offset and three slivers a particle of that size add to it",
+                    "the offset, and each particle has up to three slivers of that size",
                     modulus / 3e10 - 1});
   }
   return rows;

@@ -14,7 +14,7 @@
 namespace macadam::stability {
 namespace {
 
-constexpr const char* energy_change = "largest |energy / that of the start − 1|";
+constexpr const char* energy_change = "largest |energy / initial energy − 1|";
 
 /// Runs a free elastic assembly, and compares energy, linear and angular momentum with their initial values.
 void free_run(Rows& rows, const std::string& name, const test::TestScene& scene, const Modes& modes,
@@ -51,14 +51,14 @@ void free_run(Rows& rows, const std::string& name, const test::TestScene& scene,
   const double strain = 10 * speed * options.dt / 1e-3;
   rows.push_back({run, setting.name(), energy_change, 0, 10 * eps * walk + (displaced ? 10 * strain : 0),
                   displaced ? "geometry turns by angles of the order of the strain, to and fro: bounded, no drift"
-                            : "leapfrog keeps H exactly: a random walk of ten roundings a step",
+                            : "leapfrog keeps H exactly: a random walk of ten roundings per step",
                   drift});
   const double momentum = speed * *std::max_element(scene.inertia.mass.begin(), scene.inertia.mass.end());
   const double double_walk = 2 * (setting.precision == Precision::single ? eps : 0x1p-53) * walk * std::sqrt(particles);
-  rows.push_back({run, setting.name(), "linear momentum gained / that of one particle", 0, double_walk,
+  rows.push_back({run, setting.name(), "linear momentum gained / momentum of one particle", 0, double_walk,
                   "a contact's two forces are each other's opposite: only velocities round, a random walk",
                   norm(after.linear - before.linear) / momentum});
-  rows.push_back({run, setting.name(), "angular momentum gained / that of one particle across the box", 0,
+  rows.push_back({run, setting.name(), "angular momentum gained / momentum of one particle across the box", 0,
                   2 * eps * walk * std::sqrt(particles),
                   "moments balance to the rounding of levers and frames, a random walk",
                   norm(after.angular - before.angular) / (momentum * norm(scene.specimen.box.size))});
@@ -86,7 +86,7 @@ void driven_run(Rows& rows, const std::string& name, const test::TestScene& scen
   rows.push_back({run, setting.name(), "change of E* from the early run to its end", 0, drift,
                   setting.precision == Precision::single
                       ? "single states round every step: a random walk of ten roundings"
-                      : "a steady state: what is rounded in a cycle is forgotten in a few hundred steps",
+                      : "a steady state: the rounding of a cycle decays in a few hundred steps",
                   stiffness_difference(late, early)});
   rows.push_back({run, setting.name(), "difference of E* from the expected at the end", 0, tolerance + drift, reason,
                   stiffness_difference(late, expected)});

@@ -106,7 +106,7 @@ Measured run(Stepper& stepper, const test::TestScene& scene, const std::vector<V
   return out;
 }
 
-/// Checks a pair of particles along z; the lower one is too heavy to move.
+/// Checks two particles along z. The lower one is too heavy to move.
 void pair_rows(Rows& rows, const Setting& setting, bool flows, Effort effort) {
   test::HandMade made = test::two_sphere_network();
   made.inertia.mass[0] = made.inertia.inertia[0] = 1e30;
@@ -148,7 +148,7 @@ void pair_rows(Rows& rows, const Setting& setting, bool flows, Effort effort) {
     if (flows) {
       rows.push_back({run_name, setting.name(), "permanent displacement − exact ∫f/C_m dt, of the largest",
                       -order - rounding, order + rounding,
-                      "no impulse after the release: what the dashpot had, it keeps", left - exact.flow});
+                      "no impulse after the release: the dashpot keeps its displacement", left - exact.flow});
       const double stepped = found.impulse / (law.C_m * contact.area / contact.distance) / largest;
       rows.push_back({run_name, setting.name(), "permanent displacement − trapezoidal ∫f/C_m dt, of the largest",
                       -rounding, rounding, "the rule keeps this to rounding at any Δt", left - stepped});

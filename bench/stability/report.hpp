@@ -27,7 +27,7 @@ struct Circumstances {
 
 void write_csv(const std::filesystem::path& file, const std::vector<Outcome>& outcomes, const Circumstances& where);
 
-/// Returns a row as one line for a terminal.
+/// Returns the text of a row for a terminal, one line.
 std::string to_line(const Row& row);
 
 }  // namespace macadam::stability

@@ -85,7 +85,7 @@ void led(Rows& rows, const Setting& setting, ContactForm form, std::int64_t step
   }
   double area = 0;
   for (const Contact& c : scene.network.contacts) area = std::max(area, c.area);
-  // A step moves a particle along the chord 2·sin(θ/2)·d but rotates it by the arc θ·d, which causes a slip of d·θ³/24.
+  // Particles move along the chord 2·sin(θ/2)·d but rotate by the arc θ·d, which causes a slip of d·θ³/24 in each step.
   // Velocities round by ε times the assembly's extent: a random walk in double and mixed. In single precision
   // displacements, and therefore normals, round too.
   const double slip = full_turn * angle * angle / 24;
@@ -128,7 +128,7 @@ void spun(Rows& rows, const Setting& setting, std::int64_t steps) {
                   2 * full_turn * 2 * strain + full_turn * angle * angle + rounding,
                   "it comes back, late by the strain: inertia grows by twice it, twice that while it swings",
                   test::largest(after.displacement) / radius});
-  rows.push_back({name, setting.name(), "kinetic energy / that of the start − 1", -4 * strain - rounding,
+  rows.push_back({name, setting.name(), "kinetic energy / initial kinetic energy − 1", -4 * strain - rounding,
                   4 * strain + rounding, "what stretches it is taken from the motion: of the order of the strain",
                   kinetic_energy(scene, after) / energy - 1});
   // The half-step angular momentum belongs to the middle of the step's chord. Both values are taken at its end, so both

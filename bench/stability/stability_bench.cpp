@@ -70,7 +70,7 @@ void run_all(std::vector<Outcome>& outcomes, Effort effort, int jobs) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Stability under stress: what must come out, what is measured, and the verdict");
+  CLI::App app("Stability under stress: expected results, measured results, and the verdict");
   bool quick = false;
   int jobs = 2;
   std::vector<std::string> names;

@@ -114,7 +114,7 @@ Rows step_sweep(Effort effort) {
         rows.push_back({fmt::format("{}: 0.5 … 0.99 of 2/ω_max", v.name), setting.name(),
                         fmt::format("largest (1 − (Δt·ω_max/2)²)·|H/H(0) − 1|, {} steps", steps), 0,
                         10 * setting.rounding() * std::sqrt(static_cast<double>(steps)),
-                        "linear and without loss: H is kept exactly, a random walk of ten roundings a step",
+                        "linear and without loss: H is kept exactly, a random walk of ten roundings per step",
                         worst_drift});
       }
       if (v.geometry == Geometry::updated) continue;  // growing motion leaves the linear range in which the rate holds

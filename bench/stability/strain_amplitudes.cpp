@@ -77,9 +77,10 @@ Rows strain_amplitudes(Effort effort) {
       rows.push_back({name, setting.name(), "rms of the difference of stress / amplitude", 0, 5 * strain + rounding,
                       "normals, levers and distances change by the strain, forces by a few times that",
                       of_stress.back()});
-      rows.push_back({name, setting.name(), "difference of E*", 0, 5 * strain * strain * 10 + rounding,
-                      "what is odd in the strain drops out of a whole cycle: of second order, coefficient of some ten",
-                      of_modulus.back()});
+      rows.push_back(
+          {name, setting.name(), "difference of E*", 0, 5 * strain * strain * 10 + rounding,
+           "odd terms of the strain cancel over a whole cycle: second order, with a coefficient of about ten",
+           of_modulus.back()});
     }
     rows.push_back({"`fixed` at strain 1e-2 against 1e-6", setting.name(), "difference of E*", 0, 1e-12 + rounding,
                     "`fixed` is linear: rounding alone", stiffness_difference(largest, smallest)});

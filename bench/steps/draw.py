@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws a figure of the lattices in a table of bench/steps/table: `bench/steps/draw.py TABLE.csv` writes TABLE.png
-and TABLE.svg."""
+"""Draws a figure of the lattices in a table of bench/steps/table: `bench/steps/draw.py TABLE.csv` writes TABLE.png."""
 import csv
 import sys
 from pathlib import Path
@@ -28,7 +27,6 @@ def main():
     path = Path(sys.argv[1])
     rows = sorted(lattices(path), key=lambda r: r[2])
     machine = open(path, encoding="utf-8").readline()[1:].split(",")[0].strip()
-    matplotlib.rcParams["svg.hashsalt"] = "macadam"
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
     figure.suptitle(f"A step of lattices of growing size: geometry fixed, condensed, laws AM1, {machine}")
     for ax, label in zip(axes, ("µs a step", "contacts a second")):
@@ -43,8 +41,7 @@ def main():
     handles, labels = axes[0].get_legend_handles_labels()
     handles += [matplotlib.lines.Line2D([], [], ls="", marker=m, color="0.3", label=way) for way, m in MARKER.items()]
     axes[0].legend(handles=handles, labels=labels + list(MARKER), fontsize=8)
-    for suffix in (".png", ".svg"):
-        figure.savefig(path.with_suffix(suffix), dpi=110, metadata={"Date": None} if suffix == ".svg" else None)
+    figure.savefig(path.with_suffix(".png"), dpi=110)
 
 
 main()

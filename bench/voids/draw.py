@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws |E*| and phase angle against the air voids: `draw.py FILE.csv` writes FILE.png and FILE.svg."""
+"""Draws |E*| and phase angle against the air voids: `draw.py FILE.csv` writes FILE.png."""
 import csv
 import sys
 from pathlib import Path
@@ -18,7 +18,6 @@ def main():
     path = Path(sys.argv[1])
     with open(path, encoding="utf-8") as file:
         rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
-    matplotlib.rcParams["svg.hashsalt"] = "macadam"
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
     for axes, key, unit in ((left, "e_star_pa", 1e-9), (right, "phase_deg", 1)):
         for colour, radii in zip(COLOURS, sorted({(r["radius_min_mm"], r["radius_max_mm"]) for r in rows})):
@@ -38,8 +37,7 @@ def main():
     left.set_ylim(bottom=0)
     left.legend(fontsize=7)
     right.set_ylabel("phase angle (degrees)")
-    for suffix in (".png", ".svg"):
-        figure.savefig(path.with_suffix(suffix), dpi=110, metadata={"Date": None} if suffix == ".svg" else None)
+    figure.savefig(path.with_suffix(".png"), dpi=110)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ def anchor(heading):
 
 @functools.lru_cache(maxsize=None)
 def anchors(text):
-    """Returns the anchors of a page. Of several equal headings, all but the first are numbered."""
+    """Returns the anchors of a page. The second and later of equal headings are numbered."""
     found, fenced = [], False
     for line in text.splitlines():
         fenced ^= line.startswith("```")

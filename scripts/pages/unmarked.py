@@ -5,7 +5,7 @@ import csv
 import re
 import subprocess
 
-from pages.marks import ANY, BY_HAND, VALUE
+from pages.marks import BY_HAND, VALUE
 
 # The delimiter row of a Markdown table, also in a quote or a list
 DELIMITER = re.compile(r"^[\s>]*([-*+] +|\d+[.)] +)?(?=.*\|)\|?( *:?-+:? *\|)* *:?-*:? *$")
@@ -18,7 +18,8 @@ several spheres step steps TB than the times to up within x e""".split())
 CLAIM = re.compile(r"\b(?:no chance|by chance alone|negligib\w+|insignificant)\b|\bis (?:low|high)\b(?! enough)")
 DEFINES = ("default", "key")  # heads of columns with definitions instead of measured numbers
 # documents whose sentences are checked too
-STRICT = ("README.md", "bench/README.md", "docs/accuracy.md", "docs/skips.md")
+STRICT = ("README.md", "bench/README.md", "docs/choose-settings.md", "docs/verification.md",
+          "docs/frequency-solver.md", "docs/skips.md")
 MEASURED = re.compile(r"(?<![\w.])\d[\d.,]*(?:e[+\-−]?\d+|[  ]?(?:%|°|s\b|ms\b|µs\b|GB\b))")
 
 
@@ -54,7 +55,7 @@ def cells(line):
 
 
 def tables(name, lines):
-    """Returns messages for tables with numbers outside marks. A table after a comment `by hand: REASON` is ignored."""
+    """Returns messages for tables with numbers outside marks. A table after a comment with a reason (marks.BY_HAND) is ignored."""
     wrong = []
     for k in range(1, len(lines)):
         if not DELIMITER.match(lines[k]) or "|" not in lines[k - 1] + lines[k]:
@@ -97,9 +98,9 @@ def sentences(name, lines, by_hand):
     return wrong + [f"{name}:1: scripts/pages/by-hand.csv allows '{text}', which is not there" for text in missing]
 
 
-def claims(name, text):
+def claims(name, lines):
     """Returns messages for sentences that judge a size without a number: "φ is low, and this is no chance"."""
-    wrong = []
+    wrong, text = [], "\n".join(lines)
     for paragraph in re.split(r"\n\s*\n", text):
         if paragraph.lstrip().startswith(("|", "    ")):
             continue
@@ -111,18 +112,12 @@ def claims(name, text):
 
 
 def copied(name, lines, written):
-    """Returns messages for values that a mark writes at one place and that are typed by hand at another."""
+    """Returns messages for values that a mark writes at one place and that another place has without a mark."""
     wrong, lines = [], ["" if line.startswith("    ") else plain(line) for line in lines]
     for value, what in written.items():
         if len(re.findall(r"\d", value)) < 2 or len(value) < 4 or "asserted" in what:
             continue  # too short to be distinguished from other numbers, or a limit that the text may name as well
         place = re.compile(rf"(?<![\w.,·]){re.escape(value)}(?![\w,.]*\d)")
-        wrong += [f"{name}:{k + 1}: '{value}' is typed by hand; the mark '{what}' writes it elsewhere"
+        wrong += [f"{name}:{k + 1}: '{value}' has no mark here; the mark '{what}' writes it elsewhere"
                   for k, line in enumerate(lines) if value in line and place.search(line)]
     return wrong
-
-
-# Returns messages for marks in a document that has no module.
-def without_module(name, lines):
-    return [f"{name}:{k + 1}: a mark, but scripts/pages/ has no module of this document: '{line.strip()}'"
-            for k, line in enumerate(lines) if ANY.search(line) and not BY_HAND.match(line)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests that scripts/documents --check fails for copies of the documents with one fault each.
+"""Tests that scripts/documents --check fails for copies of the documents with one fault each, and the queries of marks.
 
 usage: documents_check_test.py REPOSITORY; exit code 1 if a fault passes, or if a correct document does not."""
 import contextlib
@@ -14,8 +14,7 @@ from pathlib import Path
 ROOT = Path(sys.argv[1]).resolve()
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from pages import accuracy, accuracy_asked, accuracy_rows, common, data  # noqa: E402
-
+from pages import functions, results  # noqa: E402
 
 PROGRAM = runpy.run_path(str(ROOT / "scripts" / "documents"))
 
@@ -34,31 +33,34 @@ def other_digit(text):
 
 
 def in_table(text):
-    return re.sub(r"(<!-- table \w+ -->.*?)(\d)", lambda m: m[1] + other_digit(m[2]), text, count=1, flags=re.S)
+    """Returns the text with the first digit below the first table's query changed."""
+    return re.sub(r"(<!-- table\n.*?-->.*?)(\d)", lambda m: m[1] + other_digit(m[2]), text, count=1, flags=re.S)
 
 
 def in_sentence(text):
-    return re.sub(r"(<!--= [^>]* -->[^<\d]*)(\d)", lambda m: m[1] + other_digit(m[2]), text, count=1)
+    return re.sub(r"(<!--= .+? -->[^<\d]*)(\d)", lambda m: m[1] + other_digit(m[2]), text, count=1)
 
 
-def unmarked_twin(text):
-    """Returns the text with the last of several uses of one mark replaced by its number without the mark."""
-    uses = list(re.finditer(r"<!--= rounding mixed -->(.*?)<!--/-->", text))
-    assert len(uses) > 1
-    return text[:uses[-1].start()] + uses[-1][1] + text[uses[-1].end():]
+def queried(query):
+    """Returns a change that gives the first mark of a sentence this query."""
+    return lambda text: re.sub(r"<!--= .+? -->", lambda m: f"<!--= {query} -->", text, count=1)
 
 
 # document, change to it, and the message that is expected in addition to file and line
 FAULTS = [
-    ("docs/accuracy.md", in_table, "expected"),
-    ("docs/accuracy.md", in_sentence, "expected"),
-    ("README.md", in_sentence, "expected"),
-    ("docs/stability.md", lambda t: t.replace("| pass |", "| passed |", 1), "expected"),
+    ("bench/README.md", in_table, "expected"),
+    ("bench/README.md", in_sentence, "expected"),
+    ("docs/filling.md", in_sentence, "expected"),
     ("docs/paper-specimens.md", lambda t: t + "more\n", "expected"),
-    ("bench/results/accuracy-tables.md", other_digit, "expected"),
-    ("docs/skips.md", lambda t: t.replace("<!-- table ", "<!-- table un", 1), "no such function"),
+    ("examples/demo/README.md", in_table, "expected"),
+    ("docs/skips.md", lambda t: re.sub(r'FROM "skips.csv"\)', 'FROM "no-skips.csv")', t), "no-skips.csv is not there"),
     ("docs/skips.md", lambda t: t.replace("<!-- end -->", "", 1), "has no '<!-- end -->'"),
-    ("docs/filling.md", lambda t: re.sub(r"<!--= \w+", "<!--= nothing", t, count=1), "no such function"),
+    ("docs/filling.md", queried('colour FROM "fill-study.csv"'), "no such column: colour"),
+    ("docs/filling.md", queried('spheres FROM "fill-study.csv"'), "where one value is expected"),
+    ("docs/filling.md", queried('max(spheres) FROM "fill-study.csv" WHERE spheres < 0'), "no value"),
+    ("docs/filling.md", queried('one(spheres) FROM "fill-study.csv"'), "rows where one is expected"),
+    ("docs/filling.md", queried('fail(\'not so\') FROM "fill-study.csv"'), "not so"),
+    ("docs/filling.md", queried("text('{:.1f} %', 12)"), "a mark that reads no results"),
     ("bench/README.md", lambda t: t.replace("<!--/-->", "", 1), "a broken mark"),
     ("docs/filling.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | 1.5 % |\n", "stands in no mark"),
     ("docs/shapes.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | −2e-3 |\n", "stands in no mark"),
@@ -66,88 +68,129 @@ FAULTS = [
     ("docs/shapes.md", lambda t: t + "\n> - | a | b |\n>   |:-:|---:|\n>   | c | about 3 × 4 µs |\n",
      "stands in no mark"),
     ("docs/shapes.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | `x` [7 GPa](x.md) |\n", "stands in no mark"),
+    ("docs/shapes.md", lambda t: t + "\n| a <!--= '1' || '2' -->12<!--/--> | b |\n", "a mark with a bar in a table"),
     ("more.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | 1 |\n", "stands in no mark"),
     ("docs/scene.md", lambda t: t + "\n<!-- by hand: two words -->\n", "a broken mark"),
-    ("docs/shapes.md", lambda t: t + "\nIt is <!--= machine -->1<!--/--> s.\n", "no module of this document"),
-    ("docs/shapes.md", lambda t: t + "\n<!-- table saved -->\n\n<!-- end -->\n", "no module of this document"),
-    ("docs/skips.md", lambda t: t + "\n<!-- not shown: <!--= twice -->0 %<!--/--> -->\n", "within an HTML comment"),
-    ("docs/skips.md", lambda t: t + "\n<!--\n<!--= machine -->x<!--/-->\n-->\n", "within an HTML comment"),
+    ("docs/skips.md", lambda t: t + "\n<!-- not shown: <!--= 'x' -->x<!--/--> -->\n", "within an HTML comment"),
+    ("docs/skips.md", lambda t: t + "\n<!--\n<!--= 'x' -->x<!--/-->\n-->\n", "within an HTML comment"),
     ("docs/voids.md", lambda t: t + "\nThe angle is low, and this is no chance.\n", "a claim without a number"),
-    ("examples/demo/README.md", in_table, "expected"),
     ("docs/skips.md", lambda t: t + "\nIt is 3.5e-7 of it.\n", "'3.5e-7' stands in no mark"),
-    ("docs/accuracy.md", lambda t: t + "\n- It takes 12 s.\n", "'12 s' stands in no mark"),
+    ("bench/README.md", lambda t: t + "\n- It takes 12 s.\n", "'12 s' stands in no mark"),
     ("README.md", lambda t: t + "\nIt is 2 % more.\n", "'2 %' stands in no mark"),
-    ("README.md", lambda t: t.replace("for an error of 1e-3", "for an error", 1), "which is not there"),
-    ("docs/accuracy.md", unmarked_twin, "is typed by hand"),
-    ("docs/skips.md", lambda t: t.replace(". The table is that of", ".\n<!--= twice -->0 %<!--/-->", 1),
-     "begins the line"),
-    ("docs/model.md", lambda t: t.replace("(model/motion.md)", "(model/movement.md)", 1), "which is not there"),
+    ("bench/README.md", lambda t: t + "\nThere are 35,760 of them.\n", "has no mark here"),
+    ("docs/skips.md", lambda t: t + "\n<!--= 'x' -->x<!--/--> is it.\n", "begins the line"),
+    ("docs/model.md", lambda t: t + "\nSee [it](model/movement.md).\n", "which is not there"),
     ("docs/model/motion.md", lambda t: t + "\nSee [the code](../../host/nowhere.cpp).\n", "which is not there"),
-    ("docs/shapes.md", lambda t: t.replace("#your-own-shapes", "#none") + "\n[here](#not-a-heading)\n",
-     "without this heading"),
-    ("docs/scene.md", lambda t: t.replace("(shapes.md#your-own-shapes)", "(shapes.md#my-shapes)", 1),
-     "without this heading"),
+    ("docs/shapes.md", lambda t: t + "\n[here](#not-a-heading)\n", "without this heading"),
+    ("docs/scene.md", lambda t: t + "\n[here](shapes.md#my-shapes)\n", "without this heading"),
 ]
 
 
-def of_results():
-    """Tests what the pages state about a committed row that failed, and about a file that does not exist."""
-    def refused(call, text):
-        try:
-            said = call()
-        except LookupError as error:
-            return [] if text in str(error) else [f"'{text}' was expected: {error}"]
-        return [f"nothing was refused for '{text}', but said: {said}"]
+def with_entry(program, folder):
+    """Returns a message if a text of by-hand.csv that is on no page passes."""
+    module = program["unmarked"]
+    entry = {"document": "README.md", "text": "a text that is on no page", "reason": "a test"}
+    wrong = module.sentences("README.md", (folder / "README.md").read_text(encoding="utf-8").splitlines(), [entry])
+    return [] if any("which is not there" in line for line in wrong) else ["an entry for a text that is not there passes"]
 
-    row = {"study": "front", "scene": "t8", "mix": "AM1", "frequency_hz": 20.0, "density_scaling": 1.0,
-           "gap_max": None, "status": "diverged"}
-    every = accuracy_rows.every
-    wrong = refused(lambda: data.rows("none.csv"), "bench/results/none.csv is not there")
-    accuracy_rows.every = lambda: [*every(), row]
-    wrong += refused(lambda: accuracy_rows.study("front"), "front of t8, 20 Hz, scaling 1: diverged")
-    accuracy_rows.every = lambda: [*every(), {**row, "study": "tolerance"}]
-    if not re.fullmatch(r"in (\d+) of \d+ runs; 1 failed", accuracy_asked.tolerance_kept()):
-        wrong.append(f"a failed run with a tolerance: {accuracy_asked.tolerance_kept()}")
-    accuracy_rows.every = lambda: [*every(), {**row, "study": "step_share", "start": "steady", "step_share": 1.4}]
-    if "t8 at 1.37 (not at 1.40)" not in accuracy.stable_share():
-        wrong.append(f"a step that diverges: {accuracy.stable_share()}")
-    accuracy_rows.every = lambda: [*every(), {**row, "study": "tolerance", "scene": "new", "tolerance": 1e-2}]
-    if not any(line.startswith("| new | 1e-2 | none: all failed |") for line in accuracy_asked.tolerance()):
-        wrong.append("a scene whose runs with a tolerance all failed is not in their table")
-    accuracy_rows.every = lambda: [{**r, "status": "falls apart: 3 pieces"} if r["gap_max"] == 0 and r["scene"] == "t8"
-                                   else r for r in every()]
-    if "| t8 | `gap_max = 0` | – | – | falls apart | – |" not in accuracy.filters():
-        wrong.append("a network that falls apart is not in the table of filters")
-    if "falls apart, (t8)" not in accuracy.gap_zero():
-        wrong.append(f"a network that falls apart: {accuracy.gap_zero()}")
-    accuracy_rows.every = every
+
+def answered(base, query):
+    """Returns the answer to the query of a mark, or the reason of its refusal."""
+    try:
+        return base.value(query)
+    except functions.Refused as error:
+        return f"refused: {error}"
+
+
+def of_queries():
+    """Tests the functions of queries with tables of their own."""
+    base = results.Results()
+    base.add("numbers.csv", ("name", "x", "other"), [("a", 1.0, -2e-7), ("b", 3.0, 0.0052), ("a", 2.0, None)])
+    base.add("words.txt", ("n", "line", "heading"), [(0.0, "12 particles, 7 contacts", None)])
+    wrong = []
+    for query, expected in (
+            ('count(*) FROM "numbers.csv"', "3"),
+            ('text(\'{:.1f} of {:,.0f}\', -max(x), 12345) FROM "numbers.csv"', "−3.0 of 12,345"),
+            ('listed(name) FROM "numbers.csv"', "a and b"),
+            ('joined(name, -x) FROM "numbers.csv"', "b, a"),
+            ('span(x, text(\'{:.0f}\', x)) FROM "numbers.csv"', "1 to 3"),
+            ('span(x, text(\'{:.0f}\', x)) FROM "numbers.csv" WHERE x = 2', "2"),
+            ('median(x) FROM "numbers.csv"', "2"),
+            ('one(x) FROM "numbers.csv" WHERE name = \'b\'', "3"),
+            ('one(x) FROM "numbers.csv" WHERE name = \'a\'', "refused: 2 rows where one is expected"),
+            ('errors(other, x) FROM "numbers.csv" WHERE other IS NOT NULL', "0.0052 and 3°"),
+            ('one(other) FROM "numbers.csv" WHERE name = \'c\'', "refused: no value"),
+            ('one(x / other) FROM "numbers.csv" WHERE x = 1', "-5000000"),
+            ('part(line, \'(\\d+) contacts\') FROM "words.txt"', "7"),
+            ('part(line, \'(\\d+) walls\') FROM "words.txt"', "refused: no value"),
+            ('count(*) FROM "mutation.csv" WHERE typeof(line) <> \'real\'', "0"),
+            ('count(*) FROM "many.csv" WHERE typeof("commit") <> \'text\'', "0"),
+            ("power(upto(0.00012345))", "1.3e-4"), ("signed(-0.5)", "−5e-1"), ("bound(-0.0123)", "0.013"),
+            ("plain(0.0456)", "0.046"), ("downto(0.0456, 1)", "0.04"),
+            ('x FROM "none.csv"', "refused: bench/results/none.csv is not there: bench/README.md says which command makes it")):
+        if (found := answered(base, query)) != expected:
+            wrong.append(f"{query}: found '{found}', expected '{expected}'")
+    table = base.table('SELECT name, x AS "x (s):" FROM "numbers.csv" WHERE x > 1')
+    if table != ["| name | x (s) |", "|---|---:|", "| b | 3 |", "| a | 2 |"]:
+        wrong.append(f"a table: {table}")
+    copy = base.copy('SELECT line FROM "docs/keys.md" WHERE heading = \'`[loading]`\' AND line GLOB \'|*\'')
+    if not copy[1].startswith("|---") or not any("`kind`" in line for line in copy):
+        wrong.append(f"lines of another page: {copy}")
+    turned = base.turned('SELECT name AS ":", x FROM "numbers.csv" WHERE x > 1')
+    if turned != ["|  | b | a |", "|---|---:|---:|", "| x | 3 | 2 |"]:
+        wrong.append(f"a turned table: {turned}")
+    return wrong
+
+
+def of_failed_runs():
+    """Tests what is said of a committed run that failed."""
+    base = results.Results()
+    base.ask("SELECT count(*) FROM accuracy_runs")
+    heads = [row[1] for row in base.base.execute('PRAGMA table_info("accuracy.csv")')]
+    row = {"study": "tolerance", "scene": "new", "mix": "AM1", "frequency_hz": 20.0, "density_scaling": 1.0,
+           "tolerance": 1e-2, "status": "diverged"}
+    kept = answered(base, "tried - failed FROM accuracy_kept")
+    base.add("accuracy.csv", heads, [[row.get(head) for head in heads]])
+    wrong = []
+    if answered(base, "failed FROM accuracy_kept") != "1" or answered(base, "tried - failed FROM accuracy_kept") != kept:
+        wrong.append("a failed run with a tolerance is not counted")
+    row |= {"study": "step_share", "scene": "t8", "start": "steady", "step_share": 1.4}
+    base.add("accuracy.csv", heads, [[row.get(head) for head in heads]])
+    if answered(base, "failed FROM accuracy_steps WHERE name = 't8'") != "1.4":
+        wrong.append("a step that diverges is not the first that failed")
+    row |= {"study": "front"}
+    base.add("accuracy.csv", heads, [[row.get(head) for head in heads]])
+    if (found := answered(base, "count(*) FROM accuracy_runs")) != "refused: front of t8, 20 Hz, scaling 1: diverged":
+        wrong.append(f"a run that must not fail: {found}")
     return wrong
 
 
 def of_tests():
     """Tests that a number asserted in a test is found only under its own name."""
     where = ("t8_test", "TwentyHertzInBothForms")
-    if common.asserted(*where, "difference", "1e-10") != "1e-10":
+    if functions.asserted(*where, "difference", "1e-10") != "1e-10":
         return ["an asserted number is not found"]
     try:
-        common.asserted(*where, "amplitude_of_nothing", "1e-10")
+        functions.asserted(*where, "amplitude_of_nothing", "1e-10")
     except LookupError:
         return []
     return ["a number is found that is asserted of another name"]
+
+
+def copied(folder):
+    """Copies the documents into a folder."""
+    shutil.copytree(ROOT / "docs", folder / "docs", ignore=shutil.ignore_patterns("pictures"))
+    for file in [*ROOT.glob("*.md"), *(ROOT / "bench").rglob("*.md"), *(ROOT / "examples").glob("*/README.md")]:
+        (folder / file.relative_to(ROOT)).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(file, folder / file.relative_to(ROOT))
+    (folder / "more.md").write_text("# More\n", encoding="utf-8")
 
 
 def main():
     wrong = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        shutil.copytree(ROOT / "docs", folder / "docs", ignore=shutil.ignore_patterns("pictures"))
-        (folder / "bench" / "results").mkdir(parents=True)
-        for file in ("README.md", "bench/README.md", "bench/results/accuracy-tables.md"):
-            shutil.copy(ROOT / file, folder / file)
-        for file in (ROOT / "examples").glob("*/README.md"):
-            (folder / "examples" / file.parent.name).mkdir(parents=True)
-            shutil.copy(file, folder / "examples" / file.parent.name)
-        (folder / "more.md").write_text("# More\n", encoding="utf-8")
+        copied(folder)
         documents(folder)  # so that this test does not depend on documents_test
         code, said = documents(folder, "--check")
         if code != 0:
@@ -162,7 +205,8 @@ def main():
             if code != 1 or not re.search(rf"^{re.escape(file)}:\d+: .*{re.escape(expected)}", said, re.M):
                 wrong.append(f"{file}, '{expected}': exit code {code} and\n{said}")
             (folder / file).write_text(sound, encoding="utf-8")
-    wrong += of_results() + of_tests()
+        wrong += with_entry(PROGRAM, folder)
+    wrong += of_queries() + of_failed_runs() + of_tests()
     print("\n".join(wrong))
     return 1 if wrong else 0
 

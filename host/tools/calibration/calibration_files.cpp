@@ -174,7 +174,6 @@ void write_scene(const Scene& scene, const Calibration& calibration, const std::
 /// Writes the files of a calibration. \throws InputError if the scene was not read from a file; RunError if a file
 /// cannot be written, or if the scene.toml does not give the calibrated values when it is read.
 void write_calibration(const std::filesystem::path& out, const Scene& scene, const Calibration& calibration) {
-  require_calibration_folder(scene, out);
   std::error_code error;
   std::filesystem::remove(out / "calibration.png", error);  // from an older calibration
   write_whole(out / "calibration.json", calibration_json(calibration));

@@ -1,0 +1,276 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Selections of committed results that several marks use. A mark names them like a file, without quotes.
+
+-- Errors of runs
+
+-- accuracy.csv and accuracy-full.csv of bench/accuracy: all runs, in their order n. `name` is the scene, with its mix
+-- if that is not AM1.
+CREATE VIEW accuracy_tried AS
+SELECT rowid AS n, scene || iif(mix = 'AM1', '', ' with ' || mix) AS name, * FROM "accuracy.csv" UNION ALL
+SELECT 1e6 + rowid, scene || iif(mix = 'AM1', '', ' with ' || mix), * FROM "accuracy-full.csv";
+
+-- The runs that succeeded. Runs may fail only where a table shows it: steps beyond the stable one, `tolerance`, and
+-- gap_max, which may disconnect the specimen.
+CREATE VIEW accuracy_runs AS
+SELECT *, error_e_star AS true_e, error_phase_deg AS true_phi, own_error_e_star AS own_e, own_error_phase_deg AS own_phi
+FROM accuracy_tried
+WHERE CASE WHEN status = 'done' THEN 1
+           WHEN study IN ('step_share', 'tolerance') OR gap_max IS NOT NULL THEN 0
+           ELSE fail(text('{} of {}, {:g} Hz, scaling {:g}: {}', study, name, frequency_hz, density_scaling,
+                          status)) END;
+
+CREATE VIEW accuracy_scaled AS  -- error over density scaling, with the settings of most runs
+SELECT * FROM accuracy_runs WHERE study = 'front' AND form = 'condensed' AND precision = 'mixed' AND geometry = 'fixed'
+AND frequency_hz = 20 AND mix = 'AM1' AND backend = 'cpu';
+
+CREATE VIEW accuracy_steady AS  -- one cycle from the steady start, in double precision
+SELECT * FROM accuracy_runs WHERE study IN ('front', 'drift', 'step_share') AND start = 'steady' AND cycles = 1
+AND geometry = 'fixed' AND precision = 'double' AND step_share < 1;
+
+CREATE VIEW accuracy_rest AS  -- from rest, with steps below the computed critical one
+SELECT * FROM accuracy_runs WHERE study IN ('rest', 'step_share') AND start = 'rest' AND step_share < 1;
+
+CREATE VIEW accuracy_strain AS  -- the longest runs of each scene: in one cycle the second harmonic is still visible
+SELECT * FROM accuracy_runs r WHERE study = 'strain' AND geometry = 'updated' AND cycles =
+(SELECT max(cycles) FROM accuracy_runs s WHERE s.study = 'strain' AND s.geometry = 'updated' AND s.name = r.name);
+
+CREATE VIEW accuracy_damping AS  -- e, phi: difference from a run with the same start without damping
+SELECT r.*, r.true_e - b.true_e AS e, r.true_phi - b.true_phi AS phi FROM accuracy_runs r JOIN (
+  SELECT start, true_e, true_phi FROM accuracy_runs
+  WHERE study = 'damping' AND scene = 't8' AND mix = 'AM1' AND density_scaling = 1e4 AND damping_kind = 'none'
+  UNION ALL SELECT 'steady', true_e, true_phi FROM accuracy_scaled WHERE scene = 't8' AND density_scaling = 1e4) b
+ON r.start = b.start WHERE r.study = 'damping' AND r.scene = 't8' AND r.mix = 'AM1' AND r.density_scaling = 1e4;
+
+CREATE VIEW accuracy_tolerance AS  -- the larger of both errors, achieved and beside the prediction
+SELECT *, max(abs(true_e), abs(radians(true_phi))) AS achieved,
+  max(abs(true_e - ((1 + true_e) / (1 + own_e) - 1)), radians(abs(own_phi))) AS off,
+  iif(seconds_by_hand > 0 AND finite(seconds_by_hand), seconds / seconds_by_hand, NULL) AS over_hand
+FROM accuracy_runs WHERE study = 'tolerance';
+
+CREATE VIEW accuracy_kept AS  -- runs with a tolerance: tried, failed, and those that kept it
+SELECT count(*) AS tried, sum(status <> 'done') AS failed,
+  (SELECT sum(achieved <= tolerance) FROM accuracy_tolerance) AS kept FROM accuracy_tried WHERE study = 'tolerance';
+
+CREATE VIEW accuracy_drift AS  -- e, phi: difference from double precision or, for double, from the harmonic solution
+SELECT r.*, iif(d.n IS NULL OR r.precision = 'double', r.own_e, r.e_star_pa / d.e_star_pa - 1) AS e,
+  iif(d.n IS NULL OR r.precision = 'double', r.own_phi, r.phase_deg - d.phase_deg) AS phi
+FROM accuracy_runs r LEFT JOIN (
+  SELECT *, max(n) FROM accuracy_runs WHERE study = 'drift' AND precision = 'double'
+  GROUP BY name, frequency_hz, density_scaling, cycles, geometry) d
+USING (name, frequency_hz, density_scaling, cycles, geometry) WHERE r.study = 'drift';
+
+CREATE VIEW accuracy_single AS  -- all runs in single precision
+SELECT name, steps, cycles, e, phi FROM accuracy_drift WHERE precision = 'single' UNION ALL
+SELECT name, steps, cycles, own_e, own_phi FROM accuracy_runs
+WHERE study = 'tolerance' AND precision = 'single' AND geometry = 'fixed';
+
+CREATE VIEW accuracy_forms AS  -- contact points against condensed contacts, in double precision
+SELECT p.e_star_pa / c.e_star_pa - 1 AS e, p.phase_deg - c.phase_deg AS phi FROM accuracy_runs p JOIN accuracy_runs c
+USING (study, name, precision, geometry, density_scaling, frequency_hz)
+WHERE study = 'front' AND precision = 'double' AND p.form = 'points' AND c.form = 'condensed';
+
+CREATE VIEW accuracy_steps AS  -- fraction of the computed step: the largest stable one, the smallest that failed
+SELECT name, min(n) AS n, failed,
+  max(iif(status = 'done' AND step_share < coalesce(failed, 99), step_share, NULL)) AS stable
+FROM (SELECT *, min(iif(status <> 'done', step_share, NULL)) OVER (PARTITION BY name) AS failed
+      FROM accuracy_tried WHERE study = 'step_share') GROUP BY name;
+
+CREATE VIEW accuracy_filters AS  -- contacts dropped and time saved against the scene without a filter; e: of the model
+SELECT r.name, r.gap_max, r.area_min, 1 - r.contacts / b.contacts AS dropped,
+  1 - r.seconds / r.steps / (b.seconds / b.steps) AS saved, r.model_e_star AS e
+FROM accuracy_runs r JOIN accuracy_runs b USING (study, name)
+WHERE study = 'filter' AND b.gap_max IS NULL AND b.area_min IS NULL;
+
+CREATE VIEW precision_runs AS  -- the larger of both errors, as the program estimates it
+SELECT rowid AS n, *, max(abs(e_star), abs(phase_rad)) AS off FROM "precision.csv";
+
+CREATE VIEW stable_limits AS  -- computed step over the true limit; usual: of usual specimens
+SELECT measured, iif("case" = 'step_bound' AND quantity = 'computed / true limit', measured, NULL) AS usual
+FROM "stability-intel-xeon.csv"
+WHERE quantity LIKE '%computed / true limit' AND quantity NOT LIKE 'mean%';
+
+-- The frequency domain
+
+CREATE VIEW linear_pairs AS  -- scenes that ran with the iterative and the direct solver
+SELECT i.scene, i.particles, d.solve_s / i.solve_s AS factor,
+  max(abs(i.e_star_pa_2 / d.e_star_pa_2 - 1), abs(i.e_star_pa_5 / d.e_star_pa_5 - 1),
+      abs(i.e_star_pa_10 / d.e_star_pa_10 - 1), abs(i.e_star_pa_20 / d.e_star_pa_20 - 1)) AS e,
+  max(abs(i.phase_deg_2 - d.phase_deg_2), abs(i.phase_deg_5 - d.phase_deg_5),
+      abs(i.phase_deg_10 - d.phase_deg_10), abs(i.phase_deg_20 - d.phase_deg_20)) AS phi
+FROM "linear-solvers.csv" i JOIN "linear-solvers.csv" d USING (scene)
+WHERE i.linear = 'iterative' AND d.linear = 'direct';
+
+CREATE VIEW iteration_counts AS  -- a row per size: without boxes (0), with the solver's choice (1), with 640 (2)
+SELECT a.particles, a.contacts, b.boxes, a.iterations AS n0, b.iterations AS n1, c.iterations AS n2,
+  a.converged AS ok0, b.converged AS ok1, c.converged AS ok2, a.preconditioner_s + a.solve_s AS s0,
+  b.preconditioner_s + b.solve_s AS s1, c.preconditioner_s + c.solve_s AS s2
+FROM "iterations.csv" a JOIN "iterations.csv" b ON b.particles = a.particles AND b.boxes BETWEEN 1 AND 639
+LEFT JOIN "iterations.csv" c ON c.particles = a.particles AND c.boxes = 640 WHERE a.boxes = 0;
+
+-- Shapes, fillings and voids
+
+CREATE VIEW cubes AS  -- the modulus of an aggregate cube: means and half ranges of three seeds
+SELECT *, text('{:.2f} ± {:.2f}', walls, walls_half) AS walls_cell,
+  text('{:.2f} ± {:.2f}', gauge, gauge_half) AS gauge_cell
+FROM (SELECT spheres, filling, porosity, edge_mm, wall_gpa, sides, avg(number) AS number, avg(poisson) AS poisson,
+        avg(walls_gpa) AS walls, (max(walls_gpa) - min(walls_gpa)) / 2 AS walls_half, avg(gauge_gpa) AS gauge,
+        (max(gauge_gpa) - min(gauge_gpa)) / 2 AS gauge_half, avg(uniform_strain_gpa) AS uniform
+      FROM "aggregate-cube.csv" WHERE seed <= 3 GROUP BY spheres, filling, porosity, edge_mm, wall_gpa, sides);
+
+CREATE VIEW cubes_20 AS  -- cubes of 20 mm without voids between walls of 115.1 GPa, up to twenty seeds
+SELECT * FROM "aggregate-cube.csv"
+WHERE porosity = 0 AND edge_mm = 20 AND wall_gpa = 115.1 AND sides = 'free' AND seed <= 20;
+
+CREATE VIEW cube_means AS  -- means of cubes_20
+SELECT spheres, filling, avg(walls_gpa) AS walls, avg(gauge_gpa) AS gauge, avg(uniform_strain_gpa) AS uniform,
+  avg(contact_for_walls_gpa) AS contact_walls, avg(contact_for_gauge_gpa) AS contact_gauge
+FROM cubes_20 GROUP BY spheres, filling;
+
+CREATE VIEW fillings AS  -- means of the seeds; long, intermediate, short: dimension of the cluster over the shape's
+SELECT shape, radius_min_mm AS low, radius_max_mm AS high, avg(spheres) AS spheres, avg(covered) AS covered,
+  avg(outside) AS outside, avg(deviation_mean_mm) AS deviation, avg(d_long_mm / shape_d_long_mm) AS long,
+  avg(d_intermediate_mm / shape_d_intermediate_mm) AS intermediate, avg(d_short_mm / shape_d_short_mm) AS short
+FROM "fill-study.csv" GROUP BY shape, radius_min_mm, radius_max_mm;
+
+CREATE VIEW dense_fillings AS  -- without voids, at 12.59 mm: means of the seeds
+SELECT shape, radius_min_mm AS low, radius_max_mm AS high, avg(spheres) AS spheres,
+  text('{:,.0f}, {:.0f} %', avg(spheres), 100 * avg(covered)) AS cell
+FROM "fill-porosity-0.csv" WHERE d_intermediate_mm = 12.59 GROUP BY shape, radius_min_mm, radius_max_mm;
+
+CREATE VIEW library_fillings AS  -- without voids, all shapes at 9 mm that become clusters
+SELECT * FROM "fill-porosity-0.csv" WHERE d_intermediate_mm = 9 AND spheres > 1;
+
+CREATE VIEW void_effects AS  -- means of the seeds; e (%) and phi: change from the same seeds without voids
+SELECT r.radius_min_mm AS low, r.radius_max_mm AS high, r.fraction, r.frequency_hz, min(r.rowid) AS n,
+  avg(r.voids) AS voids, avg(r.void_cells) AS cells, avg(r.e_star_pa) AS e_star, avg(r.phase_deg) AS phase,
+  avg(100 * (r.e_star_pa / o.e_star_pa - 1)) AS e, avg(r.phase_deg - o.phase_deg) AS phi
+FROM "voids.csv" r JOIN "voids.csv" o USING (radius_min_mm, radius_max_mm, frequency_hz, seed)
+WHERE o.fraction = 0 GROUP BY 1, 2, 3, 4;
+
+CREATE VIEW shape_correlations AS  -- Pearson's coefficients, ours and the paper's
+SELECT first, second, coefficient AS paper, CASE second
+  WHEN 'd_intermediate_m' THEN o.d_intermediate_m WHEN 'd_short_m' THEN o.d_short_m WHEN 'volume_m3' THEN o.volume_m3
+  WHEN 'area_m2' THEN o.area_m2 WHEN 'shape_index' THEN o.shape_index WHEN 'flatness' THEN o.flatness
+  WHEN 'flakiness' THEN o.flakiness WHEN 'elongation' THEN o.elongation WHEN 'sphericity_true' THEN o.sphericity_true
+  WHEN 'sphericity_working' THEN o.sphericity_working END AS ours
+FROM "bench/paper/paper-table-2.csv" JOIN "shapes-correlation.csv" o ON o.property = first;
+
+-- Specimens and their results
+
+CREATE VIEW study_means AS  -- |E*| (MPa) of a mix, and the variance of its seeds relative to it
+SELECT m.*, (SELECT sum((e_star_mpa / m.e - 1) * (e_star_mpa / m.e - 1)) / (count(*) - 1) FROM "study.csv" s
+  WHERE s.air_voids_percent = m.air_voids_percent AND s.binder_percent = m.binder_percent) AS variance
+FROM (SELECT air_voids_percent, binder_percent, avg(e_star_mpa) AS e FROM "study.csv" GROUP BY 1, 2) m;
+
+CREATE VIEW twin_differences AS  -- twin and source: e (%) and phi (degrees). Seeds of repacked twins have 1000 more
+SELECT s."case", s.seed, t.kind, t.frequency_hz, 100 * (t.e_star_pa / s.e_star_pa - 1) AS e,
+  t.phase_deg - s.phase_deg AS phi
+FROM "ct-twin.csv" s JOIN "ct-twin.csv" t ON t."case" = s."case" AND t.frequency_hz = s.frequency_hz
+AND t.seed = s.seed + iif(t.kind = 'repacked', 1000, 0) WHERE s.kind = 'source' AND t.kind <> 'source';
+
+CREATE VIEW twin_phases AS  -- twins of the segmentation at the lowest frequency: mean of the seeds, its standard error
+SELECT "case", avg(phi) AS mean,
+  sqrt((sum(phi * phi) - count(*) * avg(phi) * avg(phi)) / (count(*) - 1) / count(*)) AS error FROM twin_differences
+WHERE kind = 'segmented' AND frequency_hz = (SELECT min(frequency_hz) FROM "ct-twin.csv") GROUP BY "case";
+
+CREATE VIEW mastic_moduli AS  -- examples/mastic: the program's table, beside one contact of its law
+SELECT m.*, c.modulus_gpa, c.phase_deg AS contact_phase FROM (
+  SELECT cast(part(line, '^ +([\d.]+)') AS REAL) AS hz, cast(part(line, '^ +[\d.]+ +([\d.]+)') AS REAL) AS e,
+    cast(part(line, '^ +[\d.]+ +[\d.]+ +([\d.]+)') AS REAL) AS phase,
+    cast(part(line, '^(?: +\S+){3} +(\S+)') AS REAL) AS error_e,
+    cast(part(line, '^(?: +\S+){4} +(\S+)') AS REAL) AS error_phase
+  FROM "mastic-output.txt" WHERE matches(line, '^ +[\d.]+ +[\d.]+ +[\d.]+ +\S+ +\S+ +\S+ +\d+')) m
+JOIN "mastic-contact.csv" c ON c.frequency_hz = m.hz;
+
+CREATE VIEW printed_lines AS  -- the lines that runs printed about their specimens, with those of the size classes
+SELECT 'demo' AS scene, line FROM "demo-output.txt" UNION ALL SELECT 'ac14_ss_am1', line FROM "paper-output.txt";
+
+CREATE VIEW printed_sizes AS  -- their numbers of particles and contacts
+SELECT p.scene, cast(part(line, '^(\d+) particles') AS REAL) AS particles,
+  cast(part(line, '(\d+) contacts') AS REAL) AS contacts,
+  cast(part(line, '(\d+) contact points') AS REAL) AS points, cast(part(line, 'M-M (\d+)') AS REAL) AS mm,
+  cast(part(line, 'M-A (\d+)') AS REAL) AS ma, cast(part(line, 'A-A (\d+)') AS REAL) AS aa,
+  cast(part(line, 'A-W (\d+)') AS REAL) AS aw, cast(part(line, 'M-W (\d+)') AS REAL) AS mw, aggregates
+FROM printed_lines p JOIN (
+  SELECT scene, sum(cast(part(line, '^[\d.]+-[\d.]+ mm +\d+ +(\d+)') AS REAL)) AS aggregates FROM printed_lines
+  GROUP BY scene)
+USING (scene) WHERE matches(line, '^\d+ particles');
+
+CREATE VIEW paper_deviations AS  -- of clusters from single spheres, %: "+14 to +18 % (paper +19 %)"
+SELECT quantity, part(specimen, '([^-]*)$') AS filling, text('{} % (paper {} %)', span(ours, text('{:+.0f}', ours)),
+  span(paper, text('{:+.0f}', paper))) AS both
+FROM "paper-summary.csv" WHERE quantity IN ('e_star', 'phase') GROUP BY 1, 2;
+
+CREATE VIEW paper_met AS  -- the sentence on how well the reference publication is reproduced
+SELECT text('The paper''s tables of shapes and compositions are met; its stiffness figures are met in sign and order, not '
+  || 'in size: coarse clusters change \|E\*\| of single spheres by {} and fine ones by {}, φ of fine ones by {}; clusters '
+  || 'have {} % fewer contacts between aggregates, and the calibrated factor δ_MA of the coarse real shapes is {}.',
+  (SELECT one(both) FROM paper_deviations WHERE quantity = 'e_star' AND filling = 'coarse'),
+  (SELECT one(both) FROM paper_deviations WHERE quantity = 'e_star' AND filling = 'fine'),
+  (SELECT one(both) FROM paper_deviations WHERE quantity = 'phase' AND filling = 'fine'),
+  (SELECT span(ours, text('{:.0f}', ours)) FROM "paper-summary.csv" WHERE quantity = 'fewer contacts'),
+  (SELECT text('{:.2f} ({:.2f})', one(ours), one(paper)) FROM "paper-summary.csv" WHERE quantity = 'delta_ma')) AS sentence;
+
+-- Times
+
+CREATE VIEW bench_cpu AS  -- macadam bench on a processor
+SELECT rowid AS n, part(row, '([^/]+)/[^/]+/[^/]+/threads') AS form, part(row, '([^/]+)/[^/]+/threads') AS precision,
+  part(row, '([^/]+)/threads') AS geometry, part(row, 'threads:(\d+)') AS threads, us / 1e3 AS ms,
+  bytes_per_contact AS bytes, contacts / us AS contacts, memory_share AS share FROM "bench-cpu-2026-11-23.csv";
+
+CREATE VIEW bench_cpu_pairs AS  -- contact points over condensed contacts, with the same settings
+SELECT p.bytes / c.bytes AS bytes, p.ms / c.ms AS ms FROM bench_cpu c JOIN bench_cpu p
+USING (precision, geometry, threads) WHERE c.form = 'condensed' AND p.form = 'points';
+
+CREATE VIEW command_phases AS  -- bench/command/run, all machines
+SELECT 'command-cpu.csv' AS file, rowid AS n, * FROM "command-cpu.csv" UNION ALL
+SELECT 'command-gpu.csv', 1e6 + rowid, * FROM "command-gpu.csv";
+
+CREATE VIEW command_machines AS  -- a row per file of command_phases
+SELECT file, iif(device IS NULL, machine, text('{} and {}', device, machine)) AS machine, threads, date, "commit",
+  listed(runs, runs) || iif(max(runs) = 1, ' run', ' runs') AS number,
+  part(comment(file), '([^; ][^;]*)$') AS note, min(n)
+FROM command_phases GROUP BY file;
+
+CREATE VIEW gpu_scenes AS  -- names of scenes in tables
+SELECT column1 AS k, column2 AS scene, column3 AS name FROM (VALUES
+  (1, 'ac14_ss_am1', 'full specimen, 221,000 contacts'), (2, 'ac14_ms_ico_fine', 'MS-Ico-fine, 441,000 contacts'),
+  (3, 'lattice:1e6', 'lattice of 10⁶, 5.9·10⁶ contacts'));
+
+CREATE VIEW gpu_teams AS  -- microseconds on one GPU and on two
+SELECT 'H100' AS gpu, a.row, a.us AS alone, b.us AS both, b.path FROM "team-h100-2026-11-24.csv" a
+JOIN "team-h100-2026-11-24.csv" b ON b.row = a.row || '/devices:2' UNION ALL
+SELECT 'H200', a.row, a.us, b.us, NULL FROM "team-harmonic-h200-2026-11-27.csv" a
+JOIN "team-harmonic-h200-2026-11-27.csv" b ON b.row = a.row || '/devices:2';
+
+CREATE VIEW many_means AS  -- mean seconds of many specimens on one GPU and on two, per version k of the program
+SELECT "commit", row_number() OVER (ORDER BY min(rowid)) AS k, row_number() OVER (ORDER BY min(rowid) DESC) AS last,
+  max(how LIKE 'tried: %') AS tried, avg(iif(devices = 1, seconds, NULL)) AS one_gpu,
+  avg(iif(devices = 2, seconds, NULL)) AS two_gpus, max(gpu) AS gpu, max(date) AS date
+FROM "many.csv" GROUP BY "commit";
+
+-- Tests
+
+CREATE VIEW mutations AS  -- deliberate mistakes in the code, per sample k
+SELECT 1 AS k, file, verdict FROM "mutation.csv" UNION ALL SELECT 2, file, verdict FROM "mutation-second.csv" UNION ALL
+SELECT 3, file, verdict FROM "mutation-third.csv" UNION ALL SELECT 4, file, verdict FROM "mutation-fourth.csv" UNION ALL
+SELECT 5, file, verdict FROM "mutation-fifth.csv" UNION ALL SELECT 6, file, verdict FROM "mutation-sixth.csv" UNION ALL
+SELECT 7, file, verdict FROM "mutation-seventh.csv";
+
+CREATE VIEW mutation_survivors AS  -- mistakes that no test noticed, as they were judged
+SELECT 1 AS k, looked_at FROM "mutation-survivors.csv" UNION ALL
+SELECT 2, looked_at FROM "mutation-second-survivors.csv" UNION ALL
+SELECT 3, looked_at FROM "mutation-third-survivors.csv" UNION ALL
+SELECT 4, looked_at FROM "mutation-fourth-survivors.csv" UNION ALL
+SELECT 5, looked_at FROM "mutation-fifth-survivors.csv" UNION ALL
+SELECT 6, looked_at FROM "mutation-sixth-survivors.csv" UNION ALL
+SELECT 7, looked_at FROM "mutation-seventh-survivors.csv";
+
+CREATE VIEW mutation_rates AS  -- per sample: noticed; changed: those that change a result; since: with later tests
+SELECT k, count(*) AS drawn, 1.0 * sum(verdict = 'killed') / sum(verdict IN ('killed', 'survived')) AS noticed,
+  sum(verdict = 'killed') AS killed, count(*) - s.same AS changed,
+  1.0 * sum(verdict = 'killed') / (count(*) - s.same) AS at_once,
+  1.0 * (sum(verdict = 'killed') + s.since) / (count(*) - s.same) AS since,
+  count(*) - sum(verdict = 'killed') - s.judged AS not_judged
+FROM mutations JOIN (SELECT k, sum(looked_at = 'same') AS same, sum(looked_at = 'tested since') AS since,
+                       count(looked_at) AS judged FROM mutation_survivors GROUP BY k) s USING (k) GROUP BY k;
