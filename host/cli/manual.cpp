@@ -38,7 +38,7 @@ std::string option_entry(const CLI::Option& option) {
 }
 
 std::string command_entry(const CLI::App& command, const std::string& name) {
-  std::string out = fmt::format(".SS \"{}\"\n{}\n", escaped(name), plain(command.get_description()));
+  std::string out = fmt::format(".SS \"{}\"\n{}\n", escaped(name), escaped(command.get_description()));
   for (const CLI::Option* option : command.get_options())
     if (option != command.get_help_ptr()) out += option_entry(*option);
   const auto examples = examples_of(command);
