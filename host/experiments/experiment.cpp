@@ -29,41 +29,6 @@ Experiment scene::read_experiment(const Section& section) {
                     kinds[kind ? kind->choice(names) : 0]);
 }
 
-const char* kind_of(const Experiment& experiment) {
-  return std::visit([](const auto& spec) { return spec.kind; }, experiment);
-}
-
-experiments::Stepping stepping_of(const Experiment& experiment) {
-  return std::visit([](const auto& spec) { return spec.stepping; }, experiment);
-}
-
-std::vector<double> frequencies_of(const Experiment& experiment) {
-  return std::visit(
-      [](const auto& spec) -> std::vector<double> {
-        if constexpr (requires { spec.frequencies; }) return spec.frequencies;
-        return {};
-      },
-      experiment);
-}
-
-std::vector<double> temperatures_of(const Experiment& experiment) {
-  return std::visit(
-      [](const auto& spec) -> std::vector<double> {
-        if constexpr (requires { spec.temperatures; }) return spec.temperatures;
-        return {};
-      },
-      experiment);
-}
-
-bool has_fields(const Scene& scene) {
-  return scene.solver.method == SolverMethod::explicit_ || !frequencies_of(scene.experiment).empty();
-}
-
-std::vector<std::string> files_of(const Experiment& experiment) {
-  return std::visit([](const auto& spec) { return std::vector<std::string>(spec.files.begin(), spec.files.end()); },
-                    experiment);
-}
-
 std::vector<std::string> result_files() {
   std::vector<std::string> out = {"contacts.csv", "summary.json", "cracks.csv"};
   for_each_kind([&](const Experiment& experiment) {
