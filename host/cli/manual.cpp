@@ -10,7 +10,7 @@ namespace macadam {
 namespace {
 
 /// Escapes the characters of a text that troff would interpret.
-std::string plain(const std::string& text) {
+std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '\\')
@@ -27,22 +27,23 @@ std::string plain(const std::string& text) {
   return out;
 }
 
-std::string bold(const std::string& text) { return "\\fB" + plain(text) + "\\fR"; }
+std::string bold(const std::string& text) { return "\\fB" + escaped(text) + "\\fR"; }
 
 std::string option_entry(const CLI::Option& option) {
   const bool positional = option.get_positional();
   std::string out = ".TP\n" + bold(option.get_name(positional, !positional));
-  if (const std::string value = value_of(option); !value.empty() && !positional) out += " \\fI" + plain(value) + "\\fR";
-  return out + "\n" + plain(words_of(option)) + "\n";
+  if (const std::string value = value_of(option); !value.empty() && !positional)
+    out += " \\fI" + escaped(value) + "\\fR";
+  return out + "\n" + escaped(description_of(option)) + "\n";
 }
 
 std::string command_entry(const CLI::App& command, const std::string& name) {
-  std::string out = fmt::format(".SS \"{}\"\n{}\n", plain(name), plain(command.get_description()));
+  std::string out = fmt::format(".SS \"{}\"\n{}\n", escaped(name), escaped(command.get_description()));
   for (const CLI::Option* option : command.get_options())
     if (option != command.get_help_ptr()) out += option_entry(*option);
   const auto examples = examples_of(command);
   if (!examples.empty()) out += ".PP\nExamples:\n.PP\n.nf\n.RS\n";
-  for (const std::string& example : examples) out += plain(example) + "\n";
+  for (const std::string& example : examples) out += escaped(example) + "\n";
   if (!examples.empty()) out += ".RE\n.fi\n";
   for (const CLI::App* below : command.get_subcommands(nullptr))
     out += command_entry(*below, name + " " + below->get_name());
@@ -56,10 +57,11 @@ std::string manual_page(const CLI::App& app) {
       ".\\\" made by macadam man\n.TH MACADAM 1 \"\" \"Macadam {}\" \"User Commands\"\n.SH NAME\nmacadam \\- discrete "
       "elements for bituminous mixtures and other bonded granular solids\n.SH SYNOPSIS\n{} \\fICOMMAND\\fR "
       "[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n{}\n",
-      plain(version()), bold("macadam"),
-      plain("Macadam makes a specimen of a mixture, tests it, and gives its complex modulus, its relaxation, its creep "
-            "or its curve of stress and strain. A scene is a text file that describes the specimen and its test: "
-            "\"macadam new\" writes one to start from, \"macadam run\" runs it."));
+      escaped(version()), bold("macadam"),
+      escaped(
+          "Macadam makes a specimen of a mixture, tests it, and gives its complex modulus, its relaxation, its creep "
+          "or its curve of stress and strain. A scene is a text file that describes the specimen and its test: "
+          "\"macadam new\" writes one to start from, \"macadam run\" runs it."));
   out += ".SH OPTIONS\n";
   for (const CLI::Option* option : app.get_options()) out += option_entry(*option);
   out += ".SH COMMANDS\n";
@@ -74,7 +76,7 @@ std::string manual_page(const CLI::App& app) {
             "leaves their cores to other programs"},
            {"MACADAM_PYTHON", "Python interpreter with the package macadam, for report and study"},
            {"MACADAM_PLUGIN_PATH", "folder of the CUDA backend's library"}})
-    out += fmt::format(".TP\n{}\n{}\n", bold(name), plain(text));
+    out += fmt::format(".TP\n{}\n{}\n", bold(name), escaped(text));
   return out;
 }
 

@@ -36,41 +36,6 @@ std::vector<Experiment> all_experiments() {
   return out;
 }
 
-const char* kind_of(const Experiment& experiment) {
-  return std::visit([](const auto& spec) { return spec.kind; }, experiment);
-}
-
-experiments::Stepping stepping_of(const Experiment& experiment) {
-  return std::visit([](const auto& spec) { return spec.stepping; }, experiment);
-}
-
-std::vector<double> frequencies_of(const Experiment& experiment) {
-  return std::visit(
-      [](const auto& spec) -> std::vector<double> {
-        if constexpr (requires { spec.frequencies; }) return spec.frequencies;
-        return {};
-      },
-      experiment);
-}
-
-std::vector<double> temperatures_of(const Experiment& experiment) {
-  return std::visit(
-      [](const auto& spec) -> std::vector<double> {
-        if constexpr (requires { spec.temperatures; }) return spec.temperatures;
-        return {};
-      },
-      experiment);
-}
-
-bool has_fields(const Scene& scene) {
-  return scene.solver.method == SolverMethod::explicit_ || !frequencies_of(scene.experiment).empty();
-}
-
-std::vector<std::string> files_of(const Experiment& experiment) {
-  return std::visit([](const auto& spec) { return std::vector<std::string>(spec.files.begin(), spec.files.end()); },
-                    experiment);
-}
-
 std::vector<std::string> files_of_run(const Scene& scene, bool aggregates) {
   std::vector<std::string> out = {"summary.json", "specimen.csv"};
   if (aggregates) out.emplace_back("aggregates.csv");

@@ -54,7 +54,7 @@ class MaterialSolution : public Solution {
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     save("running");
-    options_.told = [&](int solutions, double error) {
+    options_.on_progress = [&](int solutions, double error) {
       if (watcher_.progress) {
         watcher_.progress(fmt::format("spectrum: {} solutions, error {:.1e} (tolerance {:.1e})", solutions, error,
                                       options_.tolerance),

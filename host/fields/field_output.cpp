@@ -115,12 +115,12 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
   std::vector<FieldArray> of_particles = particle_arrays(state);
   if (geometry == Geometry::fixed) state.displacement.clear();
   // the reference backend does not report the states of its contacts
-  const bool told = scene_.solver.backend != Backend::reference;
+  const bool has_contact_states = scene_.solver.backend != Backend::reference;
   ContactState carried;
-  if (spec.contacts || told) carried = stepper.contacts(prepared_.network);
+  if (spec.contacts || has_contact_states) carried = stepper.contacts(prepared_.network);
   if (!writes_) return;  // this rank's data have been sent to the first rank above
   if (particles_) {
-    if (told) of_particles.push_back(stress_array(prepared_.tessellation, prepared_.network, carried));
+    if (has_contact_states) of_particles.push_back(stress_array(prepared_.tessellation, prepared_.network, carried));
     particles_->add(time, of_particles);
   }
   if (!contacts_) return;

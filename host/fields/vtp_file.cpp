@@ -46,7 +46,7 @@ class VtpText {
     append(values.data(), bytes);
   }
 
-  std::string whole() const {
+  std::string document() const {
     return fmt::format("{}<AppendedData encoding=\"raw\">\n_{}\n</AppendedData>\n</VTKFile>\n",
                        std::string_view(text_.data(), text_.size()), appended_);
   }
@@ -94,7 +94,7 @@ std::string text_of(const FieldMesh& mesh, const std::vector<FieldArray>& arrays
   out.array("connectivity", "", 1, mesh.connectivity);
   out.array("offsets", "", 1, std::vector(mesh.offsets.begin() + 1, mesh.offsets.end()));  // the end of each cell
   out.line("</{}>\n</Piece>\n</PolyData>", cells);
-  return out.whole();
+  return out.document();
 }
 
 /// A frame in the list of frames.
@@ -111,7 +111,7 @@ class VtpSeries : public FieldSeries {
  public:
   VtpSeries(const std::filesystem::path& stem, FieldMesh mesh, std::optional<double> until)
       : stem_(stem), mesh_(std::move(mesh)) {
-    if (until && std::filesystem::exists(list())) go_on(*until);
+    if (until && std::filesystem::exists(list())) reopen(*until);
   }
 
   std::size_t size() const override { return frames_.size(); }
@@ -142,7 +142,7 @@ class VtpSeries : public FieldSeries {
   }
 
   /// Reads the list of an existing series and removes the frames from time `until` on.
-  void go_on(double until) {
+  void reopen(double until) {
     std::ifstream in(list(), std::ios::binary);
     in.exceptions(std::ios::badbit);  // lack of memory must not be taken for a damaged file
     const auto refuse = [&](const std::string& found) {

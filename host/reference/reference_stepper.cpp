@@ -250,16 +250,16 @@ class ReferenceStepper : public Stepper {
   void move_walls() {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       WallPlane& wall = walls_[w];
-      const WallMotionSpec& told = options_.boundary.wall[w];
+      const WallMotionSpec& motion = options_.boundary.wall[w];
       Vector3d loaded = wall.force;  // force of the particles plus force of the drives
       for (int axis = 0; axis < 3; ++axis) {
-        const WallAxis& driven = told.axis[static_cast<std::size_t>(axis)];
+        const WallAxis& driven = motion.axis[static_cast<std::size_t>(axis)];
         if (driven.by == DrivenBy::force) loaded[axis] += driven.drive->value(step_);
       }
-      const Vector3d free = told.mass > 0 ? accelerate(wall.velocity, loaded, told.mass * options_.density_scaling)
-                                          : Vector3d(Vector3d::Zero());
+      const Vector3d free = motion.mass > 0 ? accelerate(wall.velocity, loaded, motion.mass * options_.density_scaling)
+                                            : Vector3d(Vector3d::Zero());
       for (int axis = 0; axis < 3; ++axis) {
-        const WallAxis& driven = told.axis[static_cast<std::size_t>(axis)];
+        const WallAxis& driven = motion.axis[static_cast<std::size_t>(axis)];
         if (driven.by == DrivenBy::displacement) wall.velocity[axis] = driven.drive->rate(step_);
         if (driven.by == DrivenBy::force) wall.velocity[axis] = free[axis];
       }

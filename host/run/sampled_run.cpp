@@ -39,12 +39,12 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
   std::int64_t step = stepper.observe().step;
   const std::int64_t begun = step, end = course.step_of(course.last);
   const std::int64_t every = watcher_.stepped ? watcher_.every : 0, between = course.between_every;
-  bool told = !course.foretold;
+  bool is_reported = !course.report_remaining;
   const auto speed = [&](std::int64_t now) { return static_cast<double>(now - begun) / seconds_since(start); };
   const auto look = [&](std::int64_t now) {
-    if (!told && seconds_since(start) > first_seconds) {
-      told = true;
-      course.foretold(static_cast<double>(end - now) / speed(now));
+    if (!is_reported && seconds_since(start) > first_seconds) {
+      is_reported = true;
+      course.report_remaining(static_cast<double>(end - now) / speed(now));
     }
     const InPhase writing(result_.phases, &PhaseSeconds::writing);  // takes time only if a checkpoint is due
     checkpoints_.look(course.content, stepper, course.name);

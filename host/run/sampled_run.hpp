@@ -40,7 +40,7 @@ struct Course {
       shown;        ///< returns a text about the progress, to be printed
   Content content;  ///< of a checkpoint, without the stepper's state
   /// Called after the first seconds with the predicted remaining time [s]. May be empty.
-  std::function<void(double seconds)> foretold = {};
+  std::function<void(double seconds)> report_remaining = {};
 };
 
 /// Runs the courses of an experiment, which share a checkpoint and the field output.

@@ -28,7 +28,7 @@ Reader box_into(Box& box) {
 }
 
 /// Refuses a section that has both keys, or neither.
-void need_one_of(const Section& section, const std::string& a, const std::string& b) {
+void require_one_of(const Section& section, const std::string& a, const std::string& b) {
   const bool both = section.has(a) && section.has(b);
   if (both || (!section.has(a) && !section.has(b))) {
     section.refuse(both ? b : a, both ? a + " and " + b : "neither " + a + " nor " + b, "exactly one of the two");
@@ -36,7 +36,7 @@ void need_one_of(const Section& section, const std::string& a, const std::string
 }
 
 /// Refuses a diameter [m] that is not smaller than every edge of the box.
-void need_to_fit(const Section& section, const std::string& key, double diameter, const Box& box) {
+void require_fit_in_box(const Section& section, const std::string& key, double diameter, const Box& box) {
   const double edge = std::min({box.size.x, box.size.y, box.size.z});
   if (diameter >= edge) {
     section.refuse(key, fmt::format("diameters up to {} m", diameter),
@@ -54,8 +54,8 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
                  "fraction of the solid volume (aggregates and mastic)", "count"},
                 {"count", Need::optional, into(out.count, 1, most_particles),
                  "number of aggregates, in place of volume_fraction", "none"}});
-  need_one_of(section, "volume_fraction", "count");
-  need_to_fit(section, "sieve", out.sieve_max, box);
+  require_one_of(section, "volume_fraction", "count");
+  require_fit_in_box(section, "sieve", out.sieve_max, box);
   return out;
 }
 
@@ -73,8 +73,8 @@ MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
     if (by_mass && section.has(key))
       section.refuse(key, "this key with [specimen.recipe]", "the recipe alone: its air voids are the porosity");
   }
-  if (!by_mass) need_one_of(section, "porosity", "count");
-  need_to_fit(section, "radius", 2 * out.radius_max, box);
+  if (!by_mass) require_one_of(section, "porosity", "count");
+  require_fit_in_box(section, "radius", 2 * out.radius_max, box);
   return out;
 }
 
@@ -88,14 +88,14 @@ VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
        {"fraction", Need::optional, into(out.fraction, ratio, share), "fraction of the volume of the box",
         "count, or the recipe's air voids"},
        {"count", Need::optional, into(out.count, 0, most_particles), "number of voids, in place of fraction", "none"}});
-  if (!by_mass || section.has("count")) need_one_of(section, "fraction", "count");
-  need_to_fit(section, "radius", 2 * out.radius_max, box);
+  if (!by_mass || section.has("count")) require_one_of(section, "fraction", "count");
+  require_fit_in_box(section, "radius", 2 * out.radius_max, box);
   return out;
 }
 
 /// Refuses mixtures that cannot be made, whichever sizes are sampled. The bounds assume the smallest aggregates for
 /// volumes and the largest particles for numbers of particles.
-void need_possible(const Section& section, const SpecimenSpec& spec) {
+void require_possible(const Section& section, const SpecimenSpec& spec) {
   double fractions = 0, counted = 0, counted_most = 0;  // least and greatest volume of the classes given by count
   std::int64_t count = 0;
   for (const AggregateClass& c : spec.aggregate) {
@@ -237,7 +237,7 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
     section.refuse("file", "neither a file nor aggregate or mastic to generate", "one of the two");
   } else {
     if (recipe) follow_recipe(section, *recipe, spec);
-    need_possible(section, spec);
+    require_possible(section, spec);
     if (spec.shapes && spec.aggregate.empty())
       section.refuse("shapes", "shapes without aggregates", "[[specimen.aggregate]] with sieves of the shapes' D^I");
     if (spec.shapes && spec.shapes->placement == PlacementMethod::packing && spec.spacing > 0)

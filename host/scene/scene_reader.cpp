@@ -120,24 +120,24 @@ void check_together(const Scene& scene, const Section& root) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
                                           "kind = \"cyclic\" or \"sweep\", or method = \"explicit\" in [solver]");
   }
-  const auto need_density = [&](bool generated, double density, const std::string& phase) {
+  const auto require_density = [&](bool generated, double density, const std::string& phase) {
     if (generated && density == 0) {
       root.refuse("materials", "no density of the " + phase + " that [specimen] generates",
                   "[materials." + phase + "] with a density");
     }
   };
-  need_density(!scene.specimen.aggregate.empty(), scene.materials.aggregate, "aggregate");
-  need_density(scene.specimen.mastic.has_value(), scene.materials.mastic, "mastic");
-  const auto need_law = [&](PairType pair) {
+  require_density(!scene.specimen.aggregate.empty(), scene.materials.aggregate, "aggregate");
+  require_density(scene.specimen.mastic.has_value(), scene.materials.mastic, "mastic");
+  const auto require_law = [&](PairType pair) {
     if (!scene.laws[static_cast<std::size_t>(pair)]) {
       root.refuse("contacts", std::string("no law for ") + to_string(pair) + ", which [specimen] generates",
                   std::string("[[contacts]] with pair = \"") + to_string(pair) + "\"");
     }
   };
   if (scene.specimen.mastic) {
-    need_law(PairType::mm);
-    need_law(PairType::mw);
-    if (!scene.specimen.aggregate.empty()) need_law(PairType::ma);
+    require_law(PairType::mm);
+    require_law(PairType::mw);
+    if (!scene.specimen.aggregate.empty()) require_law(PairType::ma);
   }
 }
 

@@ -184,7 +184,7 @@ inline Reader positive_into(double& target, const Quantity& quantity, const Rule
           {"number", &quantity, bare.words, written(target)}};
 }
 /// Returns the description of whole numbers in a range.
-inline Words whole(std::int64_t min, std::int64_t max, std::string usual = "") {
+inline Words whole_numbers(std::int64_t min, std::int64_t max, std::string usual = "") {
   return {"whole number", nullptr,
           max == std::numeric_limits<std::int64_t>::max() ? fmt::format("at least {}", min)
                                                           : fmt::format("from {} to {}", min, max),
@@ -193,7 +193,7 @@ inline Words whole(std::int64_t min, std::int64_t max, std::string usual = "") {
 template <class Integer>
 Reader into(Integer& target, std::int64_t min, std::int64_t max = std::numeric_limits<std::int64_t>::max()) {
   return {[&target, min, max](const Value& value) { target = static_cast<Integer>(value.integer(min, max)); },
-          whole(min, max, fmt::format("{}", target))};
+          whole_numbers(min, max, fmt::format("{}", target))};
 }
 inline Reader into(bool& target) {
   return {[&target](const Value& value) { target = value.boolean(); },
@@ -214,7 +214,7 @@ Reader into(Enum& target, std::vector<std::pair<std::string, Enum>> names) {
 template <class Integer>
 Reader into(std::optional<Integer>& target, std::int64_t min, std::int64_t max) {
   return {[&target, min, max](const Value& value) { target = static_cast<Integer>(value.integer(min, max)); },
-          whole(min, max)};
+          whole_numbers(min, max)};
 }
 template <class Enum>
 Reader into(std::optional<Enum>& target, std::vector<std::pair<std::string, Enum>> names) {

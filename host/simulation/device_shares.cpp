@@ -39,7 +39,7 @@ void DeviceShares::put(std::size_t scene, int device, DeviceList may) {
   --to_come_;
 }
 
-int DeviceShares::go_on(std::size_t scene, double work, int most) {
+int DeviceShares::device_for_next_frequency(std::size_t scene, double work, int most) {
   Placed& own = placed_.at(scene);
   own.left = work;
   largest_ = std::max(largest_, work);

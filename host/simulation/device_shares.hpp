@@ -25,7 +25,7 @@ class DeviceShares {
   /// that is the device whose other scenes have the least work left, if the gain is worth making a new stepper. So the
   /// devices end together although scenes differ, and all are used although the number of scenes is not a multiple of
   /// theirs.
-  int go_on(std::size_t scene, double work, int most);
+  int device_for_next_frequency(std::size_t scene, double work, int most);
   /// Records that a scene is done or has failed, whether or not it had a device.
   void end(std::size_t scene);
 

@@ -159,7 +159,9 @@ class Pool {
         const bool resume = options_.resume && has_checkpoint(asked.out);
         Watcher watcher = watcher_of(job);
         watcher.prepared = [&](const Preparation& all) { contacts = static_cast<double>(all.network.contacts.size()); };
-        watcher.devices = [&](std::int64_t steps) { return go_on(job, static_cast<double>(steps) * contacts); };
+        watcher.devices = [&](std::int64_t steps) {
+          return devices_for_next_frequency(job, static_cast<double>(steps) * contacts);
+        };
         watcher.planned = [&, begun = watcher.planned](const RunResult& result) {
           if (result.backend == Backend::cuda) cores.reset();
           begun(result);
@@ -249,9 +251,9 @@ class Pool {
   }
 
   /// Returns the device on which a scene continues that has this much work left.
-  DeviceList go_on(std::size_t job, double work) {
+  DeviceList devices_for_next_frequency(std::size_t job, double work) {
     const std::lock_guard lock(mutex_);
-    return {devices_taken_.go_on(job, work, beside_)};
+    return {devices_taken_.device_for_next_frequency(job, work, beside_)};
   }
 
   /// Returns a watcher that passes the progress and the warnings of a scene to the options' functions, one thread at a

@@ -69,7 +69,7 @@ class Finder {
       // same factor as in the round before.
       out_.error = now * std::min(1.0, now / before) + of_residuals * options_.tolerance;
       before = now;
-      if (options_.told) options_.told(out_.solutions, out_.error);
+      if (options_.on_progress) options_.on_progress(out_.solutions, out_.error);
       if (out_.error <= options_.tolerance && checked()) return finished();
     }
     throw RunError(fmt::format("spectrum: E(t) is known to {:.1e} only after {} solutions, expected {:.1e} at most",

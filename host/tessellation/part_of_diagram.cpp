@@ -55,7 +55,7 @@ class Part {
     for (const SiteTree& tree : all) tree.each_reaching(searched_, [&](std::int32_t i) { take(i); });
   }
 
-  std::vector<Tetrahedron> tetrahedra() { return own_of(all_there()); }
+  std::vector<Tetrahedron> tetrahedra() { return with_own_particles(all_there()); }
 
  private:
   /// Whether a particle is not used yet, will be inserted, or is inserted.
@@ -107,7 +107,7 @@ class Part {
   }
 
   /// Selects the tetrahedra at own particles and renumbers their neighbours.
-  std::vector<Tetrahedron> own_of(const std::vector<Tetrahedron>& all) const {
+  std::vector<Tetrahedron> with_own_particles(const std::vector<Tetrahedron>& all) const {
     std::vector<std::int32_t> number(all.size(), -1);
     std::int32_t count = 0;
     for (std::size_t t = 0; t < all.size(); ++t)

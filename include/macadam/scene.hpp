@@ -97,19 +97,11 @@ struct Scene {
 /// Returns one experiment of each kind, with default values, in the order of the list in experiments/all.hpp.
 std::vector<Experiment> all_experiments();
 
-/// Returns `kind` in `[loading]`.
-const char* kind_of(const Experiment& experiment);
-/// Returns the result files that a run of this experiment may write, in addition to the files that every run writes.
-std::vector<std::string> files_of(const Experiment& experiment);
-/// Returns whether the experiment may be stepped in time (method "explicit").
-experiments::Stepping stepping_of(const Experiment& experiment);
-/// Frequencies [Hz] and temperatures [°C] of the experiment; empty if it has none.
-std::vector<double> frequencies_of(const Experiment& experiment);
-std::vector<double> temperatures_of(const Experiment& experiment);
-
 /// Returns whether a run of the scene yields particle motions that can be drawn: steady states and steps do, spectra do
 /// not.
-bool has_fields(const Scene& scene);
+inline bool has_fields(const Scene& scene) {
+  return scene.solver.method == SolverMethod::explicit_ || !frequencies_of(scene.experiment).empty();
+}
 
 /// Reads a TOML scene and checks everything that can be checked without building the specimen: unknown keys (names the
 /// nearest known one), wrong types, impossible values, missing sections, units ("12.5 mm", "35 GPa").

@@ -75,8 +75,8 @@ struct SpectrumOptions {
   Backend backend = Backend::cpu;         ///< where the solutions are computed
   LinearMethod linear = LinearMethod::automatic;
   DeviceList devices = {};
-  std::function<bool()> stop = {};                             ///< true ends the computation with InterruptedError
-  std::function<void(int solutions, double error)> told = {};  ///< called after every round of solutions
+  std::function<bool()> stop = {};  ///< true ends the computation with InterruptedError
+  std::function<void(int solutions, double error)> on_progress = {};  ///< called after every round of solutions
 };
 
 /// Returns numbers from `first` to `last`, both included, evenly spaced in the logarithm, with `per_decade` or slightly

@@ -22,7 +22,7 @@ class Scenes : public DeviceShares {
     put(placed_++, *device, devices_);
     return *device;
   }
-  int go_on_with(std::size_t scene, double work) { return go_on(scene, work, most_); }
+  int go_on_with(std::size_t scene, double work) { return device_for_next_frequency(scene, work, most_); }
 
  private:
   DeviceList devices_;
@@ -92,8 +92,8 @@ TEST(DeviceShares, MovesToNoFullAndNoForbiddenDevice) {
 
   DeviceShares named(2);
   named.put(0, 0, {0}), named.put(1, 0, {0, 7});
-  EXPECT_EQ(named.go_on(0, 100, 4), 0);
-  EXPECT_EQ(named.go_on(1, 100, 4), 7);
+  EXPECT_EQ(named.device_for_next_frequency(0, 100, 4), 0);
+  EXPECT_EQ(named.device_for_next_frequency(1, 100, 4), 7);
 }
 
 // Simulates six scenes with four frequencies of equal work each; the work differs between scenes. Each device steps its

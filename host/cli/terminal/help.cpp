@@ -42,7 +42,7 @@ std::string value_of(const CLI::Option& option) {
   return option.get_type_size() == 0 || option.get_expected_max() == 0 ? "" : option.get_type_name();
 }
 
-std::string words_of(const CLI::Option& option) {
+std::string description_of(const CLI::Option& option) {
   std::string text = option.get_description();
   if (option.get_required() && !option.get_positional()) text += " (required)";
   if (!option.get_default_str().empty()) text += fmt::format(" [{}]", option.get_default_str());
@@ -52,7 +52,7 @@ std::string words_of(const CLI::Option& option) {
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool positional) const {
-  return entry(option->get_name(positional, !positional) + shown_value(*option), words_of(*option));
+  return entry(option->get_name(positional, !positional) + shown_value(*option), description_of(*option));
 }
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {

@@ -28,6 +28,6 @@ std::vector<std::string> examples_of(const CLI::App& command);
 /// Returns what an option takes: "FILE", "FOLDER", "INT", "auto|cuda|cpu"; empty for a flag.
 std::string value_of(const CLI::Option& option);
 /// Returns the description of an option, with its default and the options that it excludes.
-std::string words_of(const CLI::Option& option);
+std::string description_of(const CLI::Option& option);
 
 }  // namespace macadam

@@ -72,7 +72,7 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
   if (options.backend == Backend::cuda) options.devices = scene.solver.devices;
   options.linear = scene.solver.linear;
   options.stop = watcher.stop;
-  options.told = [&](int solutions, double error) {
+  options.on_progress = [&](int solutions, double error) {
     if (watcher.progress) {
       watcher.progress(fmt::format("response without time steps: {} solutions, error {:.1e}", solutions, error),
                        std::min(1.0, std::log(error) / std::log(spectrum_tolerance)));

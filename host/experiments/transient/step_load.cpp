@@ -112,7 +112,7 @@ class SteppedLoad : public Solution {
   }
 
   /// Warns of a run with very many steps.
-  void foretell() const {
+  void warn_of_many_steps() const {
     const std::int64_t steps = at_.plan.step_at(test_.history.times.back());
     if (steps > many_steps && watcher_.warn) {
       watcher_.warn(fmt::format("the run takes {} time steps of {:.3g} s until t = {:g} s; {}", steps, at_.plan.dt,
@@ -238,7 +238,7 @@ class SteppedLoad : public Solution {
                          static_cast<double>(step) * at_.plan.dt, test_.history.times.back(), steps_a_second);
     };
     course.content = std::move(content);
-    course.foretold = [this](double seconds) {
+    course.report_remaining = [this](double seconds) {
       if (seconds > many_seconds && watcher_.warn) {
         watcher_.warn(fmt::format("the time steps will take about {:.1f} h more; {}", seconds / 3600, fewer_steps()));
       }
@@ -327,7 +327,7 @@ std::unique_ptr<Solution> plan_load_steps(const TransientExperiment& test, const
   }
   auto steps = std::make_unique<SteppedLoad>(test, scene, prepared, watcher, std::move(inertia), std::move(at),
                                              resumed.has_value());
-  steps->foretell();
+  steps->warn_of_many_steps();
   steps->make(result, resumed ? resumed->file : std::filesystem::path());
   steps->begin(result);
   return steps;

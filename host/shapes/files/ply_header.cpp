@@ -33,7 +33,7 @@ PlyProperty property_line(Words& words) {
   const std::string_view first = words.in_line();
   if (first == "list") {
     property.count = type_of(words.in_line(), words);
-    if (!property.count->whole())
+    if (!property.count->is_integer())
       words.fail("length of a list", in_quotes(property.count->name), "a type of whole numbers");
   }
   property.type = type_of(property.count ? words.in_line() : first, words);

@@ -17,7 +17,7 @@ struct PlyType {
   double low, high;  ///< range of an integer type; 0 and 0 for floating-point types
 
   /// Returns whether the type is an integer type.
-  bool whole() const { return high > 0; }
+  bool is_integer() const { return high > 0; }
 };
 
 /// One property of an element: a number, or a list of numbers.

@@ -68,10 +68,10 @@ class PlyNumbers {
   double in_text(const PlyType& type, const std::string& what) {
     const std::string_view word = words_.next(what);
     const double value = words_.any_number(word, what);
-    if (type.whole() && !(value >= type.low && value <= type.high && value == std::floor(value)))
+    if (type.is_integer() && !(value >= type.low && value <= type.high && value == std::floor(value)))
       fail(what, in_quotes(word),
            fmt::format("a whole number from {} to {}, as its type is {}", type.low, type.high, type.name));
-    return type.bytes == sizeof(float) && !type.whole() ? static_cast<float>(value) : value;
+    return type.bytes == sizeof(float) && !type.is_integer() ? static_cast<float>(value) : value;
   }
 
   double in_bytes(const PlyType& type, const std::string& what) {
@@ -84,7 +84,7 @@ class PlyNumbers {
       std::memcpy(&value, bytes.data(), sizeof value);
       return static_cast<double>(value);
     };
-    if (!type.whole()) return type.bytes == sizeof(float) ? as(float{}) : as(double{});
+    if (!type.is_integer()) return type.bytes == sizeof(float) ? as(float{}) : as(double{});
     if (type.bytes == 1) return type.low < 0 ? as(std::int8_t{}) : as(std::uint8_t{});
     if (type.bytes == 2) return type.low < 0 ? as(std::int16_t{}) : as(std::uint16_t{});
     return type.low < 0 ? as(std::int32_t{}) : as(std::uint32_t{});
@@ -129,7 +129,7 @@ void read_facets(const SurfaceFile& file, const PlyElement& element, PlyNumbers&
   if (!column) column = element.find("vertex_index");
   if (!column) file.fail(element.line, "element " + element.name, "no property vertex_indices", "a list of that name");
   const PlyProperty& corners = element.properties[*column];
-  if (!corners.count || !corners.type->whole())
+  if (!corners.count || !corners.type->is_integer())
     file.fail(corners.line, "property " + corners.name,
               corners.count ? fmt::format("a list of {}", corners.type->name) : "no list", "a list of whole numbers");
   for (std::size_t i = 0; i < element.items; ++i) {

@@ -84,7 +84,7 @@ constexpr Correlation correlations[] = {{"SI", "D^L", -0.24},    {"SI", "D^I", -
 
 /// Returns the statistics of Tables 1 and 2 of [1] that depend on the combination. The targets for the extremes lie 2 %
 /// outside the range of [1], so that the library covers that range.
-std::vector<Wish> paper_wishes() {
+std::vector<Wish> published_targets() {
   using enum Statistic;
   std::vector<Wish> wishes;
   for (const char* name : {"D^L", "D^S", "V", "SI", "Fl", "psi^A"}) {
@@ -177,7 +177,7 @@ class Pairing {
   }
 
   RandomStream& random_;
-  std::vector<Wish> wishes_ = paper_wishes();
+  std::vector<Wish> wishes_ = published_targets();
   std::vector<double> size_;                    ///< D^I [mm]
   std::array<std::vector<double>, 3> columns_;  ///< E, F, points
 };

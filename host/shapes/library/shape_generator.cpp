@@ -32,7 +32,7 @@ std::array<Vec3d, 3> axes(const ShapeMeasure& m) { return {m.axis_long, m.axis_i
 
 /// Returns the deviation of a stone from its target: the largest relative deviation of D^L, D^I, D^S, and half of that
 /// of ψ^w.
-double miss(const ShapeMeasure& target, const ShapeMeasure& found) {
+double deviation(const ShapeMeasure& target, const ShapeMeasure& found) {
   double largest = 0.5 * std::abs(found.sphericity_true / target.sphericity_true - 1);
   for (const double f : factors(target, found)) largest = std::max(largest, std::abs(f - 1));
   return largest;
@@ -44,7 +44,7 @@ constexpr double near_enough = 0.004;
 /// The best stone so far and its deviation from the target.
 struct Fit {
   Surface surface;
-  double miss = std::numeric_limits<double>::infinity();
+  double deviation = std::numeric_limits<double>::infinity();
   bool too_round = false;  ///< ψ^w is above the target
 };
 
@@ -65,18 +65,18 @@ Fit fit_stone(const CrushedStone& stone, const ShapeMeasure& target) {
     found = measure_shape(surface);
     const double lacking = target.sphericity_true - found.sphericity_true;
     const bool stuck = wear == (lacking > 0 ? most_wear : least_wear);
-    if (miss(target, found) < 2 * near_enough || (stuck && i > 2)) break;
+    if (deviation(target, found) < 2 * near_enough || (stuck && i > 2)) break;
     stretching.stretch(axes(found), factors(target, found));
     wear = std::clamp(wear + wear_per_sphericity * lacking, least_wear, most_wear);
   }
   Fit best;
-  for (int i = 0; i < stretchings && best.miss > near_enough / 4; ++i) {
+  for (int i = 0; i < stretchings && best.deviation > near_enough / 4; ++i) {
     Stretching last;
     last.stretch(axes(found), factors(target, found));
     for (Vec3d& p : surface.points) p = last.point(p);
     const Surface candidate = rounded(surface);
     found = measure_shape(candidate);
-    if (const double m = miss(target, found); m < best.miss) {
+    if (const double m = deviation(target, found); m < best.deviation) {
       best = {candidate, m, found.sphericity_true > target.sphericity_true};
     }
   }
@@ -90,7 +90,7 @@ Surface make_stone(std::uint64_t seed, int number, const ShapeMeasure& target) {
   int fewest = 8, most = 28;
   RandomStream random(seed, static_cast<std::uint64_t>(number));
   Fit best;
-  for (int i = 0; i < attempts && best.miss > near_enough; ++i) {
+  for (int i = 0; i < attempts && best.deviation > near_enough; ++i) {
     const int faces = fewest + static_cast<int>(random.index(most - fewest + 1));
     Fit fit = fit_stone(CrushedStone(random, faces), target);
     if (fit.too_round) {
@@ -98,7 +98,7 @@ Surface make_stone(std::uint64_t seed, int number, const ShapeMeasure& target) {
     } else {
       fewest = std::min(most, faces + 1);
     }
-    if (fit.miss < best.miss) best = std::move(fit);
+    if (fit.deviation < best.deviation) best = std::move(fit);
   }
   return best.surface;
 }

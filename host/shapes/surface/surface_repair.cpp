@@ -70,13 +70,13 @@ class Repair {
     const bool good = check_surface(surface_).good();
     if (good) set_before(surface_, true);
     if (good && keep(surface_)) {
-      say("nothing to do");
+      add_step("nothing to do");
       return read_;
     }
-    if (good) say("good, but not as it would be read back: " + verdict_.text());
+    if (good) add_step("good, but not as it would be read back: " + verdict_.text());
     const Surface mended = mend(good ? read_ : surface_);
     if (keep(without_specks(mended))) return read_;
-    say("still " + verdict_.text());
+    add_step("still " + verdict_.text());
     if (keep(wrap(mended))) return read_;
     throw RunError(fmt::format("{}: cannot be repaired: {}; still {}", surface_.name, repair_.what, verdict_.text()));
   }
@@ -86,9 +86,9 @@ class Repair {
 
  private:
   /// Appends one step to the description.
-  void say(const std::string& done) { repair_.what += (repair_.what.empty() ? "" : "; ") + done; }
+  void add_step(const std::string& done) { repair_.what += (repair_.what.empty() ? "" : "; ") + done; }
   void say_count(std::int64_t n, const char* done, const std::string& of, const std::string& several) {
-    if (n > 0) say(fmt::format("{} {} {}", done, n, n == 1 ? of : several));
+    if (n > 0) add_step(fmt::format("{} {} {}", done, n, n == 1 ? of : several));
   }
   void say_count(std::int64_t n, const char* done, const std::string& of) { say_count(n, done, of, of + "s"); }
 
@@ -180,8 +180,8 @@ class Repair {
     }
     repair_.filled = std::max(repair_.filled, area / CGAL::to_double(pmp::area(mesh)));
     if (filled > 0)
-      say(fmt::format("filled {} hole{} with {} facet{}, {:.2g} % of the area", filled, filled == 1 ? "" : "s", facets,
-                      facets == 1 ? "" : "s", 100 * repair_.filled));
+      add_step(fmt::format("filled {} hole{} with {} facet{}, {:.2g} % of the area", filled, filled == 1 ? "" : "s",
+                           facets, facets == 1 ? "" : "s", 100 * repair_.filled));
     say_count(std::ssize(borders) - filled, "could not fill", "hole");
   }
 
@@ -189,7 +189,7 @@ class Repair {
   Surface outward(Surface surface) {
     if (signed_volume(surface) >= 0) return surface;
     for (auto& facet : surface.facets) std::swap(facet[1], facet[2]);
-    say("turned inside out");
+    add_step("turned inside out");
     return surface;
   }
 
@@ -202,9 +202,10 @@ class Repair {
     Surface solid = pieces.without(inner);
     std::vector<bool> outer(inner);
     outer.flip();
-    say(fmt::format("dropped {} closed pore{}, {:.2g} % of the volume and {:.2g} % of the area", count,
-                    count == 1 ? "" : "s", 100 * std::abs(signed_volume(pieces.without(outer)) / signed_volume(solid)),
-                    100 * (1 - surface_area(solid) / surface_area(surface))));
+    add_step(fmt::format("dropped {} closed pore{}, {:.2g} % of the volume and {:.2g} % of the area", count,
+                         count == 1 ? "" : "s",
+                         100 * std::abs(signed_volume(pieces.without(outer)) / signed_volume(solid)),
+                         100 * (1 - surface_area(solid) / surface_area(surface))));
     return solid;
   }
 
@@ -232,7 +233,7 @@ class Repair {
     const double alpha = diagonal / 40, offset = diagonal / 1000;
     Mesh mesh;
     CGAL::alpha_wrap_3(soup.points, soup.polygons, alpha, offset, mesh);
-    say(fmt::format("wrapped (details below {:.3g} m lost, surface {:.3g} m further out)", alpha, offset));
+    add_step(fmt::format("wrapped (details below {:.3g} m lost, surface {:.3g} m further out)", alpha, offset));
     return without_specks(surface_of(mesh, surface_.name));
   }
 

@@ -2,7 +2,9 @@
 /// \file all.hpp  Lists the experiments that a scene may request.
 #pragma once
 
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "macadam/experiments/creep.hpp"
 #include "macadam/experiments/cyclic.hpp"
@@ -21,5 +23,41 @@ using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experim
 using ExperimentResult =
     std::variant<std::monostate, experiments::SteppedCyclic, experiments::HarmonicCyclic, experiments::SweepResult,
                  experiments::SpectrumResponse, experiments::SteppedResponse>;
+
+/// Returns `kind` in `[loading]`.
+inline const char* kind_of(const Experiment& experiment) {
+  return std::visit([](const auto& spec) { return spec.kind; }, experiment);
+}
+
+/// Returns the result files that a run of this experiment may write, in addition to the files that every run writes.
+inline std::vector<std::string> files_of(const Experiment& experiment) {
+  return std::visit([](const auto& spec) { return std::vector<std::string>(spec.files.begin(), spec.files.end()); },
+                    experiment);
+}
+
+/// Returns whether the experiment may be stepped in time (method "explicit").
+inline experiments::Stepping stepping_of(const Experiment& experiment) {
+  return std::visit([](const auto& spec) { return spec.stepping; }, experiment);
+}
+
+/// Returns the frequencies of the experiment [Hz]; without frequencies, an empty list.
+inline std::vector<double> frequencies_of(const Experiment& experiment) {
+  return std::visit(
+      [](const auto& spec) -> std::vector<double> {
+        if constexpr (requires { spec.frequencies; }) return spec.frequencies;
+        return {};
+      },
+      experiment);
+}
+
+/// Returns the temperatures at which the experiment is done [°C]; without temperatures, an empty list.
+inline std::vector<double> temperatures_of(const Experiment& experiment) {
+  return std::visit(
+      [](const auto& spec) -> std::vector<double> {
+        if constexpr (requires { spec.temperatures; }) return spec.temperatures;
+        return {};
+      },
+      experiment);
+}
 
 }  // namespace macadam
