@@ -56,7 +56,7 @@ def draw_study(rows, out):
         by_radius.plot([CIRCUMSCRIBED / radius for radius in of_radius], of_radius.values(), **style)
         by_ratio.plot(of_ratio.keys(), of_ratio.values(), **style)
     by_radius.set(xlabel="$R_{circ}/R$", ylabel="spheres", yscale="log", title="(a) equal spheres")
-    by_ratio.set(xlabel="$R_{max}/R_{min}$, with $R_{min}$ = 0.5 mm", ylabel="spheres", yscale="log", title="(b) ranges of radii")
+    by_ratio.set(xlabel="$R_{max}/R_{min}$, with $R_{min}$ = 0.5 mm", ylabel="spheres", yscale="log")
 
     finest = {shape: table[0.5, 0.5] for shape, table in means.items()}
     for key, label, mark in [("flatness", "$F$", "o"), ("elongation", "$E$", "s"),
@@ -73,7 +73,7 @@ def draw_study(rows, out):
                             color=colour, label=f"$D^{symbol}$, {shape}")
             dimensions.axhline(equal[0][f"shape_d_{key}_mm"], color=colour, ls=":", lw=0.8)
     dimensions.set(xlabel="spheres", ylabel="dimension of the cluster (mm)", xscale="log",
-                   title="(d) dimensions; dotted: those of the shape")
+                   title="(d) dimensions; dotted: dimensions of the shape")
     for ax in axes.flat:
         ax.grid(alpha=0.3)
     by_radius.legend(fontsize=7, loc="lower right")
