@@ -55,34 +55,30 @@ def draw_study(rows, out):
                  "label": f"published, {name}"}
         by_radius.plot([CIRCUMSCRIBED / radius for radius in of_radius], of_radius.values(), **style)
         by_ratio.plot(of_ratio.keys(), of_ratio.values(), **style)
-    by_radius.set(xlabel="R_circ / R", ylabel="spheres", yscale="log", title="(a) equal spheres")
-    by_ratio.set(xlabel="R_max / R_min, R_min = 0.5 mm", ylabel="spheres", yscale="log", title="(b) spheres of a range")
+    by_radius.set(xlabel="$R_{circ}/R$", ylabel="spheres", yscale="log", title="(a) equal spheres")
+    by_ratio.set(xlabel="$R_{max}/R_{min}$, with $R_{min}$ = 0.5 mm", ylabel="spheres", yscale="log")
 
     finest = {shape: table[0.5, 0.5] for shape, table in means.items()}
-    apart = 0.009 * max(r["spheres"] for r in finest.values())
-    for key, label, mark, side in [("flatness", "F", "o", -1.5), ("elongation", "E", "s", -0.5),
-                                   ("sphericity_true", "ψw", "^", 0.5), ("sphericity_working", "ψA", "v", 1.5)]:
-        by_shape.plot([r["spheres"] + side * apart for r in finest.values()], [r[key] for r in finest.values()], mark,
-                      label=label)
-    for r in finest.values():
-        by_shape.axvline(r["spheres"], color="0.7", lw=0.8, zorder=0)
-    by_shape.set(xlabel="spheres of 0.5 mm (lines; markers beside them, so as not to overlap)", ylabel="shape ratio",
-                 ylim=(0, 1.05), title=f"(c) {len(finest)} shapes of one D^I")
+    for key, label, mark in [("flatness", "$F$", "o"), ("elongation", "$E$", "s"),
+                             ("sphericity_true", r"$\psi^w$", "^"), ("sphericity_working", r"$\psi^A$", "v")]:
+        by_shape.plot([r[key] for r in finest.values()], [r["spheres"] for r in finest.values()], mark, label=label)
+    by_shape.set(xlabel="shape ratio", ylabel="spheres of 0.5 mm", ylim=(0, None),
+                 title=f"(c) {len(finest)} shapes with the same $D^I$")
 
     for shape, line in zip(list(means)[:2], ["-", "--"]):
         equal = sorted((row for (low, high), row in means[shape].items() if low == high), key=lambda r: r["spheres"])
         for key, colour in [("long", "tab:blue"), ("intermediate", "tab:orange"), ("short", "tab:green")]:
             symbol = {"long": "L", "intermediate": "I", "short": "S"}[key]
             dimensions.plot([r["spheres"] for r in equal], [r[f"d_{key}_mm"] for r in equal], line, marker="o",
-                            color=colour, label=f"D^{symbol}, {shape}")
+                            color=colour, label=f"$D^{symbol}$, {shape}")
             dimensions.axhline(equal[0][f"shape_d_{key}_mm"], color=colour, ls=":", lw=0.8)
     dimensions.set(xlabel="spheres", ylabel="dimension of the cluster (mm)", xscale="log",
-                   title="(d) dimensions (dotted: of the shape)")
+                   title="(d) dimensions; dotted: dimensions of the shape")
     for ax in axes.flat:
         ax.grid(alpha=0.3)
     by_radius.legend(fontsize=7, loc="lower right")
-    by_ratio.set_title("(b) spheres of a range (marks as in (a))")
-    by_shape.legend(fontsize=8, loc="lower center", ncols=4)
+    by_ratio.set_title("(b) ranges of radii (marks as in (a))")
+    by_shape.legend(fontsize=8, loc="lower left")
     dimensions.legend(fontsize=7, loc="center", bbox_to_anchor=(0.5, 0.65), ncols=2)
     figure.savefig(out, dpi=110)
 

@@ -72,7 +72,7 @@ def class_colours(folders: list[Folder]) -> dict[str, str]:
 
 
 def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
-    """Returns a function from rows of specimen.csv to colours: mastic dark, air white, aggregates by size class, each a
+    """Returns a function from rows of specimen.csv to colours: mastic blue, air white, aggregates by size class, each a
     little lighter or darker."""
     s = folder.specimen
     body = s["body"].to_numpy(int)
@@ -101,7 +101,7 @@ def _names(folder: Folder) -> dict[int, str]:
 def _legend_words(folder: Folder) -> str:
     void = " Air voids are white." if (folder.specimen["phase"] == "void").any() else ""
     classes = "Each aggregate has the colour of its size class" if _names(folder) else "Aggregates are light"
-    return f"{classes}, the mastic is dark.{void}"
+    return f"{classes}, the mastic is blue.{void}"
 
 
 def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
