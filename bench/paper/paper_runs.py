@@ -13,7 +13,7 @@ from pathlib import Path
 from pages.data import RESULTS, mean
 from paper_tables import BOX, FREQUENCIES, PAIRS
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def program(given):

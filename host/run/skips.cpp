@@ -57,7 +57,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
     out.push_back({"geometry update", "normals and lever arms are those of the start",
                    strain ? fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
                                         fixed_geometry_error(std::abs(*strain)), *strain)
-                          : "grows as the square of the strain: see docs/accuracy.md"});
+                          : "grows as the square of the strain: see docs/choose-settings.md"});
   }
   if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
     out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/accuracy.md on what to use when and on each setting, from all rows of the studies in accuracy.csv and
+"""Marks of docs/choose-settings.md, docs/verification.md and docs/frequency-solver.md, from all rows of the studies in accuracy.csv and
 accuracy-full.csv, which bench/accuracy writes."""
 from pages import (accuracy_asked, accuracy_device, accuracy_elsewhere, accuracy_iterations, accuracy_linear,
-                   accuracy_rounding, stability)
+                   accuracy_rounding, verification)
 from pages.accuracy_rows import (E, FILES, PHI, TRUE_E, TRUE_PHI, both, done, scene, scenes, signed, study, tried,
                                  within)
 from pages.data import (between, downto, head, largest, listed, memory, minus, one, plain, power, rows, table, upto,
                         where)
 from pages.marks import mark
 
-DOCUMENT = "docs/accuracy.md"
+DOCUMENT = "docs/choose-settings.md"
 PARTS = (accuracy_asked, accuracy_device, accuracy_elsewhere, accuracy_iterations, accuracy_linear,
          accuracy_rounding)  # modules with more marks of this document
 
@@ -239,30 +239,8 @@ def share_scenes():
 @mark
 def true_limit():
     """Returns the range of the ratio of the true stability limit to the computed step."""
-    low, high = stability.computed()
+    low, high = verification.computed()
     return f"{1 / high:.2f} to {1 / low:.2f}"
-
-
-@mark
-def filters():
-    study("quadrature", "filter")  # raises an error for failures that the table does not show
-    changed = where(tried("quadrature", "filter"), frequency_hz=20.0)
-    base = {scene(r): r["contacts"] for r in changed if r["gap_max"] is None and r["area_min"] is None}
-    lines, seen = [], set()
-    for r in sorted(changed, key=lambda r: scenes(changed).index(scene(r))):
-        what = ("`quadrature = \"exact\"`" if r["quadrature"] != "lumped" else
-                f"`gap_max = {r['gap_max']:g}`" if r["gap_max"] is not None else
-                f"`area_min = {r['area_min']:g}`" if r["area_min"] is not None else None)
-        if what is None or (scene(r), what) in seen:
-            continue
-        seen.add((scene(r), what))
-        if r["status"] != "done":  # without these contacts the specimen may not be connected
-            lines.append((scene(r), what, "–", "–", r["status"].partition(":")[0].replace("|", "\\|"), "–"))
-            continue
-        dropped = base[scene(r)] - r["contacts"]
-        lines.append((scene(r), what, f"{dropped:.0f}", f"{100 * dropped / base[scene(r)]:.1f}",
-                      f"{100 * r['model_e_star']:+.3f}".replace("-", "−"), minus(f"{r['model_phase_deg']:+.4f}")))
-    return table(["scene", "choice", "contacts dropped", "of all (%)", "\\|E\\*\\| (%)", "φ (°)"], lines)
 
 
 @mark

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/accuracy.md on `[solver] tolerance`: the error asked for, predicted and achieved."""
+"""Marks of docs/choose-settings.md on `[solver] tolerance`: the error asked for, predicted and achieved."""
 import math
 
 from pages.accuracy_rows import E, PHI, TRUE_E, TRUE_PHI, done, scene, scenes, study, tried
-from pages.data import between, downto, listed, minus, plain, power, span, table, thousands, upto
+from pages.data import downto, listed, minus, plain, power, span, table, thousands, upto
 from pages.marks import mark
 
 
@@ -68,12 +68,6 @@ def predictions():
     values = sorted({r["tolerance"] for r in asked()}, reverse=True)
     return listed(f"{prediction_off([r for r in asked() if r['tolerance'] == v])} of {minus(power(v, 1))}"
                   for v in values)
-
-
-@mark
-def planning(name):
-    of = [r["seconds_harmonic"] for r in asked() if r["scene"].startswith(name)]
-    return between(of, lambda s: plain(s, 1))
 
 
 @mark

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/accuracy.md on the frequency domain on a CUDA device, from `macadam bench --only harmonic`."""
+"""Marks of docs/frequency-solver.md on the frequency domain on a CUDA device, from `macadam bench --only harmonic`."""
 from pages.data import head, minus, one, plain, power, rows, table, thousands
 from pages.marks import mark
 

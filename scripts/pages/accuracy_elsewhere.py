@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/accuracy.md with numbers that other programs measured or assert: runs on a GPU, tests, the paper's
+"""Marks of docs/verification.md with numbers that other programs measured or assert: runs on a GPU, tests, the paper's
 specimens."""
-from pages import common, stability
+from pages import common, verification
 from pages.accuracy_rows import both, signed
 from pages.data import head, listed, mean, minus, one, percents, plain, power, rows, table, thousands, upto, where
 from pages.marks import mark
@@ -74,7 +74,7 @@ def voro_times():
 
 @mark
 def computed_step():
-    return stability.computed_range()
+    return verification.step_range()
 
 
 @mark

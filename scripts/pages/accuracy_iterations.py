@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/accuracy.md on the number of iterations of the frequency domain over size, from
+"""Marks of docs/frequency-solver.md on the number of iterations of the frequency domain over size, from
 bench/iterations/run."""
 from pages.data import head, plain, rows, table, thousands
 from pages.marks import mark

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/accuracy.md on the frequency domain with the iterative and the direct solver, from
+"""Marks of docs/frequency-solver.md on the frequency domain with the iterative and the direct solver, from
 bench/linear_solvers."""
 from pages.data import downto, head, listed, memory, minus, plain, power, rows, table, thousands, upto
 from pages.marks import mark

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/accuracy.md on errors by rounding, by precision."""
+"""Marks of docs/choose-settings.md and docs/verification.md on errors by rounding, by precision."""
 import math
 
 from pages.accuracy_rows import E, PHI, both, drift_differences, scene, scenes, signed, study
-from pages.data import head, listed, minus, plain, power, rows, span, table, thousands, upto
+from pages.data import head, listed, minus, plain, power, rows, table, thousands, upto
 from pages.marks import mark
 
 ASKED_OF_MIXED = {E: 1e-5, PHI: 0.002}
@@ -104,24 +104,3 @@ def precision_range():
     return (f"{thousands(max(r['steps'] for r in found))} steps, {max(r['layers'] for r in found):.0f} layers, "
             f"{thousands(max(r['particles'] for r in found))} particles, moduli "
             f"{times(max(r['contrast'] for r in found))} apart")
-
-
-@mark
-def precision_stiff(precision):
-    """Returns the largest error of runs in which something was made stiffer."""
-    return rounded_up(max(off(r) for r in of(precision) if r["factor"] > 1))
-
-
-@mark
-def precision():
-    kinds = {}
-    for r in rows("precision.csv"):
-        made = f"; {r['stiff']} {r['factor']:.0e} times as stiff".replace("e+0", "e") if r["factor"] > 1 else ""
-        kinds.setdefault((r["backend"], r["scene"], r["mix"] + made), []).append(r)
-    return table(["backend", "scene", "laws", "particles", "layers", "stiffest / softest", "runs", "steps", "mixed",
-                  "single"],
-                 [(*kind, thousands(found[0]["particles"]), f"{found[0]['layers']:.1f}",
-                   span((r["contrast"] for r in found), times), len(found) // 2,
-                   span((r["steps"] for r in found), thousands),
-                   *(rounded_up(max(off(r) for r in found if r["precision"] == p)) for p in ("mixed", "single")))
-                  for kind, found in kinds.items()])

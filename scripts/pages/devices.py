@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/devices.md: one specimen on several GPUs, several specimens on one GPU or more."""
+"""Marks of docs/devices.md and docs/several-gpus.md: one specimen on several GPUs, several specimens on one GPU or more."""
 from pages.data import head, one, rows, span, table
 from pages.marks import mark
 
@@ -31,9 +31,9 @@ def team():
     lines = []
     for row, label in cases:
         alone, both = pair(row)
-        path = one(rows(TEAM), row=f"{row}/devices:2")["path"].split(", ")[2]
+        path = one(rows(TEAM), row=f"{row}/devices:2")["path"].split(", ")[2].replace("tiles on the chip", "resident tiles").replace(" a step", "")
         lines.append((label, written(alone), written(both), f"{alone / both:.2f}", path))
-    return table(["a step (µs)", "one GPU", "two GPUs", "factor", "on two"], lines)
+    return table(["time of a step (µs)", "one GPU", "two GPUs", "factor", "on two"], lines)
 
 
 TEAM_HARMONIC = "team-harmonic-h200-2026-11-27.csv"
@@ -75,7 +75,7 @@ def ranks():
             row = f"step/{scene}/cuda/condensed/{p}/fixed"
             alone, processes, memory = (one(rows(RANKS), row=row + more)["us"] for more in ("", "/ranks:2", "/devices:2"))
             lines.append((f"{label}, {p}", written(alone), written(processes), f"{alone / processes:.2f}", written(memory)))
-    return table(["a step (µs)", "one GPU", "two processes, a GPU each", "factor", "one process, both GPUs"], lines)
+    return table(["time of a step (µs)", "one GPU", "two processes, a GPU each", "factor", "one process, both GPUs"], lines)
 
 
 MANY = "many.csv"

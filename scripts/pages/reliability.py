@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks of docs/reliability.md: injected faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours
+"""Marks of docs/develop-reliability.md: injected faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours
 of runs (tests/soak), races (scripts/races --table, scripts/gpu-sanitizers --table), deliberate mistakes in the code
 (tests/mutation/campaign --table), bitwise equal results (tests/same_bits/run --table)."""
 import collections
@@ -7,7 +7,7 @@ import collections
 from pages.data import head, rows, table
 from pages.marks import mark
 
-DOCUMENT = "docs/reliability.md"
+DOCUMENT = "docs/develop-reliability.md"
 DRAWS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")
 MUTATION = ("mutation", *(f"mutation-{draw}" for draw in DRAWS[1:]))
 SOAK = (("cpu", "soak-cpu.csv"), ("cuda", "soak-cuda.csv"), ("cuda", "soak-cuda-h100.csv"))
@@ -117,7 +117,7 @@ def mutation():
     verdicts = ("killed", "survived", "not reached")
     listed = [("`host` itself" if name == "host" else f"`{name}`", sum(c.values()), *(c[v] for v in verdicts)) for name, c in sorted(folders.items())]
     listed.append(("all", *(sum(row[k] for row in listed) for k in range(1, 5))))
-    return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
+    return table(["sources", "mistakes", "detected", "not detected", "in code that no test reaches"], listed, right=range(1, 5))
 
 
 # Returns how many deliberate mistakes have each verdict: killed (a test noticed it), survived, and others.
@@ -167,12 +167,12 @@ def noticed_since(name):
 @mark
 def survivors():
     """Returns the table of reasons found when the mistakes that no test noticed were examined, by sample."""
-    said = {"same": "no result differs, or only where two numbers are the same (`<` for `<=`)",
-            "shown": "words, pictures and progress that people read", "start": "first guesses and the order of work: the end is the same",
-            "beyond": "read or written beyond an array, which only the tests with sanitizers can see",
-            "tested since": "a test notices it since", "open": "a test could notice it"}
+    said = {"same": "no result differs, or only if two numbers are equal (`<` for `<=`)",
+            "shown": "messages, pictures and progress", "start": "initial guesses and the order of work; the result is the same",
+            "beyond": "access beyond an array, which only sanitizers detect",
+            "tested since": "a test written since detects it", "open": "a test could detect it"}
     found = [looked_at(name) for name in MUTATION]
-    return table(["mistakes that no test noticed", *(f"{draw} draw" for draw in DRAWS)],
+    return table(["undetected mistakes", *(f"{draw} sample" for draw in DRAWS)],
                  [(words, *(count[kind] for count in found)) for kind, words in said.items()], right=range(1, 1 + len(DRAWS)))
 
 
@@ -181,7 +181,7 @@ def not_looked_at():
     """Returns the numbers of mistakes that no test noticed, in code that no test runs, and that nobody examined, by
     sample."""
     left = {draw: len(rows(f"{name}.csv")) - verdicts(name)["killed"] - sum(looked_at(name).values()) for name, draw in zip(MUTATION, DRAWS)}
-    return " and ".join(f"{number} of the {draw} draw, which no test comes by" for draw, number in left.items() if number)
+    return " and ".join(f"{number} of the {draw} sample, in code that no test reaches" for draw, number in left.items() if number)
 
 
 @mark
