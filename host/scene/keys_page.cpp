@@ -48,7 +48,7 @@ std::string kind_of_value(const KnownKey& key) {
   return key.words.type == "list" ? "list of " + choices : choices;
 }
 
-/// Returns the text of the column "without it".
+/// Returns the text of the column "default".
 std::string usual_of(const KnownKey& key) {
   if (key.need == Need::required) return "**required**";
   if (!key.usual.empty()) return cell(key.usual);
@@ -69,11 +69,11 @@ std::string keys_page() {
   const std::vector<KnownKey> keys = known_keys();
   std::string out =
       "# Every key of a scene\n\n"
-      "This page is what the reader of scenes itself knows, printed by `macadam info --keys markdown`. [Scene "
-      "files](scene.md)\n"
-      "explains the keys and how they act together. A number has the SI unit that stands here, or is text with a unit "
-      "of its\n"
-      "own, as `\"12.5 mm\"`. A number without a unit may be text in %.\n";
+      "This page lists all keys of a scene, as `macadam info --keys markdown` prints them. [Scene files](scene.md) "
+      "explains the\n"
+      "sections. A number has the SI unit in the table, or it is text with another unit, such as `\"12.5 mm\"`. A "
+      "number without\n"
+      "unit may be text in %.\n";
   for (const KnownKey& section : keys) {
     if (!is_section(section)) continue;
     const std::string title = title_of(section);
@@ -81,7 +81,7 @@ std::string keys_page() {
                        cell(section.text.substr(1)));
     out += section.need == Need::required ? ". Required." : fmt::format(". Without it: {}.", section.usual);
     out +=
-        "\n\n<!-- by hand: printed by the program -->\n\n| key | value | without it | what it is "
+        "\n\n<!-- by hand: printed by the program -->\n\n| key | value | default | meaning "
         "|\n|---|---|---|---|\n";
     for (const KnownKey& key : keys)
       if (key.section == title && !is_section(key)) out += row(key);

@@ -41,7 +41,7 @@ def tolerance():
                           f"{downto(min(hand)):.1f} … {upto(max(hand)):.1f}" if hand else "–"))
     return table(["scene", "asked", "f (Hz)", "largest error achieved / asked",
                   "largest difference from the prediction", "steps",
-                  "stepping (s, one thread)", "time / by hand"], lines)
+                  "stepping (s, one thread)", "time / fastest found by trial"], lines)
 
 
 @mark
