@@ -63,7 +63,7 @@ def iterations_growth(which):
 
 @mark
 def iterations_sizes():
-    return f"{thousands(sizes()[0])} to {thousands(sizes()[-1])} particles, {sizes()[-1] / sizes()[0]:.0f} times as many"
+    return f"{thousands(sizes()[0])} to {thousands(sizes()[-1])} particles, a factor of {sizes()[-1] / sizes()[0]:.0f}"
 
 
 @mark

@@ -31,7 +31,7 @@ def cpu_machine():
 
 @mark
 def cpu():
-    return table(["form", "precision", "geometry", "threads", "ms a step", "bytes a contact", "10⁶ contacts/s",
+    return table(["form", "precision", "geometry", "threads", "ms per step", "bytes per contact", "10⁶ contacts/s",
                   "share of copy"],
                  [(r["form"], r["precision"], r["geometry"], r["threads"], f"{r['ms']:.1f}", f"{r['bytes']:.0f}",
                    f"{r['contacts']:.1f}", f"{r['share']:.2f}") for r in cpu_rows()])
@@ -53,7 +53,7 @@ def more_cores():
     for precision in ("single", "mixed", "double"):
         us_of = [one(rows(MORE_CORES), row=f"step/ac14_ss_am1/cpu/condensed/{precision}/fixed/threads:{n}")["us"] for n in threads]
         lines.append((precision, *(f"{us / 1e3:.2f}" for us in us_of), f"{us_of[0] / us_of[-1]:.1f}"))
-    return table(["ms a step with so many threads", *map(str, threads), "one to sixteen"], lines)
+    return table(["ms per step by number of threads", *map(str, threads), "one to sixteen"], lines)
 
 
 @mark
@@ -217,7 +217,7 @@ def multiprocessors():
     for scene, label in (("ac14_ss_am1", "full specimen, mixed"), ("lattice:1e5", "lattice of 10⁵, mixed")):
         found = [one(rows(AXES), row=f"step/{scene}/cuda/condensed/mixed/fixed/multiprocessors:{n}") for n in numbers]
         lines.append((label, *(f"{us(r)}{'' if 'chip' in r['path'] else ' (streamed)'}" for r in found)))
-    return table(["µs a step with so many multiprocessors", *map(str, numbers)], lines)
+    return table(["µs per step by number of multiprocessors", *map(str, numbers)], lines)
 
 
 CHIP = "bench-h200-2026-11-26-chip.csv"
@@ -362,7 +362,7 @@ def peers():
     for r in rows(PEERS):
         lines.append((r["program"], r["settings"], f"{r['threads']:.0f}", f"{r['bonds']:,.0f}", f"{r['ms_a_step']:.1f}",
                       f"{1e3 * r['us_a_bond_and_core']:.0f}"))
-    return table(["program", "settings", "threads", "bonds", "ms a step", "ns a bond and core"], lines)
+    return table(["program", "settings", "threads", "bonds", "ms per step", "ns per bond and core"], lines)
 
 
 @mark

@@ -38,7 +38,7 @@ def operations():
         share = sum(done / possible for done, possible in zip(rate, most()))
         lines.append((f"{SCENES[scene]}, {precision}, {form}, {geometry}", f"{r['single_per_contact']:.0f}", f"{r['double_per_contact']:.0f}",
                       f"{us:.1f}", f"{sum(rate) / 1e12:.1f}", f"{100 * share:.0f} %"))
-    return table(["a step", "single a contact", "double a contact", "µs", "10¹² operations a second", "of the most"], lines, range(1, 6))
+    return table(["step", "single per contact", "double per contact", "µs", "10¹² operations per second", "of the maximum"], lines, range(1, 6))
 
 
 @mark

@@ -21,7 +21,7 @@ def machine():
 
 @mark
 def saved():
-    return table(["skipped", "stepped", "µs a step", "against", "µs a step", "ratio", "effect"],
+    return table(["skipped", "stepped", "µs per step", "against", "µs per step", "ratio", "effect"],
                  [(r["skipped"], r["with"], f"{r['with_us']:,.0f}", r["without"], f"{r['without_us']:,.0f}",
                    f"{r['ratio']:.2f}", effect(r)) for r in rows("skips.csv")], right=(2, 4, 5))
 

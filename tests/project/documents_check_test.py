@@ -79,7 +79,7 @@ FAULTS = [
     ("README.md", lambda t: t + "\nIt is 2 % more.\n", "'2 %' stands in no mark"),
     ("README.md", lambda t: t.replace("for an error of 1e-3", "for an error", 1), "which is not there"),
     ("docs/choose-settings.md", unmarked_twin, "is typed by hand"),
-    ("docs/skips.md", lambda t: t.replace(". The table is that of", ".\n<!--= twice -->0 %<!--/-->", 1),
+    ("docs/skips.md", lambda t: t.replace(". The table shows", ".\n<!--= twice -->0 %<!--/-->", 1),
      "begins the line"),
     ("docs/model.md", lambda t: t.replace("(model/motion.md)", "(model/movement.md)", 1), "which is not there"),
     ("docs/model/motion.md", lambda t: t + "\nSee [the code](../../host/nowhere.cpp).\n", "which is not there"),
