@@ -37,7 +37,7 @@ def gradations(results):
 
 
 def axes(results):
-    """Draws Figs. 9a and b: D^L of every cluster above 4.75 mm, as a line at its position."""
+    """Draws Figs. 9a and b: a line along D^L at the position of each cluster above 4.75 mm."""
     for name in ("MS-Poly-fine", "MS-Poly-coarse"):
         scene = PAPER[name].scene
         figure = plt.figure(figsize=(4.4, 6), layout="constrained")

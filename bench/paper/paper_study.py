@@ -29,7 +29,7 @@ class Choice:
 
     @property
     def making(self):
-        """The choices that determine the specimen, without those of its contacts."""
+        """The choices that determine the specimen, without the choices of its contacts."""
         return replace(self, inner_gap=None, inner_modulus=1, area_min=0)
 
     @property
