@@ -72,7 +72,7 @@ def class_colours(folders: list[Folder]) -> dict[str, str]:
 
 
 def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
-    """Returns a function from rows of specimen.csv to colours: mastic dark, air white, aggregates by size class, each a
+    """Returns a function from rows of specimen.csv to colours: mastic blue, air white, aggregates by size class, each a
     little lighter or darker."""
     s = folder.specimen
     body = s["body"].to_numpy(int)
