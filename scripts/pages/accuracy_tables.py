@@ -64,7 +64,7 @@ def page():
     e, phi = "\\|E\\*\\|", "φ (°)"
     parts = [
         ("Error against run time, steady start, one cycle",
-         ["scene", "f", "scaling", "form", "precision", "geometry", e, phi, "steps", "s", "µs a step", "KiB"],
+         ["scene", "f", "scaling", "form", "precision", "geometry", e, phi, "steps", "s", "µs per step", "KiB"],
          [(*name(r, "density_scaling", "form", "precision", "geometry"), *true(r), *cost(r)) for r in study("front")]),
         ("Drift: difference from double",
          ["scene", "f", "scaling", "cycles", "steps", "precision", "geometry", e, phi],
@@ -82,12 +82,12 @@ def page():
          [(*name(r, "density_scaling", "damping_kind", "damping", "start"), *true(r)) for r in study("damping")]),
         ("Quadrature and filters: change of the model, and error against its own solution",
          ["scene", "f", "quadrature", "gap_max", "area_min", "contacts dropped", f"{e} model", "φ model (°)",
-          f"{e} own", "φ own (°)", "µs a step"], list(filters())),
+          f"{e} own", "φ own (°)", "µs per step"], list(filters())),
         ("Backends", ["scene", "f", "backend", "scaling", "precision", "form", f"{e} own", "φ own (°)", "steps", "s",
-                      "µs a step", "KiB"],
+                      "µs per step", "KiB"],
          [(*name(r, "backend", "density_scaling", "precision", "form"), *own(r), *cost(r)) for r in study("backend")]),
         ("`[solver] tolerance`", ["scene", "f", "asked", "scaling", "precision", "geometry", f"{e} predicted",
-                                  f"{e} achieved", "φ achieved (rad)", "steps", "s", "planning s", "s / by hand"],
+                                  f"{e} achieved", "φ achieved (rad)", "steps", "s", "planning s", "s / fastest by trial"],
          [asked(r) for r in tried("tolerance")])]
     out = ["# Tables of accuracy.csv and accuracy-full.csv", "",
            *(f"- {file}: {'; '.join(head(file))}" for file in FILES), ""]
