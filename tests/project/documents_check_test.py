@@ -34,7 +34,7 @@ def other_digit(text):
 
 
 def in_table(text):
-    return re.sub(r"(<!-- table \w+ -->.*?)(\d)", lambda m: m[1] + other_digit(m[2]), text, count=1, flags=re.S)
+    return re.sub(r"(<!-- table [\w.]+ -->.*?)(\d)", lambda m: m[1] + other_digit(m[2]), text, count=1, flags=re.S)
 
 
 def in_sentence(text):
@@ -43,7 +43,7 @@ def in_sentence(text):
 
 def unmarked_twin(text):
     """Returns the text with the last of several uses of one mark replaced by its number without the mark."""
-    uses = list(re.finditer(r"<!--= rounding mixed -->(.*?)<!--/-->", text))
+    uses = list(re.finditer(r"<!--= steady_error -->(.*?)<!--/-->", text))
     assert len(uses) > 1
     return text[:uses[-1].start()] + uses[-1][1] + text[uses[-1].end():]
 
@@ -85,7 +85,7 @@ FAULTS = [
     ("docs/model/motion.md", lambda t: t + "\nSee [the code](../../host/nowhere.cpp).\n", "which is not there"),
     ("docs/shapes.md", lambda t: t.replace("#your-own-shapes", "#none") + "\n[here](#not-a-heading)\n",
      "without this heading"),
-    ("docs/scene.md", lambda t: t.replace("(shapes.md#your-own-shapes)", "(shapes.md#my-shapes)", 1),
+    ("docs/scene/shapes.md", lambda t: t.replace("(../shapes.md#your-own-shapes)", "(../shapes.md#my-shapes)", 1),
      "without this heading"),
 ]
 
@@ -140,7 +140,7 @@ def main():
         folder = Path(name)
         shutil.copytree(ROOT / "docs", folder / "docs", ignore=shutil.ignore_patterns("pictures"))
         (folder / "bench" / "results").mkdir(parents=True)
-        for file in ("README.md", "bench/README.md", "bench/results/accuracy-tables.md"):
+        for file in ("README.md", "bench/README.md", "bench/history.md", "bench/results/accuracy-tables.md"):
             shutil.copy(ROOT / file, folder / file)
         for file in (ROOT / "examples").glob("*/README.md"):
             (folder / "examples" / file.parent.name).mkdir(parents=True)
