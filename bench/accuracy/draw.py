@@ -237,7 +237,8 @@ class Drawing:
                     if line:
                         ax.plot(*zip(*line), mark + style, color=colour, ms=4, lw=1,
                                 label=f"{scene}, {cycles:g} cycle{'s' if cycles > 1 else ''}")
-            ax.set(xscale="log", yscale="log", xlabel="strain amplitude", ylabel=LABEL[error].replace("error", "change"))
+            ax.set(xscale="log", yscale="log", xlabel="strain amplitude",
+                   ylabel=LABEL[error].replace("error", "change"))
         axes[0].legend(**BELOW)
         self.save(figure, "strain")
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made (kernels/contact/contact_data.hpp).
+// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made
+// (kernels/contact/contact_data.hpp).
 #include "host/run/skips.hpp"
 
 #include <fmt/format.h>

@@ -83,4 +83,5 @@ def failed():
     found = failures()
     if {(r["case"], r["setting"]) for r in found} != {("long_free", "cpu, single")}:
         raise LookupError("the comparisons that fail are not those of long free runs in single precision")
-    return f"{len(found)} of them fails: the energy of such a run." if len(found) == 1 else f"{len(found)} of them fail: the energies of such runs."
+    return ("1 of them fails: the energy of such a run." if len(found) == 1 else
+            f"{len(found)} of them fail: the energies of such runs.")
