@@ -14,7 +14,7 @@ Key poisson_key(double& target) {
   constexpr Rule rule{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
   target = 0.35;
   return {"poisson_ratio", Need::optional, into(target, ratio, rule),
-          "for the tables of finite-element programs; the specimen does not give it"};
+          "for the tables of finite-element programs; it does not follow from the specimen"};
 }
 
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
@@ -28,12 +28,14 @@ void require_once(const Section& section, const std::string& key, std::vector<do
 
 std::vector<Key> Points::keys(const std::string& key, const Quantity& quantity, Need need) {
   constexpr std::int64_t most = 1000, most_evenly = 1'000'000;
-  const std::string ends = key + ": a list, or the two ends of a range beside points_per_decade or points";
-  return {{key, need, into(given, quantity, positive), ends, need == Need::required ? "" : "strain"},
-          {"points_per_decade", Need::optional, into(per_decade, 1, most),
-           "of a range: at least so many, evenly in the logarithm, both ends among them", "a list"},
-          {"points", Need::optional, into(evenly, 2, most_evenly), "of a range: so many, evenly, both ends among them",
-           need == Need::required ? "a list" : "a list; with strain 100"}};
+  const std::string ends = key + ": a list, or the two ends of a range with points_per_decade or points";
+  return {
+      {key, need, into(given, quantity, positive), ends, need == Need::required ? "" : "strain"},
+      {"points_per_decade", Need::optional, into(per_decade, 1, most),
+       "least number of points per decade of a range, evenly spaced in the logarithm, both ends included", "a list"},
+      {"points", Need::optional, into(evenly, 2, most_evenly),
+       "number of evenly spaced points of a range, both ends included",
+       need == Need::required ? "a list" : "a list; with strain 100"}};
 }
 
 std::vector<double> Points::all(const Section& section, const std::string& key, const char* unit,

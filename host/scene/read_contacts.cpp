@@ -20,12 +20,12 @@ using laws::ValueNeed;
 std::string text_of(const std::string& law, const std::string& key) {
   static const std::map<std::string, std::string> kelvin{{"E_m", "spring of the Maxwell unit"},
                                                          {"C_m", "dashpot of the Maxwell unit; inf: no dashpot"},
-                                                         {"E", "springs of the Kelvin units, up to 16"},
-                                                         {"C", "dashpots of the Kelvin units, as many"}};
+                                                         {"E", "springs of the Kelvin units, at most 16"},
+                                                         {"C", "dashpots of the Kelvin units, one per spring"}};
   static const std::map<std::string, std::string> others{
       {"E", "modulus"},
-      {"tensile_strength", "tensile stress beyond which a contact point is broken for good"},
-      {"shear_strength", "shear stress beyond which a contact point is broken for good; inf: none"}};
+      {"tensile_strength", "tensile stress above which a contact point breaks permanently"},
+      {"shear_strength", "shear stress above which a contact point breaks permanently; inf: no limit"}};
   const auto& texts = law == "generalised_kelvin" ? kelvin : others;
   const auto found = texts.find(key);
   return found == texts.end() ? "" : found->second;
@@ -98,9 +98,10 @@ std::vector<Key> keys_of(FacetLimits& limits) {
   constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, where centres coincide"};
   return {
       {"gap_max", Need::optional, into(limits.gap_max, ratio, gap),
-       "largest gap between two particles that are joined, in units of the mean of their radii", "every facet joins"},
+       "largest surface gap of two joined particles, in units of the mean of their radii", "all facets are contacts"},
       {"area_min", Need::optional, into(limits.area_min, ratio, non_negative),
-       "smallest facet that joins two particles, in units of the mean facet", "every facet joins"}};
+       "least area of a contact of two particles, divided by the mean area of all facets between particles",
+       "all facets are contacts"}};
 }
 
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network) {
@@ -120,12 +121,9 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
               {"pair",
                Need::required,
                {[&](const Value& v) { pair = v.choice(pairs); }, {"one of", nullptr, "", "", pairs}},
-               "what meets: M mastic, A aggregate, W wall; inner: spheres of one aggregate"},
-              {"law",
-               Need::required,
-               {[](const Value&) {}, {"one of"}},
-               "the contact law; it decides which keys follow"},
-              {"alpha", Need::optional, into(law.alpha, ratio, non_negative), "shear over normal stiffness"},
+               "pair of materials: M mastic, A aggregate, W wall; inner: spheres of one aggregate"},
+              {"law", Need::required, {[](const Value&) {}, {"one of"}}, "contact law; it determines the other keys"},
+              {"alpha", Need::optional, into(law.alpha, ratio, non_negative), "shear stiffness over normal stiffness"},
               {"delta", Need::optional, into(delta, ratio, positive),
                "factor on all moduli and viscosities of the pair, not on strengths"}};
           for (Key& key : keys_of(law)) keys.push_back(std::move(key));

@@ -21,13 +21,13 @@ std::vector<Key> keys_of(FieldSpec& spec) {
   return {{"fields",
            Need::optional,
            {read_list, {"list", nullptr, "", "", {"particles", "contacts", "cells"}}},
-           "what is written for ParaView",
+           "files for ParaView",
            "none"},
           {"every", Need::optional, into(spec.every, 1, most_samples),
-           "samples from one frame of a stepped run to the next", "a twentieth of them"},
+           "number of samples between two frames of a stepped run", "a twentieth of the samples"},
           {"format", Need::optional,
            into<FieldFormat>(spec.format, {{"vtkhdf", FieldFormat::vtkhdf}, {"vtp", FieldFormat::vtp}}),
-           "of the fields: one HDF5 file a series, or one XML file a frame"}};
+           "format of the fields: one HDF5 file per series, or one XML file per frame"}};
 }
 
 void check_fields(const Section& section, const FieldSpec& spec) {

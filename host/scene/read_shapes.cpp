@@ -9,7 +9,7 @@ namespace macadam::scene {
 ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folder) {
   constexpr Rule porosity{[](double v) { return v >= -0.5 && v < 1; }, "a porosity from -0.5 to below 1"};
   constexpr Rule gap{[](double v) { return v > 0 && v < 0.5; }, "a share above 0 and below 0.5"};
-  constexpr Rule hold_out{[](double v) { return v >= 0 && v <= 10; }, "a stiffness from 0 to 10 times a pair's"};
+  constexpr Rule hold_out{[](double v) { return v >= 0 && v <= 10; }, "a stiffness ratio from 0 to 10"};
   ShapeSpec out;
   const auto read_library = [&](const Value& value) {
     const std::string name = value.text();
@@ -37,28 +37,29 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
         {read_library, {"text", nullptr, "", "\"aggregates\""}},
         "\"aggregates\" (82 shapes), \"icosahedron\", \"aggregates and icosahedron\", or a folder of closed surfaces"},
        {"radius", Need::required, range_into(out.fill.radius_min, out.fill.radius_max),
-        "of the spheres inside an aggregate"},
+        "radii of the spheres inside an aggregate, [min, max]"},
        {"porosity", Need::optional, into(out.fill.porosity, ratio, porosity),
-        "inside an aggregate: 1 - sum of the spheres' volumes / volume of the shape"},
+        "porosity inside an aggregate: 1 - sum of the spheres' volumes / volume of the shape"},
        {"least", Need::optional, into(out.fill.least, 1, 1000),
-        "where fewer spheres would do, a single one stands for the aggregate"},
+        "minimum number of filling spheres; an aggregate that needs fewer is one sphere"},
        {"single", Need::optional,
         into<SingleSphere>(out.fill.single, {{"intermediate", SingleSphere::intermediate},
                                              {"circumscribed", SingleSphere::circumscribed},
                                              {"volume", SingleSphere::volume}}),
-        "radius of the single sphere: half of D^I, of the smallest sphere around, of equal volume"},
+        "radius of a single sphere: D^I/2, of the smallest enclosing sphere, or of the sphere of equal volume"},
        {"placement", Need::optional,
         into<PlacementMethod>(out.placement,
                               {{"packing", PlacementMethod::packing}, {"insertion", PlacementMethod::insertion}}),
-        "all at once, grown while overlaps push them apart, or one by one at random"},
-       {"allow_short", Need::optional, into(out.allow_short), "insertion: what finds no room is left out"},
+        "places all aggregates at once and grows them, or places them one by one at random"},
+       {"allow_short", Need::optional, into(out.allow_short),
+        "insertion: leave out aggregates for which no position is found"},
        {"test", Need::optional,
         into<PlacementTest>(out.test, {{"surfaces", PlacementTest::surfaces}, {"spheres", PlacementTest::spheres}}),
-        "insertion: what must not touch, surfaces of the shapes or the spheres that fill them"},
+        "insertion: the parts of two aggregates that must not touch: surfaces of the shapes, or filling spheres"},
        {"hold_out", Need::optional, into(out.hold_out, ratio, hold_out),
-        "stiffness of the surfaces against mastic while it relaxes, over that of a mastic pair"},
+        "stiffness of the surfaces against mastic while it relaxes, divided by the stiffness of a mastic pair"},
        {"gap", Need::optional, into(out.gap, ratio, gap),
-        "packing: distance asked of two surfaces, over the smaller one's D^I"}});
+        "packing: required distance of two surfaces, divided by the smaller D^I"}});
   if (out.placement == PlacementMethod::packing && out.allow_short)
     section.refuse("allow_short", "true with placement = \"packing\"", "placement = \"insertion\"");
   if (out.placement == PlacementMethod::packing && out.test == PlacementTest::spheres)

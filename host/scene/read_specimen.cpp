@@ -48,12 +48,12 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a fraction above 0 and at most 1"};
   AggregateClass out;
   out.line = section.line();
-  section.read(
-      {{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max),
-        "least and greatest diameter (D^I of shapes)"},
-       {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share),
-        "share of the solid volume, aggregates and mastic", "count"},
-       {"count", Need::optional, into(out.count, 1, most_particles), "in place of volume_fraction: so many", "none"}});
+  section.read({{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max),
+                 "smallest and largest diameter (D^I of shapes)"},
+                {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share),
+                 "fraction of the solid volume (aggregates and mastic)", "count"},
+                {"count", Need::optional, into(out.count, 1, most_particles),
+                 "number of aggregates, in place of volume_fraction", "none"}});
   need_one_of(section, "volume_fraction", "count");
   need_to_fit(section, "sieve", out.sieve_max, box);
   return out;
@@ -63,12 +63,12 @@ MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
   constexpr Rule porosity{[](double v) { return v > -1 && v < 1; }, "a porosity between -1 and 1"};
   MasticSpec out;
   out.line = section.line();
-  section.read(
-      {{"radius", Need::required, range_into(out.radius_min, out.radius_max),
-        "least and greatest radius of the spheres"},
-       {"porosity", Need::optional, into(out.porosity, ratio, porosity),
-        "1 - sum of the solid spheres' volumes / (box - voids)", "count, or the recipe"},
-       {"count", Need::optional, into(out.count, 1, most_particles), "in place of porosity: so many", "none"}});
+  section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max),
+                 "smallest and largest radius of the spheres"},
+                {"porosity", Need::optional, into(out.porosity, ratio, porosity),
+                 "1 - sum of the solid spheres' volumes / (box - voids)", "count, or the recipe"},
+                {"count", Need::optional, into(out.count, 1, most_particles), "number of spheres, in place of porosity",
+                 "none"}});
   for (const char* key : {"porosity", "count"}) {
     if (by_mass && section.has(key))
       section.refuse(key, "this key beside [specimen.recipe]", "the recipe alone: its air voids are the porosity");
@@ -83,10 +83,11 @@ VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
   VoidSpec out;
   out.line = section.line();
   section.read(
-      {{"radius", Need::required, range_into(out.radius_min, out.radius_max), "least and greatest radius of the voids"},
-       {"fraction", Need::optional, into(out.fraction, ratio, share), "share of the box",
+      {{"radius", Need::required, range_into(out.radius_min, out.radius_max),
+        "smallest and largest radius of the voids"},
+       {"fraction", Need::optional, into(out.fraction, ratio, share), "fraction of the box",
         "count, or the recipe's air voids"},
-       {"count", Need::optional, into(out.count, 0, most_particles), "in place of fraction: so many", "none"}});
+       {"count", Need::optional, into(out.count, 0, most_particles), "number of voids, in place of fraction", "none"}});
   if (!by_mass || section.has("count")) need_one_of(section, "fraction", "count");
   need_to_fit(section, "radius", 2 * out.radius_max, box);
   return out;
@@ -198,23 +199,24 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
     spec.mastic = read_mastic(v.section(), spec.box, section.has("recipe"));
   };
   section.read(
-      {{"box", Need::required, box_into(spec.box), "edges x, y, z; one corner is the origin, z is vertical"},
+      {{"box", Need::required, box_into(spec.box), "edge lengths x, y, z; one corner is the origin, z is vertical"},
        {"file",
         Need::optional,
         {read_file, {"text"}},
-        "a specimen that is there: CSV id,x,y,z,radius,phase,body, relative to the scene's folder",
-        "a mixture that is generated"},
-       {"seed", Need::optional, into(spec.seed, 0), "another seed is another specimen of the same mixture"},
+        "existing specimen: CSV with the columns id,x,y,z,radius,phase,body; a path relative to the scene's folder",
+        "a generated mixture"},
+       {"seed", Need::optional, into(spec.seed, 0),
+        "seed of the random numbers; another seed gives another specimen of the same mixture"},
        {"size_law", Need::optional,
         into<SizeLaw>(spec.size_law, {{"log_uniform", SizeLaw::log_uniform},
                                       {"uniform", SizeLaw::uniform},
                                       {"volume_uniform", SizeLaw::volume_uniform}}),
-        "how diameters lie between two sieves"},
+        "distribution of the diameters between two sieves"},
        {"spacing", Need::optional, into(spec.spacing, length, non_negative),
-        "least distance of an aggregate from those inserted before it"},
+        "least distance of an aggregate from the aggregates inserted before it"},
        {"fix_aggregates", Need::optional, into(spec.fix_aggregates), "hold the aggregates while the mastic relaxes"},
        {"attempts", Need::optional, into(spec.attempts, 1),
-        "positions tried for one aggregate before its class is given up"},
+        "number of positions tried for one aggregate before the program gives up"},
        {"aggregate", Need::optional, sections_by(read_classes), "a class of aggregates, between two sieves", "none"},
        {"shapes", Need::optional, section_by([&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }),
         "aggregates of real shape, filled with spheres", "an aggregate is a sphere"},

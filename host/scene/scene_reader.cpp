@@ -69,14 +69,14 @@ Materials read_materials(const Section& section, Need need) {
   Materials materials;
   const auto phase = [need](double& target) {
     return section_by([&target, need](const Value& value) {
-      value.section().read({{"density", need, positive_into(target, density, in_kg_m3), "of the spheres",
-                             "from [specimen.recipe], where that is"}});
+      value.section().read({{"density", need, positive_into(target, density, in_kg_m3), "density of the spheres",
+                             "from [specimen.recipe] if it is given"}});
     });
   };
-  section.read({{"aggregate", Need::optional, phase(materials.aggregate), "what aggregates are of", "none"},
-                {"mastic", Need::optional, phase(materials.mastic), "what mastic is of", "none"},
+  section.read({{"aggregate", Need::optional, phase(materials.aggregate), "density of the aggregates", "none"},
+                {"mastic", Need::optional, phase(materials.mastic), "density of the mastic", "none"},
                 {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
-                 "of the whole specimen; laws with a shift follow it", "the laws' reference temperatures"}});
+                 "temperature of the specimen; it changes laws with a shift", "the laws' reference temperatures"}});
   return materials;
 }
 
@@ -86,9 +86,9 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped},
                                                      {"exact", Quadrature::exact},
                                                      {"one_point", Quadrature::one_point}}),
-                  "area moments of a contact: of its points, of the polygon, of one point at the centroid"});
+                  "area moments of a contact, from its points, from the polygon, or from one point at the centroid"});
   keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
-                  "the four sides are walls too: |E*| is a confined modulus"});
+                  "the four sides are walls too; |E*| is then a confined modulus"});
   section.read(keys);
 }
 
@@ -97,9 +97,11 @@ void read_output(const Section& section, OutputSpec& spec) {
   keys.push_back({"contacts", Need::optional, into(spec.contacts), "write contacts.csv"});
   keys.push_back({"response", Need::optional, into(spec.response), "write response.csv"});
   keys.push_back({"sensitivities", Need::optional, into(spec.sensitivities),
-                  "method \"harmonic\": derivatives of |E*| and phi by every parameter, in summary.json"});
-  keys.push_back({"checkpoint", Need::optional, into(spec.checkpoint, duration, non_negative),
-                  "wall time between two checkpoints of a stepped run; 0: only when it is interrupted", "\"10 min\""});
+                  "method \"harmonic\": write derivatives of |E*| and phi by every parameter into summary.json"});
+  keys.push_back(
+      {"checkpoint", Need::optional, into(spec.checkpoint, duration, non_negative),
+       "wall time between two checkpoints of a stepped run; 0: a checkpoint only when the run is interrupted",
+       "\"10 min\""});
   section.read(keys);
   check_fields(section, spec.fields);
 }
@@ -193,24 +195,24 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   const std::filesystem::path folder = file.parent_path();
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   std::optional<SolverSpec> solver;
-  root.read({{"specimen", Need::required, section_by(read_the_specimen),
-              "what is tested: a file, or a mixture that is generated"},
-             {"materials", densities,
-              section_by([&](const Value& v) { out.materials = read_materials(v.section(), densities); }),
-              "densities, and the temperature", "from [specimen.recipe], where that is"},
-             {"contacts", Need::required, sections_by([&](const Value& v) {
-                out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network);
-              }),
-              "one for each pair of materials that meets"},
-             {"network", Need::optional, section_by([&](const Value& v) { read_network(v.section(), out.network); }),
-              "which facets of the tessellation are contacts", "every facet"},
-             {"loading", Need::required,
-              section_by([&](const Value& v) { out.experiment = read_experiment(v.section()); }), "the test"},
-             {"solver", Need::optional,
-              section_by([&](const Value& v) { solver = read_solver(v.section(), out.experiment); }),
-              "how the test is stepped or solved", "as each key says"},
-             {"output", Need::optional, section_by([&](const Value& v) { read_output(v.section(), out.output); }),
-              "what is written besides the results", "as each key says"}});
+  root.read(
+      {{"specimen", Need::required, section_by(read_the_specimen), "the specimen: a file, or a generated mixture"},
+       {"materials", densities,
+        section_by([&](const Value& v) { out.materials = read_materials(v.section(), densities); }),
+        "densities and temperature", "from [specimen.recipe] if it is given"},
+       {"contacts", Need::required, sections_by([&](const Value& v) {
+          out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network);
+        }),
+        "contact law, one section for each pair of materials"},
+       {"network", Need::optional, section_by([&](const Value& v) { read_network(v.section(), out.network); }),
+        "which facets of the tessellation are contacts", "every facet"},
+       {"loading", Need::required, section_by([&](const Value& v) { out.experiment = read_experiment(v.section()); }),
+        "the test"},
+       {"solver", Need::optional,
+        section_by([&](const Value& v) { solver = read_solver(v.section(), out.experiment); }),
+        "method, errors, precision and processor", "the defaults of its keys"},
+       {"output", Need::optional, section_by([&](const Value& v) { read_output(v.section(), out.output); }),
+        "files in addition to the results", "the defaults of its keys"}});
   out.solver = solver.value_or(usual_solver(out.experiment));
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   check_together(out, root);

@@ -20,19 +20,19 @@ std::vector<Key> ShiftKeys::keys() {
   return {{"shift",
            Need::optional,
            {[this](const Value& value) { kind_ = value.choice(kinds); }, {"one of", nullptr, "", "", kinds}},
-           "how temperature multiplies every viscosity by a_T",
+           "function of temperature that gives the factor a_T on every viscosity",
            "none"},
-          {"C1", Need::optional, into(wlf_.C1, ratio, positive), "of shift \"wlf\": its first constant", "none"},
-          {"C2", Need::optional, into(wlf_.C2, temperature_difference, positive),
-           "of shift \"wlf\": its second constant", "none"},
+          {"C1", Need::optional, into(wlf_.C1, ratio, positive), "first constant of shift \"wlf\"", "none"},
+          {"C2", Need::optional, into(wlf_.C2, temperature_difference, positive), "second constant of shift \"wlf\"",
+           "none"},
           {"activation_energy", Need::optional, into(arrhenius_.activation_energy, molar_energy, positive),
-           "of shift \"arrhenius\": activation energy", "none"},
+           "activation energy of shift \"arrhenius\"", "none"},
           {"reference_temperature", Need::optional, into(reference_, temperature, celsius),
-           "temperature at which the law holds as it is written", "none"},
+           "temperature at which a_T is 1", "none"},
           {"temperatures", Need::optional, into(table_.temperatures, temperature, celsius),
-           "of shift \"table\": rising temperatures", "none"},
+           "rising temperatures of shift \"table\"", "none"},
           {"log10_a_T", Need::optional, into(table_.log10_a_T, ratio, any),
-           "of shift \"table\": log10 of a_T at each of them, linear in between", "none"}};
+           "log10 of a_T at each temperature of shift \"table\", linear in between", "none"}};
 }
 
 laws::Shift ShiftKeys::shift(const Section& section) const {

@@ -22,20 +22,22 @@ experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& secti
   experiments::Cyclic spec;
   section.read(
       {kind_key(),
-       {"frequencies", Need::required, into(spec.frequencies, frequency, positive), "one test each"},
+       {"frequencies", Need::required, into(spec.frequencies, frequency, positive), "frequencies, one test each"},
        {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius),
-        "every frequency at each of them; in place of temperature in [materials]", "none"},
-       {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain), "amplitude over the height"},
+        "temperatures, each with every frequency; in place of temperature in [materials]", "none"},
+       {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain),
+        "amplitude of the displacement over the height"},
        {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}}),
-        "from zero displacement, or in the steady state of the harmonic solution",
+        "start from rest, or in the steady state of the frequency-domain solution",
         "\"rest\"; with tolerance \"steady\""},
-       {"cycles", Need::optional, into(spec.cycles, 1, most), "periods of each test",
+       {"cycles", Need::optional, into(spec.cycles, 1, most), "number of periods of each test",
         "5; from a steady start 1; with tolerance, from rest, 4 or more"},
-       {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp), "smooth start over so many periods",
+       {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp), "number of periods of a smooth start",
         "0; with tolerance, from rest, 1"},
-       {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most), "last periods that are fitted",
-        "2 of four cycles or more, else 1"},
-       {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most), "lines of response.csv a period"}});
+       {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most), "number of last periods that are fitted",
+        "2 if cycles is 4 or more, else 1"},
+       {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most),
+        "lines of response.csv per period"}});
   require_once(section, "frequencies", spec.frequencies, "Hz", "frequency");
   require_once(section, "temperatures", spec.temperatures, "degrees C", "temperature");
   if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {

@@ -16,7 +16,7 @@ Sweep ExperimentOf<Sweep>::read(const scene::Section& section) {
   std::vector<Key> keys = frequencies.keys("frequencies", frequency);
   keys.push_back(kind_key());
   keys.push_back({"temperatures", Need::optional, into(out.temperatures, temperature, celsius),
-                  "every frequency at each of them; in place of temperature in [materials]", "none"});
+                  "temperatures, each with every frequency; in place of temperature in [materials]", "none"});
   section.read(keys);
   out.frequencies = frequencies.all(section, "frequencies", "Hz", "frequency");
   require_once(section, "temperatures", out.temperatures, "degrees C", "temperature");

@@ -16,15 +16,16 @@ Creep ExperimentOf<Creep>::read(const scene::Section& section) {
   Creep out;
   Points times;
   std::vector<Key> keys = times.keys("times", duration);
-  keys.insert(keys.end(), {kind_key(),
-                           poisson_key(out.poisson_ratio),
-                           {"stress", Need::required, into(out.stress, modulus, any), "that is held; tension positive"},
-                           {"ramp", Need::optional, into(out.ramp, duration, non_negative),
-                            "over which the load grows evenly; 0: at once"},
-                           {"release", Need::optional, into(out.release, duration, positive),
-                            "from then on the stress goes as it came", "never"},
-                           {"platen_mass", Need::optional, into(out.platen_mass, mass, positive),
-                            "of the loaded top wall; stepped only", "the least that does not shorten the step"}});
+  keys.insert(keys.end(),
+              {kind_key(),
+               poisson_key(out.poisson_ratio),
+               {"stress", Need::required, into(out.stress, modulus, any), "imposed stress; tension positive"},
+               {"ramp", Need::optional, into(out.ramp, duration, non_negative),
+                "time over which the load grows linearly; 0: at once"},
+               {"release", Need::optional, into(out.release, duration, positive),
+                "time at which the load is removed, with the same ramp as on loading", "never"},
+               {"platen_mass", Need::optional, into(out.platen_mass, mass, positive),
+                "mass of the loaded top wall; stepped only", "the smallest mass that does not shorten the time step"}});
   section.read(keys);
   out.times = times.all(section, "times", "s", "time");
   if (out.release && *out.release < out.ramp) {

@@ -20,12 +20,11 @@ Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
   Points times;
   std::optional<double> strain;
   std::vector<Key> keys = times.keys("times", duration, Need::optional);
-  keys.insert(keys.end(),
-              {kind_key(),
-               poisson_key(out.poisson_ratio),
-               {"rate", Need::required, into(out.rate, scene::rate, rule), "of the strain; tension positive"},
-               {"strain", Need::optional, into(strain, ratio, any),
-                "at which the test ends, in place of times; its sign is that of the rate", "times"}});
+  keys.insert(keys.end(), {kind_key(),
+                           poisson_key(out.poisson_ratio),
+                           {"rate", Need::required, into(out.rate, scene::rate, rule), "strain rate; tension positive"},
+                           {"strain", Need::optional, into(strain, ratio, any),
+                            "strain at which the test ends, in place of times; it has the sign of the rate", "times"}});
   section.read(keys);
   if (!strain) {
     if (!section.has("times")) section.refuse("times", "nothing", "times, or the strain at which the test ends");

@@ -19,9 +19,9 @@ Relaxation ExperimentOf<Relaxation>::read(const scene::Section& section) {
   keys.insert(keys.end(),
               {kind_key(),
                poisson_key(out.poisson_ratio),
-               {"strain", Need::optional, into(out.strain, ratio, strain), "that is held; tension positive"},
+               {"strain", Need::optional, into(out.strain, ratio, strain), "imposed strain; tension positive"},
                {"ramp", Need::optional, into(out.ramp, duration, non_negative),
-                "over which the load grows evenly; 0: at once"}});
+                "time over which the load grows linearly; 0: at once"}});
   section.read(keys);
   out.times = times.all(section, "times", "s", "time");
   return out;
