@@ -171,7 +171,7 @@ class Drawing:
                 yield r, {e: r[OWN[e]] for e in (E_STAR, PHASE)}
 
     def drift(self):
-        figure, axes = self.panels("t8, AM1: difference from double precision after so many steps "
+        figure, axes = self.panels("t8, AM1: difference from double precision over the number of steps "
                                    "(from the harmonic solution where double was not run)")
         pairs = [(r, d) for r, d in self.drift_differences() if (r["scene"], r["mix"]) == ("t8", "AM1")]
         for ax, error in zip(axes, (E_STAR, PHASE)):
@@ -191,7 +191,7 @@ class Drawing:
                 if updated:
                     ax.plot(*zip(*updated), "D", color=COLOUR[precision], mfc="none", ms=7,
                             label=f"{precision}, updated geometry")
-            ax.axhline(LIMIT[error], color="0.4", ls=":", label="bound that is asked of mixed")
+            ax.axhline(LIMIT[error], color="0.4", ls=":", label="limit for mixed precision")
             ax.set(xscale="log", yscale="log", xlabel="steps", ylabel=LABEL[error].replace("error", "difference"))
             bottom, top = ax.get_ylim()
             ax.set_ylim(bottom, max(top, 3 * LIMIT[error]))
@@ -226,56 +226,35 @@ class Drawing:
         axes[0].legend(**BELOW)
         self.save(figure, "rest")
 
-    def step_share(self):
-        figure, axes = self.panels("Time step, AM1, 20 Hz: error against the harmonic solution with the inertia of "
-                                   "the run")
-        rows = select(self.am1, study="step_share")
+    def strain(self):
+        figure, axes = self.panels("Strain, AM1, 20 Hz: updated geometry against the linear solution")
         for ax, error in zip(axes, (E_STAR, PHASE)):
-            for scene, start, style in (("t8", "steady", "o-"), ("demo", "steady", "s-"), ("t8", "rest", "^--")):
-                some = sorted(select(rows, scene=scene, start=start), key=lambda r: r["step_share"])
-                label = f"{scene}, " + ("steady start, 1 cycle" if start == "steady" else
-                                        "from rest without ramp, 5 cycles")
-                if some:
-                    line, = ax.plot([r["step_share"] for r in done(some)], [abs(r[OWN[error]]) for r in done(some)],
-                                    style, ms=5, lw=1, label=label)
-                    unstable = [r["step_share"] for r in some if r["status"] == "diverged"]
-                    if unstable:
-                        ax.axvline(min(unstable), color=line.get_color(), ls=":", lw=1)
-            if any(r["status"] == "diverged" for r in rows):
-                ax.plot([], [], ":", color="0.4", label="first step that diverges")
-            ax.set(yscale="log", xlabel="step / computed critical step", ylabel=LABEL[error])
-        axes[0].legend(**BELOW)
-        self.save(figure, "step-share")
-
-    def strain_and_damping(self):
-        figure, axes = self.panels("AM1, 20 Hz: what strain, and what damping, do to |E*| and φ")
-        ax = axes[0]
-        for scene, mark in (("t8", "o"), ("demo", "s")):
-            for error, colour, unit in ((E_STAR, "tab:blue", "|E*| (relative)"), (PHASE, "tab:red", "φ (degrees)")):
+            for scene, mark, colour in (("t8", "o", "tab:blue"), ("demo", "s", "tab:orange")):
                 for cycles, style in ((1.0, "-"), (4.0, "--")):
                     line = [(r["strain"], abs(r[OWN[error]])) for r in
                             done(select(self.am1, study="strain", scene=scene, geometry="updated", cycles=cycles))]
                     if line:
                         ax.plot(*zip(*line), mark + style, color=colour, ms=4, lw=1,
-                                label=f"{scene}, {unit}, {cycles:g} cycle{'s' if cycles > 1 else ''}")
-        ax.set(xscale="log", yscale="log", xlabel="strain amplitude", title="strain: updated against fixed geometry",
-               ylabel="difference from the linear solution")
-        ax.legend(**BELOW)
-        ax = axes[1]
-        for scaling, mark in ((1e2, "o"), (1e4, "s")):
-            for kind, colour in (("local", "tab:blue"), ("viscous", "tab:green")):
-                for error, style in ((E_STAR, "-"), (PHASE, "--")):
+                                label=f"{scene}, {cycles:g} cycle{'s' if cycles > 1 else ''}")
+            ax.set(xscale="log", yscale="log", xlabel="strain amplitude",
+                   ylabel=LABEL[error].replace("error", "change"))
+        axes[0].legend(**BELOW)
+        self.save(figure, "strain")
+
+    def damping(self):
+        figure, axes = self.panels("Damping, t8, AM1, 20 Hz (local: from rest, viscous: steady start)")
+        for ax, error in zip(axes, (E_STAR, PHASE)):
+            for scaling, mark in ((1e2, "o-"), (1e4, "s--")):
+                for kind, colour in (("local", "tab:blue"), ("viscous", "tab:orange")):
                     line = [(r["damping"], abs(r[error])) for r in
                             done(select(self.am1, study="damping", scene="t8", damping_kind=kind,
                                         density_scaling=scaling))]
                     if line:
-                        ax.plot(*zip(*line), mark + style, color=colour, ms=4, lw=1,
-                                label=f"{kind}, scaling {scaling:g}, " + ("|E*|" if error == E_STAR else "φ (degrees)"))
-        ax.set(xscale="log", yscale="log", xlabel="χ of local damping, β (1/s) of viscous",
-               title="damping, t8 (local: from rest, viscous: steady start)",
-               ylabel="error against true mass, undamped")
-        ax.legend(**BELOW)
-        self.save(figure, "strain-damping")
+                        ax.plot(*zip(*line), mark, color=colour, ms=4, lw=1, label=f"{kind}, scaling {scaling:g}")
+            ax.set(xscale="log", yscale="log", xlabel="χ of local damping, β (1/s) of viscous damping",
+                   ylabel=LABEL[error])
+        axes[0].legend(**BELOW)
+        self.save(figure, "damping")
 
 
 def main():
@@ -283,7 +262,7 @@ def main():
     drawing.front("t8")
     drawing.front("demo")
     drawing.front_clusters()
-    for draw in (drawing.drift, drawing.rest, drawing.step_share, drawing.strain_and_damping):
+    for draw in (drawing.drift, drawing.rest, drawing.strain, drawing.damping):
         draw()
 
 

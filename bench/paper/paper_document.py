@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of docs/paper-specimens.md: our values beside those of the paper. A value that differs by more than a tenth is
-bold and has the letter of its reason in paper_reasons.py; a bold value without a reason is an error."""
+"""Tables of docs/paper-specimens.md and docs/paper-details.md: our values with the paper's. A value that differs by
+more than a tenth is bold and has the letter of its reason in paper_reasons.py; a bold value without a reason is an error."""
 import textwrap
 from fnmatch import fnmatchcase
 
@@ -65,7 +65,8 @@ def deviations(runs, name, base, key):
 
 
 def composition(runs, cells):
-    out = ["## Composition (Table 3)", ""]
+    out = ["## Composition (Table 3)", "", *wrapped("""Numbers of particles and spheres by sieve class (mm), mean size,
+        and share of the volume of all spheres, ΣV_s."""), ""]
     for name, paper in PAPER.items():
         def row(label, key, ours, theirs, digits=0, total=False):
             values = [mean(ours(run)[k] for run in runs[name]) for k in range(len(ours(runs[name][0])))]
@@ -76,16 +77,17 @@ def composition(runs, cells):
 
         single = [mean(run.single[k] for run in runs[name]) for k in range(4)]
         size = row("mean L^I (mm)", "size", lambda run: run.size, paper.size, 1)
-        size.insert(5, f"{2e3 * MASTIC[0]:.1f}–{2e3 * MASTIC[1]:.1f} asked ({paper.size[4]:.1f})")
+        size.insert(5, f"{2e3 * MASTIC[0]:.1f}–{2e3 * MASTIC[1]:.1f} required ({paper.size[4]:.1f})")
         out += [f"### {name}", "", *table(["", *CLASSES, "total"], [
             row("particles", "particles", lambda run: run.particles, paper.particles, total=True),
             *([["of these single spheres", *[f"{n:,.0f}" for n in single], "–", f"{sum(single):,.0f}"]]
               if paper.radius else []),
             row("spheres", "spheres", lambda run: run.spheres, paper.spheres, total=True),
             size, row("share of ΣV_s (%)", "share", lambda run: run.share, paper.share, 1)])]
-        out += [*wrapped(f"""ΣV_s is {mean(run.to_box for run in runs[name]):.3f} of the box; the paper's is
-            {paper.to_box:.3f} if its mastic has uniform radii."""), ""]
-    return out + ["The paper's shares are rounded: here and in the scenes, mastic has what the aggregates leave.", ""]
+        out += [*wrapped(f"""ΣV_s is {mean(run.to_box for run in runs[name]):.3f} of the box; in the paper it
+            is {paper.to_box:.3f} if the radii of its mastic are uniform."""), ""]
+    return out + [*wrapped("""The paper's shares are rounded. Here and in the scenes, the mastic's share is the rest to
+        100 %."""), ""]
 
 
 def design(runs):
@@ -102,19 +104,19 @@ def design(runs):
     contacts = [f"{mean(run.contacts[k] for run in runs):,.0f} {pair}" for k, pair in enumerate(PAIRS)]
     seconds = sorted(run.seconds for run in runs)
     return ["## Design formulation (Table 3, first column group)", "",
-            *wrapped(f"""The paper's insertion stops short of the shares that the mixture was designed with, and the
-                paper says no more of a specimen that has them. `examples/{scene}` (library shapes, coarse filling, all
-                packed at once) asks for them, in % of the solid volume, {mean(solid):.2f} of the box. Means of
-                {len(runs)} seeds, and the largest error of a seed:"""), "",
-            *table(["", "asked (%)", "reached (%)", "error (% of the class)", "particles", "of these single spheres",
+            *wrapped(f"""The paper's insertion does not reach the shares of the mix design. `examples/{scene}`
+                (library shapes, coarse filling, packed all at once) reaches them. Shares are in % of the solid volume,
+                which is {mean(solid):.2f} of the box. Values are means of {len(runs)} seeds, and the largest error of a
+                seed:"""), "",
+            *table(["", "required (%)", "reached (%)", "error (% of the class)", "particles", "of these single spheres",
                     "spheres"], rows),
-            *wrapped(f"""Contacts: {', '.join(contacts)}, {mean(run.coordination for run in runs):.2f} a particle, and
-                {mean(run.inner for run in runs):,.0f} inner ones. Made in {seconds[0]:.0f} to {seconds[-1]:.0f} s by
-                `macadam specimen` with {runs[0].threads} threads, other runs beside it."""), ""]
+            *wrapped(f"""Contacts: {', '.join(contacts)}, {mean(run.coordination for run in runs):.2f} per particle, and
+                {mean(run.inner for run in runs):,.0f} inner contacts. `macadam specimen` took {seconds[0]:.0f} to
+                {seconds[-1]:.0f} s with {runs[0].threads} threads, while other runs used the machine."""), ""]
 
 
 def contacts(runs, cells):
-    heads, out = [*PAIRS, "total", "a particle"], ["## Contacts (Table 5)", ""]
+    heads, out = [*PAIRS, "total", "per particle"], ["## Contacts (Table 5)", ""]
     values = [lambda run, k=k: run.contacts[k] for k in range(4)] + [lambda run: run.coordination]
     rows, ratios = [], []
     for name, paper in PAPER.items():
@@ -128,7 +130,7 @@ def contacts(runs, cells):
             of = [over(runs, name, "SS", value) for value in values]
             ratios.append([name, *[cells.beside(f"ratio/{name}/{heads[k]}", mean(v), theirs[k] / ss[k], 2,
                                                 half_range(v)) for k, v in enumerate(of)]])
-    return out + table(["", *heads, "inner"], rows) + ["Over SS, seed by seed:", ""] + table(["", *heads], ratios)
+    return out + table(["", *heads, "inner"], rows) + ["Divided by SS of the same seed:", ""] + table(["", *heads], ratios)
 
 
 def orientation(runs):
@@ -140,12 +142,15 @@ def orientation(runs):
         rows.append([name, f"{len(cosines):,}", *[f"{d:.3f}, p = {p:.2f}" for d, p in tests]])
     n = 3 * len(CLUSTERS)
     return ["## Orientation (Fig. 9)", "",
-            "Direction of D^L of the clusters: distance of each component's distribution from the isotropic one, which",
-            "is uniform, and the probability of a larger one by chance (Kolmogorov–Smirnov, all seeds together).", "",
+            *wrapped("""The table compares the direction of D^L of the clusters with an isotropic distribution, whose
+                components are uniform: the Kolmogorov–Smirnov distance of each component, and the probability p of a
+                larger distance by chance (all seeds together)."""), "",
             *table(["", "clusters", "x", "y", "z"], rows),
-            *wrapped(f"""The smallest of these {n} probabilities is {least:.3f}; the smallest of {n} independent ones is
-                as small by chance in {100 * (1 - (1 - least) ** n):.0f} % of cases."""), "",
-            "![Cumulative orientation](pictures/orientation.png)", ""]
+            *wrapped(f"""The smallest of these {n} probabilities is {least:.3f}. Among {n} independent
+                probabilities, one at or below this value occurs by chance in {100 * (1 - (1 - least) ** n):.0f} % of cases,
+                so the directions are isotropic as far as these numbers show."""), "",
+            "![Cumulative distribution of the components of the direction of D^L, four specimens; all lie on the diagonal"
+            " of the isotropic distribution](pictures/orientation.png)", ""]
 
 
 def stiffness(runs, cells):
@@ -156,8 +161,8 @@ def stiffness(runs, cells):
             series = [[getattr(run, key)[k] for run in of] for k in range(len(hz))]
             rows.append([f"{name}, {label} ({unit})", *[f"{mean(s):.3f} ± {half_range(s):.3f}" for s in series]])
     out = ["## Stiffness (Fig. 11)", "",
-           "Frequency domain, without inertia, AM1 with the same δ everywhere.", "", *table(["", *hz], rows),
-           "Deviation from SS, seed by seed, and its mean over the frequencies (d_m, Eq. 26), beside the paper's:", ""]
+           "Frequency domain, without inertia, AM1 with the same factors δ in all specimens.", "", *table(["", *hz], rows),
+           "Deviation from SS of the same seed, its mean over the frequencies (d_m, Eq. 26), and the paper's in brackets:", ""]
 
     def compared(pairs, where):
         rows = []
@@ -170,29 +175,66 @@ def stiffness(runs, cells):
         return table(["", *hz, "d_m"], rows)
 
     out += compared([(name, "SS", name, DEVIATION[name]) for name in CLUSTERS], "deviation")
-    out += ["![Stiffness modulus and phase angle](pictures/specimens_e_star.png)", "", "### Poly against Ico", "",
-            "Deviation of Ico from Poly; the paper calls the coarse ones identical:", ""]
+    out += ["![Above: stiffness modulus and phase angle over frequency, five specimens. Below: mean deviations from single "
+            "spheres, ours and the paper's](pictures/specimens_e_star.png)", "", "### Real shapes and icosahedra", "",
+            "Deviation of Ico from Poly. In the paper the coarse specimens are identical:", ""]
     return out + compared([(f"MS-Ico-{size}", f"MS-Poly-{size}", size, paper) for size, paper in ICO_OVER_POLY.items()],
                           "shape")
 
 
 def pictures():
+    """Returns the section with the cut and the view of one specimen, and links to the other pictures."""
+    name, paper = next((n, p) for n, p in PAPER.items() if n == "MS-Poly-fine")
     out = ["## Sections and views (Figs. 7, 8, 10)", "",
-           *wrapped(f"""Laguerre cells cut exactly at x = 25 mm and y = 25 mm, and the aggregates without the mastic;
-               seed 1. Mastic is blue; aggregates have the colour of their sieve class, and the spheres of a cluster
-               shades of it."""), ""]
-    for name, paper in PAPER.items():
-        files = [f"![](pictures/{paper.scene}_{view}.png)" for view in ("x_0.025", "y_0.025", "view")]
-        out += [line([f"{name}, x = 25 mm", "y = 25 mm", "aggregates"]), "|---|---|---|", line(files), ""]
-    return out
+           *wrapped(f"""{name}, seed 1: Laguerre cells cut at x = 25 mm, and the aggregates without the mastic. Mastic is
+               blue. Aggregates have the colour of their sieve class, and the spheres of a cluster are shades of it."""),
+           "", line(["x = 25 mm", "aggregates"]), "|---|---|",
+           line([f"![Cut through {name}: cells of mastic blue, aggregates by sieve class]"
+                 f"(pictures/{paper.scene}_x_0.025.png)",
+                 f"![Aggregates of {name} without mastic, coloured by sieve class](pictures/{paper.scene}_view.png)"]), ""]
+    others = [f"{n} ([x](pictures/{p.scene}_x_0.025.png), [y](pictures/{p.scene}_y_0.025.png), "
+              f"[view](pictures/{p.scene}_view.png))" for n, p in PAPER.items()]
+    return out + wrapped("All pictures: " + ", ".join(others) + ".")
 
 
-def head(runs):
-    return ["# The paper, and ours beside it", "",
-            *wrapped(f"""Every table and figure of [the paper](model.md#source) that has specimens in it. Made by
-                `scripts/documents` of what `bench/paper/paper` leaves in [bench/results](../bench/results); do not edit. Ours, and the paper's in
-                brackets; where the two differ by more than 10 % the cell is bold, and its letter stands for the reason
-                [below](#what-differs-and-why). Means of {len(runs['SS'])} seeds; ± is half the range over the seeds,
-                everywhere. Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`. Figures without numbers in the
-                paper's text are drawn for ours alone. Tables 1 and 2 and Figs. 5 and 6a, b, d are in
-                [shapes.md](shapes.md) and [filling.md](filling.md)."""), ""]
+def verdict(runs):
+    """Returns the opening of the page: its purpose, and how well the paper's results are reproduced."""
+    def beside(names, key, index):
+        ours = [mean(d[-1] for d in deviations(runs, name, "SS", key)) for name in names]
+        theirs = [DEVIATION[name][index] for name in names]
+        return minus(f"{data.between(ours, '{:+.0f}')} % (paper {data.between(theirs, '{:+.0f}')} %)")
+
+    coarse, fine = ([n for n in CLUSTERS if n.endswith(size)] for size in ("coarse", "fine"))
+    fewer = [100 * (1 - mean(run.contacts[0] for run in runs[n]) / PAPER[n].contacts[0]) for n in CLUSTERS]
+    entries = ["""**Reproduced:** the compositions of the single spheres (SS) and of most classes of the clusters; the
+            sign and the order of the deviations from single spheres. Clusters are stiffer and less viscous than single spheres, fine clusters more than coarse
+            ones, and the shape matters less than the size of the spheres.""",
+               f"""**|E\\*| against SS, not reproduced in size:** coarse clusters {beside(coarse, 'e_star', 0)}, fine
+            clusters {beside(fine, 'e_star', 0)}.""",
+               f"""**φ against SS, not reproduced in size:** coarse clusters {beside(coarse, 'phase', 1)}, fine clusters
+            {beside(fine, 'phase', 1)}.""",
+               f"""**Contacts between aggregates:** clusters have {data.between(fewer, '{:.0f}')} % fewer than in the
+            paper.""",
+               """**Most probable cause:** choices that the paper does not state, above all the porosity of the clusters and
+            the test by which they are kept apart ([details](paper-details.md#choices-that-the-paper-does-not-state)).""",
+               """**Not compared:** measurements. The measured moduli are not in the paper."""]
+    return ["# The paper's specimens", "",
+            *wrapped(f"""This page compares the specimens of [the paper](model.md#source), made and solved with Macadam, with
+                its Table 5 and its Figs. 7 to 13. [Details](paper-details.md) has its Tables 3 and 4 and Figs. 4, 6c and 9,
+                the reasons of the differences, and the choices that the paper does not state. Tables 1 and 2 and Figs. 5 and
+                6a, b, d are in [shapes.md](shapes.md) and [filling.md](filling.md)."""), "",
+            *[row for e in entries for row in wrapped(e, "- ")], "",
+            *wrapped(f"""SS are single spheres. MS are clusters ("multi-spheres") of real shapes (Poly) or icosahedra (Ico),
+                filled with coarse or fine spheres. In the tables our value is first, and the paper's is in brackets. Values
+                are means of {len(runs['SS'])} seeds; ± is half the range over the seeds. If two values differ by more than
+                10 %, the cell is bold, and its letter names [the reason](paper-details.md#reasons-of-the-differences).
+                Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`. `bench/paper/paper` computes the results in
+                [bench/results](../bench/results), and `scripts/documents` writes this page."""), ""]
+
+
+def details_head():
+    return ["# The paper's specimens: details", "",
+            *wrapped("""This page is for reviewers of the [comparison with the paper](paper-specimens.md). It has the tables of
+                composition, the other figures, the origin of the contacts' moduli, the reasons of the differences, and a
+                study of the choices that the paper does not state. Notation and brackets are explained there.
+                `scripts/documents` writes this page."""), ""]

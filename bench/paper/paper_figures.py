@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of docs/paper-specimens.md other than those on the five specimens at the same delta: the shapes' figures,
-the calibrated specimens (Figs. 12 and 13), and specimens stepped in time."""
+"""Sections of docs/paper-specimens.md and docs/paper-details.md except the five specimens at the same delta: the
+shapes' figures, the calibrated specimens (Figs. 12 and 13), and specimens stepped in time."""
 import math
 
 from paper_data import RESULTS, between, half_range, listed, mean, minus, rows, span, thousands, upto, where
@@ -30,22 +30,23 @@ def numbers_of_spheres():
              for key, label in INDEXES.items()}
     lines.append(["correlation with the number", "", *[minus(f"{v:+.2f}") for v in r.values()]])
     lines.append(["… without the icosahedron", "", *[minus(f"{v:+.2f}") for v in alone.values()]])
-    return ["## Spheres against shape (Fig. 6c)", "", *wrapped(f"""Spheres of 0.5 mm that fill each of seven shapes of
-        the same D^I, 12.59 mm, and the coefficients of their correlation with the indexes of shape (Eqs. 18–23). The
-        paper draws them and says that none is strongly correlated; the text has no coefficients. Of
-        {len(found)} shapes a coefficient up to 0.75 may be chance, of {len(found) - 1} up to 0.81 (5 %, two-sided)
+    return ["## Spheres against shape (Fig. 6c)", "", *wrapped(f"""The table has the number of spheres of 0.5 mm that fill each of
+        seven shapes of the same D^I, 12.59 mm, and the correlation of this number with the indices of shape (Eqs. 18–23). The
+        paper draws them and states that no index is strongly correlated; it gives no coefficients. With {len(found)} shapes a
+        coefficient below 0.75 is not significant (5 %, two-sided); with {len(found) - 1}, below 0.81
         ([fill-study.csv](../bench/results/fill-study.csv); [filling.md](filling.md)):"""), "",
             *table(["", "spheres", *INDEXES.values()], lines)]
 
 
 def gradation():
     return ["## Gradation (Fig. 4)", "",
-            *wrapped("""Fig. 4 is drawn, without numbers in the text: the AC 20 whose aggregates the paper scanned. Ours
-                is `examples/ac20_recipe`, on a Fuller curve; `scripts/draw-gradation` draws the asked and the reached
-                one of any specimen of a recipe. The AC 14 is in the text by mass, and `examples/ac14_recipe` follows
-                it ([mix-design.md](mix-design.md)). Both are drawn here for ours alone:"""), "",
+            *wrapped("""The paper draws Fig. 4 without numbers: the AC 20 whose aggregates it scanned. Ours is
+                `examples/ac20_recipe`, on a Fuller curve. The paper gives the AC 14 by mass, and `examples/ac14_recipe`
+                follows it ([mix-design.md](mix-design.md)). `scripts/draw-gradation` draws the required and the reached
+                gradation of any specimen of a recipe:"""), "",
             "| AC 14 | AC 20 |", "|---|---|",
-            "| ![](pictures/gradation_ac14.png) | ![](pictures/gradation_ac20.png) |", ""]
+            "| ![Passing mass over sieve size of AC 14, required and reached](pictures/gradation_ac14.png) "
+            "| ![Passing mass over sieve size of AC 20, required and reached](pictures/gradation_ac20.png) |", ""]
 
 
 def directions(runs):
@@ -55,11 +56,13 @@ def directions(runs):
         clusters = [mean(run.particles[k] - run.single[k] for run in runs[name]) for k in range(3)]
         lines.append([name, *[f"{c:,.0f} ({PAPER[name].particles[k]})" for k, c in enumerate(clusters)],
                       f"{sum(clusters):,.0f} ({sum(PAPER[name].particles[:3])})"])
-    return ["### Directions (Figs. 9a, b)", "", *wrapped("""D^L of every cluster above 4.75 mm, seed 1. The paper draws the
-        lines and gives no numbers; in brackets are its aggregates of these classes, single spheres among them."""), "",
+    return ["### Directions (Figs. 9a, b)", "", *wrapped("""The paper draws D^L of each cluster above 4.75 mm as a line, without
+        numbers. The table has our numbers of clusters, and in brackets the paper's numbers of aggregates in these classes,
+        which include single spheres. Pictures (seed 1): [MS-Poly-fine](pictures/ac14_ms_poly_fine_axes.png),
+        [MS-Poly-coarse](pictures/ac14_ms_poly_coarse_axes.png); a line has the colour of its sieve class, as in the
+        sections."""), "",
             *table(["clusters", *CLASSES[:3], "together"], lines),
-            "| MS-Poly-fine | MS-Poly-coarse |", "|---|---|",
-            "| ![](pictures/ac14_ms_poly_fine_axes.png) | ![](pictures/ac14_ms_poly_coarse_axes.png) |", ""]
+            ]
 
 
 # ---- Figs. 12 and 13
@@ -87,18 +90,17 @@ def of_mix(found, mix, figure):
     e, phi = CALIBRATED[mix]
     return [f"### {mix} (Fig. {figure})", "",
             *table(["", "δ_MA (paper)", "d_m of \\|E*\\| (%)", "2 … 20 Hz", "d_m of φ (%)", "2 … 20 Hz"], lines),
-            *wrapped(f"""The paper's d_m of |E\\*| is {e} %, and that of φ from {minus(f'{phi[0]:+d}')} to
+            *wrapped(f"""In the paper d_m of |E\\*| is {e} %, and d_m of φ from {minus(f'{phi[0]:+d}')} to
                 {phi[1]:+d} %."""), ""]
 
 
 def calibrated():
     out = ["## Calibrated to the single spheres (Figs. 12 and 13)", "",
-           *wrapped("""δ_MA of each specimen of clusters so that its |E\\*| is that of the single spheres, by least squares
-               over the four frequencies; φ is left to come out as it does. `bench/paper/paper-deltas` calls `macadam
-               calibrate` for each mixture, specimen and seed."""), "", *am2_single_spheres()]
+           *wrapped("""For each specimen of clusters, δ_MA is fitted to |E\\*| of the single spheres, by least squares over
+               the four frequencies; φ is not fitted. `bench/paper/paper-deltas` calls `macadam calibrate` for each mixture,
+               specimen and seed."""), "", *am2_single_spheres()]
     if not (RESULTS / "paper-deltas.csv").is_file():
-        return out + ["Figs. 12 and 13 are still to be made: `bench/paper/paper-deltas` writes the numbers, and",
-                      "`scripts/documents` the tables that stand here then.", ""]
+        return out + ["Run `bench/paper/paper-deltas` to make Figs. 12 and 13.", ""]
     found = rows("paper-deltas.csv")
     return out + of_mix(found, "AM1", 12) + of_mix(found, "AM2", 13) + why_less(found)
 
@@ -117,11 +119,12 @@ def why_less(found):
         delta = mean(r["delta_ma"] for r in where(found, mix="AM1", specimen=name))
         own.append(math.log(stiffer(name)) / math.log(DELTA_MA["AM1"]["SS"] / delta))
         papers.append(math.log(1 + percent / 100) / math.log(DELTA_MA["AM1"]["SS"] / DELTA_MA["AM1"][name]))
-    return wrapped(f"""Our δ_MA are larger, although our fine clusters have to lose more |E\\*| than the paper's. Take |E\\*| as
-        a power of δ_MA: from what a specimen has above the single spheres at 3.15 (Fig. 11) to nothing at its own δ_MA, AM1's
-        exponent is {between(own, "{:.2f}")} here and {between(papers, "{:.2f}")} in the paper. That exponent is the share of the
-        stiffness that M-A contacts carry. So in the paper's specimens less passes through the mastic between aggregates and
-        more from aggregate to aggregate, as its larger number of A-A contacts says too (ᶠ). *Inferred.*""") + [""]
+    return wrapped(f"""Our δ_MA are larger than the paper's, although the calibration of our fine clusters must remove more
+        |E\\*|. Assume |E\\*| ∝ δ_MA^n. The excess over single spheres at δ_MA = 3.15 (Fig. 11) vanishes at the calibrated δ_MA,
+        which gives n = {between(own, "{:.2f}")} here and {between(papers, "{:.2f}")} in the paper (AM1). n is the fraction of
+        the stiffness that M-A contacts carry. So in the paper's specimens less force passes through the mastic between
+        aggregates and more from aggregate to aggregate, in agreement with its larger number of A-A contacts (ᶠ).
+        *Inferred.*""") + [""]
 
 
 # ---- stepped in time
@@ -142,16 +145,15 @@ def stepped():
     poly = {r["frequency_hz"]: r["stepping_s"] for r in found if r["specimen"] == "MS-Poly-fine"}
     faster = [86400 * days / poly[hz] for hz, days in zip((20.0, 2.0), PAPERS_DAYS) if hz in poly]
     out = ["## Stepped in time, at true mass", "",
-           *wrapped(f"""A cycle of {listed([f"{hz:g}" for hz in sorted({r['frequency_hz'] for r in found})])} Hz from the steady start, mixed precision, no density scaling; the last
-               columns are what is off the frequency domain without inertia, on which the rest of this page rests:
-               {off:.1e} at most. `bench/paper/paper-stepped` makes [the
-               data](../bench/results/paper-stepped.csv)."""), "",
-           *table(["", "f (Hz)", "10⁶ steps", "step (ns)", "µs a step", "seconds", "\\|E*\\| (GPa)", "off (10⁻⁹)",
-                   "φ (°)", "off (10⁻⁹ rad)"], lines)]
+           *wrapped(f"""One cycle of {listed([f"{hz:g}" for hz in sorted({r['frequency_hz'] for r in found})])} Hz from the steady start, mixed precision, no density scaling.
+               The difference from the frequency domain without inertia, which all other tables use, is at most {off:.1e}
+               ([results](../bench/results/paper-stepped.csv) of `bench/paper/paper-stepped`):"""), "",
+           *table(["", "f (Hz)", "10⁶ steps", "step (ns)", "µs per step", "seconds", "\\|E*\\| (GPa)", "difference (10⁻⁹)",
+                   "φ (°)", "difference (10⁻⁹ rad)"], lines)]
     text = f"""The paper's stepped runs of MS-Poly-fine took {PAPERS_DAYS[0]} days (20 Hz) to {PAPERS_DAYS[1]} days
-        (2 Hz) on one core of an i9-10900KF; it does not say of how many cycles. Here a cycle of the specimens in the table
-        takes {listed(seconds)}. The table is of the version and the GPU that its file names; a step is faster since:
-        [bench](../bench/README.md)."""
+        (2 Hz) on one core of an i9-10900KF; the paper does not state the number of cycles. Here a cycle of the specimens in the
+        table takes {listed(seconds)}, with the version and the GPU that its file names. A step is faster since then
+        ([benchmarks](../bench/README.md))."""
     if faster:
         text += f""" Of MS-Poly-fine it is {span(faster, lambda x: thousands(round(x, -2)), ' to ')} times faster, if the
             paper's were one cycle too, by the machine, the precision and the condensed contacts together."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The section of docs/paper-specimens.md on the choices that the paper does not state, from
+"""The section of docs/paper-details.md on the choices that the paper does not state, from
 bench/results/paper-study.csv."""
 import math
 
@@ -10,7 +10,7 @@ from paper_study import (CONTACT_SCALE, DEVIATION_SCALE, NARROW, OURS, QUANTITIE
                          porosity)
 from paper_tables import CLUSTERS, DEVIATION, PAPER
 
-SHOWN = 12  # number of best sets in the table
+SHOWN = 6  # number of best sets in the table
 
 
 def studied():
@@ -44,19 +44,19 @@ def detail(title, of):
         ratios = [f"{r:.2f} ({a / b:.2f})" for r, a, b in zip(j.ratios, paper.contacts, ss.contacts)]
         lines.append([name, *ratios, *[minus(f"{d:+.0f} ({p:+d})") for d, p in zip(j.deviations, DEVIATION[name])]])
     return [f"{title}, and the paper in brackets:", "",
-            *table(["over SS", *QUANTITIES[:4], "\\|E*\\| (%)", "φ (%)"], lines)]
+            *table(["divided by SS", *QUANTITIES[:4], "\\|E*\\| (%)", "φ (%)"], lines)]
 
 
 def choices():
     voids = listed([f"{porosity(n, Choice(voids=1)):.2f} ({n[3:]})" for n in CLUSTERS])
     entries = [
-        f"""*voids*: porosity of the fillings, [as the mastic budget has it](#what-the-fillings-decide): {voids}; × 1.3,
-            × 0.5: so many times that.""",
+        f"""*voids*: porosity of the clusters, [estimated from the mastic](#porosity-of-the-clusters): {voids}; × 1.3 and
+            × 0.5 multiply it.""",
         """*tested by spheres*: insertion keeps the spheres of two clusters apart (`test = "spheres"`), not their
             surfaces.""",
         """*inner gap g*: spheres of one cluster farther apart than g mean radii are not joined (`gap_max` of the pair
-            `inner`); at 0 they must touch, below 0 overlap by so much.""",
-        """*hold-out k*: the surfaces hold mastic out while it relaxes, k times as stiffly as a sphere does
+            `inner`); at 0 they must touch, and below 0 overlap by g.""",
+        """*hold-out k*: the surfaces push mastic out while it relaxes, with k times the stiffness of a sphere
             (`hold_out`).""",
         f"""*narrow radii*: coarse spheres of {1e3 * NARROW[0]:.2f}–{1e3 * NARROW[1]:.2f} mm, which have the mean volume
             of the paper's spheres (ᶜ).""",
@@ -74,15 +74,16 @@ def section():
         return []
     by_choice = {choice: (merit, of) for merit, choice, of in found}
     merit, best, of = found[0]
-    return ["## What the paper leaves open", "",
-            *wrapped(f"""Clusters of ours stiffen more than the paper's and have fewer A-A contacts. `bench/paper/paper_variants`
-                varies what the paper does not say, one thing at a time and together, in all four specimens
+    return ["## Choices that the paper does not state", "",
+            *wrapped(f"""Our clusters stiffen the specimen more than the paper's and have fewer A-A contacts.
+                `bench/paper/paper_variants` varies the choices that the paper does not state, alone and together, in all four
+                specimens
                 ([paper-study.csv](../bench/results/paper-study.csv); seed 1, {SHORT[0]} and {SHORT[1]} Hz):"""), "", *choices(), "",
-            *wrapped(f"""Figure of merit of a set: root mean square, over the four specimens, of six misfits from the
-                paper: A-A, M-A, M-M and total over SS, each in units of {100 * CONTACT_SCALE:.0f} %, and d_m of |E\\*| and φ
-                in units of {DEVIATION_SCALE:.0f} points. The paper rounds d_m to half a point, and another seed moves it by
-                one and A-A by 4 %. 1 would be as good as one can tell. The other columns are the misfits' own root mean
-                squares. One thing at a time:"""), "",
-            *ranking([f for f in found if single(f[1])]), f"The {SHOWN} best of {len(found)} sets:", "",
+            *wrapped(f"""The merit of a set is the root mean square, over the four specimens, of six misfits from the paper:
+                A-A, M-A, M-M and total, divided by SS, each in units of {100 * CONTACT_SCALE:.0f} %, and d_m of |E\\*| and φ
+                in units of {DEVIATION_SCALE:.0f} points. The paper rounds d_m to half a point; another seed changes it by one
+                point and A-A by 4 %. So sets with a merit below 1 cannot be distinguished. The other columns are the root
+                mean squares of the misfits themselves. One choice at a time:"""), "",
+            *ranking([f for f in found if single(f[1])]), f"The best {SHOWN} of {len(found)} sets:", "",
             *ranking(found[:SHOWN]), *detail(f"The best, {best.label} (merit {merit:.1f})", of),
             *detail(f"Ours (merit {by_choice[OURS][0]:.1f})", by_choice[OURS][1])]

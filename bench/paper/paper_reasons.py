@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The reasons in docs/paper-specimens.md why our values differ from the paper's. Each reason is for the bold cells that
+"""The reasons in docs/paper-details.md why our values differ from the paper's. Each reason is for the bold cells that
 its patterns name. Every number comes from the results or from the paper's tables."""
 import math
 from collections import namedtuple
@@ -77,15 +77,15 @@ def number(f):
             for v in ("MS-Ico-coarse", "MS-Ico-fine", "MS-Ico-coarse, voids", "MS-Ico-fine, voids")}
     paper = {r: counts(lambda k, r=r: PAPER[f"MS-Ico-{r}"].particles[k]) for r in ("coarse", "fine")}
     voids = [(n, k, f.void(n, [k])) for n in CLUSTERS for k in range(3)]
-    by_size = [f"{n[3:]} {CLASSES[k]} (number × {v.ratio:.2f}, sizes give × {v.size:.2f})" for n, k, v in voids
+    by_size = [f"{n[3:]} {CLASSES[k]} (number × {v.ratio:.2f}, of which sizes explain × {v.size:.2f})" for n, k, v in voids
                if v.ratio > 1.1 and v.size - 1 > 0.5 * (v.ratio - 1)]
-    return f"""*Fewer aggregates in the three large classes.* Shares are of spheres' volumes, so that the same share
-        takes more clusters if they have voids, and more if they are smaller. The paper's mean L^I is smaller than ours
-        in {', '.join(by_size)}: most of the larger number there, or all. Why it is smaller is *not explained*; the
-        largest class is few enough for chance. In the other cells it is nearly ours, and voids would do (*inferred*):
-        made with voids of 0.24 (coarse) and 0.12 (fine), Ico has {made['MS-Ico-coarse, voids']} and
-        {made['MS-Ico-fine, voids']} aggregates, the paper {paper['coarse']} and {paper['fine']}, ours without voids
-        {made['MS-Ico-coarse']} and {made['MS-Ico-fine']}."""
+    return f"""*Fewer aggregates in the three large classes.* Shares refer to the volumes of spheres. So the same
+        share needs more clusters if the clusters have voids or are smaller. In these cells the paper's mean L^I is smaller
+        than ours, which explains most of the larger number or all of it: {', '.join(by_size)}. The smaller size is *not
+        explained*; in the largest class it may be chance. In the other cells the sizes are nearly equal, and voids may be
+        the cause (*inferred*). With voids of 0.24 (coarse) and 0.12 (fine), Ico has {made['MS-Ico-coarse, voids']} and
+        {made['MS-Ico-fine, voids']} aggregates; the paper has {paper['coarse']} and {paper['fine']}, and without voids
+        Ico has {made['MS-Ico-coarse']} and {made['MS-Ico-fine']}."""
 
 
 def small_class(f):
@@ -97,16 +97,16 @@ def small_class(f):
     weighted = [f.weighted_size(n, 3) for n in names]
     larger = ", ".join(f"{f.weighted_size('MS-Ico-fine', k):.1f} ({ico.size[k]:.1f})" for k in range(3))
     return f"""*2.0–4.75 mm of the fine specimens.* The paper's mean L^I of {poly.size[3]} and {ico.size[3]} mm (Poly
-        and Ico; 3.1 to 3.3 in its three other specimens) does not go with its own volumes: the spheres of an aggregate
-        have {several(volume, '{:.1f}')} mm³, a ball of that L^I has {several(ball, '{:.0f}')} mm³, and ours, of a mean
-        L^I of {f.of(names[0], 'size', 3):.1f} mm, {several(mine, '{:.1f}')} mm³. Ours taken over spheres instead of
-        aggregates is {several(weighted)} mm, near the paper's; but in the larger classes of Ico such a mean is {larger}
-        mm, so that the paper's others are no such means. *Not explained.* The number of aggregates follows from the
-        volume of one, which is not explained either. Spheres: voids of 0.12 make
+        and Ico; 3.1 to 3.3 in its three other specimens) does not agree with its own volumes. The spheres of an aggregate
+        have {several(volume, '{:.1f}')} mm³, and a ball of that L^I has {several(ball, '{:.0f}')} mm³. Our aggregates
+        have a mean L^I of {f.of(names[0], 'size', 3):.1f} mm and {several(mine, '{:.1f}')} mm³. If each of our
+        aggregates is weighted by its number of spheres, the mean L^I is {several(weighted)} mm, near the paper's. But in
+        the larger classes of Ico this weighted mean is {larger} mm, so the paper's other values are not weighted in this
+        way. *Not explained.* The numbers of aggregates follow from these volumes. Numbers of spheres: voids of 0.12 make
         {f.count('MS-Ico-fine, voids', 'spheres_3'):,} of Ico's {f.count('MS-Ico-fine', 'spheres_3'):,} (paper
-        {ico.spheres[3]:,}), since a cluster of eight must be larger then, and
+        {ico.spheres[3]:,}), because a cluster of eight spheres is then larger, and
         {f.count('MS-Poly-fine, voids', 'spheres_3'):,} of Poly's {f.count('MS-Poly-fine', 'spheres_3'):,} (paper
-        {poly.spheres[3]:,}). *Inferred:* that is most of it."""
+        {poly.spheres[3]:,}). *Inferred:* voids are the main cause."""
 
 
 def coarse_spheres(f):
@@ -115,27 +115,27 @@ def coarse_spheres(f):
         return f"{min(of):.2f} to {max(of):.2f}"
 
     least = 4 / 3 * math.pi * 1.45e-3**3 / mean_sphere(COARSE)
-    return f"""*Fewer spheres in the large coarse classes.* Ours have radii uniform in 1–2 mm. The paper's mean volume
-        of a sphere, share of ΣV_s over number, is {ratios('coarse', (0, 1))} of theirs (fine:
-        {ratios('fine', range(3))}), so that the same volume takes more of them. *Inferred:* the paper's coarse radii
-        are not uniform. Its mean radius of 1.5 mm is at least 1.45 before it was rounded, and equal spheres of that
-        have {least:.2f} already, so that they are spread less than ours. Their law is not stated."""
+    return f"""*Fewer spheres in the large coarse classes.* Our radii are uniform in 1–2 mm. The paper's mean volume of
+        a sphere (share of ΣV_s over number) is {ratios('coarse', (0, 1))} of the mean volume of ours (fine:
+        {ratios('fine', range(3))}), so the same volume needs more spheres. *Inferred:* the paper's coarse radii have a
+        narrower distribution than ours. Its mean radius of 1.5 mm was at least 1.45 mm before rounding, and equal spheres of
+        1.45 mm already have {least:.2f} of our mean volume. The paper does not state the distribution."""
 
 
 def spheres_follow(f):
     name, k = "MS-Poly-coarse", 2
     paper, single = PAPER[name], 100 * f.of(name, "single_volume", k) / f.of(name, "volume", k)
-    return f"""*Spheres of 4.75–9.5 mm in Poly-coarse* are fewer because the aggregates are (ᵃ):
-        {f.of(name, 'spheres', k) / f.of(name, 'particles', k):.1f} to an aggregate, the paper has
-        {paper.spheres[k] / paper.particles[k]:.1f}. Of ours {f.of(name, 'single', k):.0f} are single spheres, with
-        {single:.0f} % of the class's volume; the paper does not count its own."""
+    return f"""*Fewer spheres of 4.75–9.5 mm in Poly-coarse,* because the number of aggregates is smaller (ᵃ). An
+        aggregate has {f.of(name, 'spheres', k) / f.of(name, 'particles', k):.1f} spheres, in the paper
+        {paper.spheres[k] / paper.particles[k]:.1f}. {f.of(name, 'single', k):.0f} of our aggregates are single spheres, with
+        {single:.0f} % of the class's volume; the paper does not state its number."""
 
 
 def smaller_size(f):
-    return f"""*Mean L^I of 4.75–9.5 mm in Poly-fine.* It is 6.5 to 7.1 mm in the paper's other specimens, 6.9 by a
-        log-uniform law between the sieves, and {PAPER['MS-Poly-fine'].size[2]} here. Shapes like ours of that size
-        would have less volume than their spheres (void {f.void('MS-Poly-fine', [2]).number:.2f}). *Not
-        explained.*"""
+    return f"""*Mean L^I of 4.75–9.5 mm in Poly-fine.* It is 6.5 to 7.1 mm in the paper's other specimens, 6.9 mm with a
+        log-uniform distribution between the sieves, and {PAPER['MS-Poly-fine'].size[2]} mm in this cell of the paper. Shapes
+        like ours of that size would have less volume than their spheres (void
+        {f.void('MS-Poly-fine', [2]).number:.2f}). *Not explained.*"""
 
 
 def aggregate_contacts(f):
@@ -144,20 +144,20 @@ def aggregate_contacts(f):
     ours, voids, spheres, together = (listed([f"{n:,}" for n in f.counts(c, "A-A")])
                                       for c in (OURS, Choice(voids=1), Choice(test="spheres"), both))
     off = [100 * (n / PAPER[name].contacts[0] - 1) for n, name in zip(f.counts(both, "A-A"), CLUSTERS)]
-    return f"""*Fewer A-A contacts.* In SS ours are within {ss:.0f} % of the paper's; the difference comes with the
-        clusters. Ours are kept apart by an exact test of their surfaces, and mastic finds its way between most of them.
-        The paper fills an aggregate before it finds a place for it, and does not say what it tests; if by the spheres,
-        clusters interlock. In the order of the table {ours} become {voids} with voids, {spheres} tested by spheres, and
-        {together} with both, {between(off, '{:+.0f}')} % off the paper. *Inferred:* both, and
-        [more of it](#what-the-paper-leaves-open)."""
+    return f"""*Fewer A-A contacts.* In SS the numbers agree within {ss:.0f} %; the clusters differ. Our clusters are kept
+        apart by an exact test of their surfaces, and mastic lies between most of them. The paper fills an aggregate before it
+        places it, and does not state its test. If it tests the spheres, clusters interlock. In the order of the table, our
+        numbers are {ours}; {voids} with voids; {spheres} if the spheres are tested; and {together} with both, which differs
+        from the paper by {between(off, '{:+.0f}')} %. *Inferred:* both, and
+        [further choices](#choices-that-the-paper-does-not-state)."""
 
 
 def other_contacts(f):
     ratio = [f.count(v, "M-A") / f.count("SS", "M-A") for v in ("MS-Ico-coarse", "MS-Ico-coarse, voids")]
     paper = PAPER["MS-Ico-coarse"].contacts
-    return f"""*M-M and M-A of Ico-coarse.* Without voids its shapes take less room and leave more to the mastic. With
-        voids of 0.24 M-M falls from {f.count('MS-Ico-coarse', 'M-M'):,} to {f.count('MS-Ico-coarse, voids', 'M-M'):,} (paper
-        {paper[2]:,}), and M-A over SS rises from {ratio[0]:.2f} to {ratio[1]:.2f} (paper
+    return f"""*M-M and M-A of Ico-coarse.* Without voids the shapes take less space, so the mastic has more. With
+        voids of 0.24, M-M falls from {f.count('MS-Ico-coarse', 'M-M'):,} to {f.count('MS-Ico-coarse, voids', 'M-M'):,} (paper
+        {paper[2]:,}), and M-A divided by SS rises from {ratio[0]:.2f} to {ratio[1]:.2f} (paper
         {paper[1] / PAPER['SS'].contacts[1]:.2f}). *Inferred:* voids."""
 
 
@@ -166,10 +166,10 @@ def deviation(f):
                     for r in ("coarse", "fine"))
     _, best, of = merits(f.variants.values())[0]
     e, phi = (listed([f"{of[n].deviations[k]:+.0f} ({DEVIATION[n][k]:+d})" for n in CLUSTERS]) for k in (0, 1))
-    return f"""*|E\\*| and φ against SS.* The coarse ones are stiffer by {several(coarse, '{:.0f}')} % (Poly and Ico),
-        the fine ones by {several(fine, '{:.0f}')} %; φ falls by less than in the paper in all four. Of what was
-        [varied](#what-the-paper-leaves-open) the best set ({best.label}) has {e} % of |E\\*| and {phi} % of φ, the
-        paper's in brackets, in the order of the table."""
+    return f"""*|E\\*| and φ against SS.* The coarse clusters are stiffer by {several(coarse, '{:.0f}')} % (Poly and
+        Ico), the fine clusters by {several(fine, '{:.0f}')} %. φ falls by less than in the paper in all four specimens.
+        Among the [choices that were varied](#choices-that-the-paper-does-not-state) the best set ({best.label}) changes
+        |E\\*| by {e} % and φ by {phi} %, in the order of the table, with the paper's values in brackets."""
 
 
 def shape(f):
@@ -177,12 +177,13 @@ def shape(f):
                     (("", "e_star_pa"), (", composition of Ico", "e_star_pa"), (", composition of Ico", "phase_deg")))
     poly, ico = (PAPER[f"MS-{s}-coarse"] for s in ("Poly", "Ico"))
     box = [f"{sum(p.volume(k) for k in range(4)):.3f} and {p.volume(4):.3f}" for p in (ico, poly)]
-    return f"""*Ico against Poly.* Table 3, and so our scenes, gives Ico more aggregate and less mastic: {box[0]} of the
-        box if coarse, Poly {box[1]}. With Ico's composition given to Poly (seed 1, mean of 2 and 20 Hz), Ico's |E\\*|
-        is off Poly's by {several(same, '{:+.1f}')} % (coarse and fine) instead of {several(e, '{:+.1f}')}, and its φ by
-        {several(phi, '{:+.1f}')} %. So the composition explains our |E\\*|, in the fine ones more than wholly; and at
-        equal composition φ of Ico-fine is as much higher as the paper's ({ICO_OVER_POLY['fine'][1]:+} %). Why the
-        paper's, whose composition is not equal, differ as if it were is *not explained*."""
+    return f"""*Ico against Poly.* Table 3, and therefore our scenes, give Ico more aggregate and less mastic: {box[0]} of
+        the box in the coarse specimens, Poly {box[1]}. With Ico's composition in Poly too (seed 1, mean of 2 and 20 Hz),
+        |E\\*| of Ico differs from Poly's by {several(same, '{:+.1f}')} % (coarse and fine) instead of
+        {several(e, '{:+.1f}')} %, and φ by {several(phi, '{:+.1f}')} %. So the difference in composition explains our
+        difference in |E\\*|; for fine filling it over-explains it. At equal composition φ of Ico-fine is higher by the
+        same amount as in the paper ({ICO_OVER_POLY['fine'][1]:+} %). The paper's compositions are not equal, and why its
+        specimens differ as if they were is *not explained*."""
 
 
 REASONS = [

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file report.hpp  Writes the results as CSV, from which scripts/documents makes docs/stability.md.
+/// \file report.hpp  Writes the results as CSV, from which scripts/documents takes the numbers in docs/verification.md.
 #pragma once
 
 #include <filesystem>

@@ -26,8 +26,19 @@ def parts(text):
     return found
 
 
+def add_parts_of_page(app, docname, source):
+    """A page such as docs/scene has the pages of the folder docs/scene/ below it, unless docs/index.md lists them."""
+    index = app.env.doc2path(INDEX)
+    with open(index, encoding="utf-8") as file:
+        listed = {document for _, pages in parts(file.read()) for _, document in pages}
+    below = sorted(name for name in app.env.found_docs if posixpath.dirname(name) == docname and name not in listed)
+    if below:
+        source[0] += "\n\n```{toctree}\n:hidden:\n\n" + "\n".join(f"/{name}" for name in below) + "\n```\n"
+
+
 def add(app, docname, source):
     if docname != INDEX:
+        add_parts_of_page(app, docname, source)
         return
     found = parts(source[0])
     listed = {document for _, pages in found for _, document in pages}

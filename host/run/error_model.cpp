@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// error_model.cpp  Estimates errors from measurements on specimens of asphalt (docs/accuracy.md), with a factor of
+// error_model.cpp  Estimates errors from measurements on specimens of asphalt (docs/verification.md), with a factor of
 // safety.
 #include "host/run/error_model.hpp"
 

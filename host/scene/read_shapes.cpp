@@ -44,7 +44,7 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
        {"radius", Need::required, range_into(out.fill.radius_min, out.fill.radius_max),
         "smallest and largest radius of the spheres inside an aggregate"},
        {"porosity", Need::optional, into(out.fill.porosity, ratio, porosity),
-        "inside an aggregate: 1 - sum of the spheres' volumes / volume of the shape"},
+        "porosity inside an aggregate: 1 - sum of the spheres' volumes / volume of the shape"},
        {"least", Need::optional, into(out.fill.least, 1, 1000),
         "least number of spheres; an aggregate too small for this number is a single sphere"},
        {"single", Need::optional,

@@ -199,7 +199,7 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
     spec.mastic = read_mastic(v.section(), spec.box, section.has("recipe"));
   };
   section.read(
-      {{"box", Need::required, box_into(spec.box), "edges x, y, z; one corner is the origin, z is vertical"},
+      {{"box", Need::required, box_into(spec.box), "edge lengths x, y, z; one corner is the origin, z is vertical"},
        {"file",
         Need::optional,
         {read_file, {"text"}},

@@ -12,7 +12,7 @@ namespace macadam {
 
 /// The processes started by `mpirun`, as seen by one of them. All read the same scene and call the same functions of
 /// their steppers in the same order. Each holds all arrays, steps its own tiles, and sends the data that others read.
-/// All calls of a process must come from one thread. See docs/devices.md.
+/// All calls of a process must come from one thread. See docs/several-gpus.md.
 class Ranks {
  public:
   virtual ~Ranks() = default;

@@ -39,7 +39,7 @@ class _Outcome(NamedTuple):
 
 
 class Result:
-    """The results of a test, and the folder with its files (docs/scene.md lists them).
+    """The results of a test, and the folder with its files (docs/output-files.md).
 
     `folder` is the folder that was given, or a temporary one that is removed together with this object; save() copies
     it. A pickled result contains the files if the folder is temporary, otherwise only the folder's name.

@@ -59,7 +59,7 @@ def checkpoints(setting):
             put_back(out, {**found, "checkpoint.h5": bytes_, **({"checkpoint-previous.h5": previous} if with_previous else {})})
             outcome = setting.run(setting.stepped(out, "--resume"))
             if with_previous:
-                setting.report("damaged; the earlier one is complete", what, gone_on(outcome, out, expected), outcome)
+                setting.report("damaged, previous one intact", what, gone_on(outcome, out, expected), outcome)
             else:
                 setting.report("damaged checkpoints", what, refused(outcome, out, {**found, "checkpoint.h5": bytes_}), outcome)
     put_back(out, {**found, "checkpoint.h5": good})

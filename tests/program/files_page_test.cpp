@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// files_page_test.cpp  docs/files.md lists the columns of every table that the program writes.
+// files_page_test.cpp  docs/output-files.md lists the columns of every table that the program writes.
 #include "tests/support/program.hpp"
 
 namespace macadam::test {
 namespace {
 
 struct FilesPage : Program {
-  std::string page_ = read(fs::path(MACADAM_EXAMPLES).parent_path() / "docs/files.md");
+  std::string page_ = read(fs::path(MACADAM_EXAMPLES).parent_path() / "docs/output-files.md");
 
   /// Expects that the columns of all tables in a folder are on the page; returns the number of tables.
   int expect_columns(const std::string& folder) const {
