@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes docs/paper-specimens.md, and bench/results/paper-summary.csv with the numbers that other pages name, from the
-files that bench/paper/paper writes into bench/results/. scripts/documents writes and checks both."""
+"""Makes docs/paper-specimens.md, docs/paper-details.md, and bench/results/paper-summary.csv with the numbers that other
+pages name, from the files that bench/paper/paper writes into bench/results/. scripts/documents writes and checks them."""
 import csv
 import io
 
@@ -8,21 +8,25 @@ import paper_figures
 import paper_laws
 import paper_open
 from paper_data import mean
-from paper_document import (Cells, composition, contacts, design, deviations, head, orientation, pictures, stiffness)
+from paper_document import (Cells, composition, contacts, design, details_head, deviations, orientation, pictures,
+                            stiffness, verdict)
 from paper_fillings import prose
 from paper_reasons import REASONS
 from paper_runs import RESULTS, committed, rows
 from paper_tables import CLUSTERS, DELTA_MA, DESIGN, DEVIATION, PAPER
 
 
-def page(runs):
+def pages(runs):
+    """Returns the texts of both pages. Both need the reasons of all bold cells."""
     cells = Cells(REASONS)
-    body = [*paper_figures.gradation(), *paper_figures.numbers_of_spheres(), *composition(runs, cells),
-            *design(committed(DESIGN[0])), *contacts(runs, cells), *orientation(runs), *paper_figures.directions(runs),
-            *stiffness(runs, cells), *paper_figures.calibrated(), *paper_laws.section(), *paper_figures.stepped()]
+    main = [*verdict(runs), *stiffness(runs, cells), *contacts(runs, cells), *paper_figures.calibrated(), *pictures()]
+    details = [*details_head(), *composition(runs, cells), *design(committed(DESIGN[0])), *paper_figures.gradation(),
+               *paper_figures.numbers_of_spheres(), *orientation(runs), *paper_figures.directions(runs),
+               *paper_laws.section(), *paper_figures.stepped()]
     cells.check()
     after = prose(runs, rows(RESULTS / "paper-study.csv"), rows(RESULTS / "paper-specimens-time.csv"))
-    return "\n".join([*head(runs), *body, *after(cells.used), *paper_open.section(), *pictures()]).rstrip() + "\n"
+    details += [*after(cells.used), *paper_open.section()]
+    return ("\n".join(lines).rstrip() + "\n" for lines in (main, details))
 
 
 def quantities(runs, name):
@@ -54,4 +58,6 @@ def summary(runs):
 def made():
     """Returns the text of each file."""
     runs = {name: committed(p.scene) for name, p in PAPER.items()}
-    return {"docs/paper-specimens.md": page(runs), "bench/results/paper-summary.csv": summary(runs)}
+    main, details = pages(runs)
+    return {"docs/paper-specimens.md": main, "docs/paper-details.md": details,
+            "bench/results/paper-summary.csv": summary(runs)}

@@ -202,9 +202,10 @@ SELECT quantity, part(specimen, '([^-]*)$') AS filling, text('{} % (paper {} %)'
 FROM "paper-summary.csv" WHERE quantity IN ('e_star', 'phase') GROUP BY 1, 2;
 
 CREATE VIEW paper_met AS  -- the sentence on how well the reference publication is reproduced
-SELECT text('The paper''s tables of shapes and compositions are met; its stiffness figures are met in sign and order, not '
-  || 'in size: coarse clusters change \|E\*\| of single spheres by {} and fine ones by {}, φ of fine ones by {}; clusters '
-  || 'have {} % fewer contacts between aggregates, and the calibrated factor δ_MA of the coarse real shapes is {}.',
+SELECT text('The paper''s tables of shapes and compositions are met. Its stiffness figures are met in sign and order, but '
+  || 'not in size: coarse clusters change \|E\*\| of single spheres by {}, fine clusters by {}, and φ of fine clusters by '
+  || '{}. Clusters have {} % fewer contacts between aggregates, and the calibrated factor δ_MA of the coarse real shapes '
+  || 'is {}.',
   (SELECT one(both) FROM paper_deviations WHERE quantity = 'e_star' AND filling = 'coarse'),
   (SELECT one(both) FROM paper_deviations WHERE quantity = 'e_star' AND filling = 'fine'),
   (SELECT one(both) FROM paper_deviations WHERE quantity = 'phase' AND filling = 'fine'),
