@@ -474,8 +474,8 @@ class StepperImpl final : public Stepper {
   bool started_ = false;  // whether the start was in motion, at a step before the first
 };
 
-/// Returns the used stepper, started again, if it can be; otherwise makes a new one. Returns null and leaves the used
-/// one as it is, if the executor does not fit the devices.
+/// Returns the used stepper, started again, if it can be; otherwise makes a new one. If the executor does not fit the
+/// devices, returns null and does not change `used`.
 template <Executor Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<typename Exec::AnyLaw>, pair_types>& laws,
