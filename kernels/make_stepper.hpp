@@ -13,7 +13,7 @@ namespace macadam {
 /// compiles the kernels for these laws: one of its files includes kernels/make_cpu.hpp before it calls this function.
 /// `on_device`: the program also has the kernels for devices, in one CUDA file with `#include <kernels/make_cuda.hpp>`
 /// and MACADAM_CUDA_STEPPER(P, Any). `compiled`: the precisions that the program has, because each takes a while to
-/// compile; if none is named, all three.
+/// compile; without names, all three.
 ///
 /// \throws the same as make_stepper(), and InputError for a precision or a backend that the program does not have.
 template <class Any, bool on_device = false, Precision... compiled>

@@ -31,7 +31,7 @@ struct BlockSettling {
   ContactView<P> view;
   Block law;
 
-  /// Updates the contact in lane `item.lane` of a packet. `steps`: steps of the block that ends; 0: there is none, and
+  /// Updates the contact in lane `item.lane` of a packet. `steps`: steps of the block that ends; 0: no block ends, and
   /// `change` and `sum` are 0. `now`, `before`: displacements now and at the beginning of that block, [body][8].
   template <class Item>
   MACADAM_HD SettledContact<R> operator()(const Item& item, std::uint32_t packet, const float (&change)[6],

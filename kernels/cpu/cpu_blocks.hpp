@@ -24,7 +24,7 @@ class CpuBlocks {
       : layout_(layout), accumulators_(accumulators) {}
 
   /// Prepares for a start and returns whether steps are taken in blocks. Blocks shorter than 16 steps are not used: an
-  /// update of the states costs as much as some ten steps save.
+  /// update of the states costs what about ten steps save.
   bool begin(const ExecStart& start) {
     constexpr int shortest = 16;
     const bool possible = std::is_same_v<typename P::Geometry, float> && start.options.form == ContactForm::condensed;

@@ -26,7 +26,7 @@ class BlockSchedule {
   bool has_begun() const { return begun_; }
   /// Returns whether the next step is the first of its block.
   bool begins() const { return taken_ == 0; }
-  /// Returns the number of steps of the block that ends; 0: there is none.
+  /// Returns the number of steps of the block that ends; 0: no block ends.
   int ended() const { return begun_ ? taken_ : 0; }
   /// Returns the number of steps of the block that begins with step `first`. A steady start begins at step −1; its
   /// first block has one step, so that the following blocks end at the observations.

@@ -22,7 +22,7 @@ class StateList {
   using Order = std::function<StateOrder()>;
 
   /// Adds an array of `size` numbers of type T; an empty array is left out. `order`: order of the array in a
-  /// checkpoint, made when needed; without it the array is stored as it is.
+  /// checkpoint, made when needed; without it the array is stored in its own order.
   template <class T>
   void add(const std::string& name, const std::string& unit, std::size_t size, std::function<std::vector<T>()> copy,
            std::function<void(const std::vector<T>&)> replace, const Order& order = {}) {
@@ -62,8 +62,8 @@ class StateList {
     return out;
   }
 
-  /// Replaces all arrays by those of the same names, which may be in any order and among others. If one does not fit,
-  /// replaces none. \throws RunError naming the array that does not fit.
+  /// Replaces each array by the given array of the same name. The given arrays may be in any order, and there may be
+  /// more of them. If one does not fit, replaces none. \throws RunError naming the array that does not fit.
   void replace(std::span<const StateArray> arrays) const {
     std::vector<const StateArray*> found;
     for (const Entry& e : entries_) {

@@ -15,6 +15,7 @@
 
 #include "kernels/base/checksum.hpp"
 #include "kernels/contact/contact_readout.hpp"
+#include "kernels/step/body_inputs.hpp"
 #include "kernels/step/executor.hpp"
 #include "kernels/contact/law_functors.hpp"
 #include "kernels/layout/layout.hpp"
@@ -273,23 +274,7 @@ class StepperImpl final : public Stepper {
       if (first) bytes += GroupShape<P>(layout_, group, fact_of(facts, group.pair), options).bytes();
     }
     exec_.begin({options, facts, size_, first, bytes});
-    std::vector<R> inverse(2 * (layout_.particles() + walls), R(0));
-    for (std::size_t b = 0; b < layout_.particles(); ++b) {
-      const auto i = static_cast<std::size_t>(layout_.particle[b]);
-      inverse[2 * b] = static_cast<R>(options.dt / (inertia.mass[i] * options.density_scaling));
-      if (!options.skip_rotations) {
-        inverse[2 * b + 1] = static_cast<R>(options.dt / (inertia.inertia[i] * options.density_scaling));
-      }
-    }
-    const Boundary& boundary = options.boundary;
-    for (const std::int32_t i : boundary.fixed) {
-      const auto b = static_cast<std::size_t>(layout_.body_of(i));
-      inverse[2 * b] = inverse[2 * b + 1] = R(0);
-    }
-    for (std::size_t w = 0; w < wall_count; ++w) {  // with the same density scaling as the particles
-      const double mass = boundary.wall[w].mass * options.density_scaling;
-      if (mass > 0) inverse[2 * (layout_.particles() + w)] = static_cast<R>(options.dt / mass);
-    }
+    std::vector<R> inverse = inverse_masses<R>(layout_, inertia, options);
     if (options.ranks) {
       Checksum all;
       all.add(inverse), all.add(std::vector{options.dt});
@@ -298,17 +283,11 @@ class StepperImpl final : public Stepper {
       options.ranks->require_same("checksum of time step, masses and start, which hosts of one kind find alike",
                                   all.value());
     }
-    std::vector<R> weight(boundary.body_force.empty() ? 0 : 4 * layout_.particles(), R(0));
-    for (std::size_t b = 0; 4 * b < weight.size(); ++b) {
-      const Vec3d& force = boundary.body_force[static_cast<std::size_t>(layout_.particle[b])];
-      const double words[3] = {force.x, force.y, force.z};
-      for (std::size_t w = 0; w < 3; ++w) weight[4 * b + w] = static_cast<R>(words[w]);
-    }
-    wall_table_ = WallTable<R>(boundary);
+    wall_table_ = WallTable<R>(options.boundary);
     WallMotion<R> wall = wall_table_.motion();
     wall.table = exec_.wall_table(wall_table_.most_values());
     const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
-    motion_ = {exec_.set_bodies(std::move(inverse), std::move(weight)),
+    motion_ = {exec_.set_bodies(std::move(inverse), body_forces<R>(layout_, options.boundary)),
                options.damping_kind,
                static_cast<R>(options.damping_kind == Damping::local ? options.damping : 0),
                static_cast<R>((1 - beta * options.dt / 2) / (1 + beta * options.dt / 2)),
@@ -474,8 +453,8 @@ class StepperImpl final : public Stepper {
   bool started_ = false;  // whether the start was in motion, at a step before the first
 };
 
-/// Returns the used stepper, started again, if it can be; otherwise makes a new one. Returns null and leaves the used
-/// one as it is, if the executor does not fit the devices.
+/// Returns the used stepper, started again, if it can be; otherwise makes a new one. If the executor does not fit the
+/// devices, returns null and does not change `used`.
 template <Executor Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<typename Exec::AnyLaw>, pair_types>& laws,

@@ -237,8 +237,8 @@ class CudaBodyArrays {
                                      lists_.place.bytes() + weight_.bytes() + wall_rows_.bytes());
   }
 
-  /// Makes the search for divergent particles, if there is none. `radius` in specimen order [m]. \throws RunError if
-  /// there is too little memory.
+  /// Makes the search for divergent particles when it is first needed. `radius` in specimen order [m]. \throws RunError
+  /// if there is too little memory.
   void require_divergence_search(const std::vector<double>& radius) const {
     if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
   }

@@ -65,7 +65,7 @@ class DeviceSamples {
     check_cuda(cudaMemcpyAsync(read_, taken_.data(), number * sizeof(DeviceSample<R>), cudaMemcpyDeviceToHost, stream),
                "samples");
   }
-  /// Returns sample `k` as it was read.
+  /// Returns the host copy of sample `k`.
   const DeviceSample<R>& operator[](std::size_t k) const { return read_[k]; }
   std::int64_t bytes() const { return static_cast<std::int64_t>(taken_.bytes()); }
 

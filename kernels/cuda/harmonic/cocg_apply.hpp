@@ -215,7 +215,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
   });
 }
 
-/// Computes α of every load, by one thread block. `first`: there was no iteration yet; α = 1 then gives r = f − K·x.
+/// Computes α of every load, by one thread block. `first`: this is the first iteration; α = 1 then gives r = f − K·x.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_step(CocgView<F> d, bool first) {
   constexpr unsigned W = 2 * F;

@@ -69,8 +69,8 @@ struct SystemMemory {
   }
 
  private:
-  /// Makes about as many segments as the device can run thread blocks, each with bodies for some warps. Their number
-  /// does not depend on the number of devices.
+  /// Makes about one segment per thread block that the device can run at the same time, each with bodies for some
+  /// warps. Their number does not depend on the number of devices.
   void make_segments(const LinearSystem& system, const DeviceTeam& team, std::vector<Segment>& runs,
                      std::vector<std::int32_t>& box_segment) const {
     int multiprocessors = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file device_team.hpp  Defines the team of devices that step one specimen together.
 ///
-/// The tiles of the layout are cut into as many consecutive parts as there are devices (TeamCuts), and every launch of
+/// The tiles of the layout are cut into one consecutive part per device (TeamCuts), and every launch of
 /// a step is made once per device for its part. With several devices of one process, an array has one range of
 /// addresses. Its pages lie on the device that works on them, and all other devices can access them. So a contact
 /// between particles of two devices is stepped by the same code, from the same numbers, as any other, and results do

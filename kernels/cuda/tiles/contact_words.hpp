@@ -10,6 +10,9 @@
 /// (settled_fields(), state_fields()) and messages between ranks follow from this file.
 #pragma once
 
+#include <cuda_runtime.h>
+
+#include <cstdint>
 #include <cstring>
 #include <vector>
 

@@ -3,7 +3,7 @@
 ///
 /// With ranks every device has whole arrays, and each rank computes its own tiles. TileLaunch sends velocities of halo
 /// particles in every step, and between two blocks of steps the displacements, load records and constants that the next
-/// kernels read (RankExchange in rank_exchange.hpp). Within one process nothing is sent, because the devices read
+/// kernels read (RankExchange in rank_exchange.hpp). One process sends nothing, because its devices read
 /// each other's memory. docs/gpu-step.md explains the whole path.
 #pragma once
 

@@ -2,8 +2,8 @@
 /// \file resident_tile.hpp  Defines the parts of a step that the threads of one resident tile compute.
 ///
 /// run_resident (resident_kernel.hpp) calls them in order. Words: tile, packet, couple, double packet, load cell, load
-/// list and halo are explained in tile_plan.hpp and in docs/gpu-step.md. Of the packets that a warp steps, `early` and
-/// `late` have their states in registers, and `spilled` have them in memory. The cache is the part of shared memory
+/// list and halo are explained in tile_plan.hpp and in docs/gpu-step.md. The packets `early` and `late` of a warp have
+/// their states in registers, its packets `spilled` have them in memory. The cache is the part of shared memory
 /// that holds constants of packets; `cached` is the number of packets in it.
 #pragma once
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "kernels/contact/block_settling.hpp"
+#include "kernels/contact/law_functors.hpp"
 #include "kernels/cuda/common/load_sums.hpp"
 #include "kernels/cuda/tiles/tile_step.hpp"
 

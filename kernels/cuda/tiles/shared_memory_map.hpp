@@ -33,7 +33,7 @@ struct alignas(2 * sizeof(R)) Two {
 };
 
 /// Positions of the arrays in the shared memory of a tile [byte]. `total` is the size of all of them. The last array,
-/// the cache, holds as many packets of constants as fit.
+/// the cache, holds the constants of all packets that fit.
 template <class P>
 struct ResidentMemory {
   using R = typename P::Particle;

@@ -7,9 +7,9 @@
 /// a table in shared memory (TileVelocities); steps its contacts with step_in_block(), which stores loads into cells
 /// (LoadCells); adds the cells of each particle with sum_lists(); and moves the particles.
 ///
-/// Steps are taken in blocks of up to longest_block steps (see block_settling.hpp and model (6.8)). Within a block a
-/// contact carries only the change δf since the beginning of the block and, if some law has a memory, a sum over the
-/// steps. The loads of the f at the beginning of the block are part of the particles' `base` loads. The state of a
+/// Steps are taken in blocks of up to longest_block steps (see block_settling.hpp and model (6.8)). A contact
+/// carries within a block only the change δf since the beginning of the block and, if some law has a memory, a sum over
+/// the steps. The loads of the f at the beginning of the block are part of the particles' `base` loads. The state of a
 /// contact is therefore in three places. The chain (ContactView::chain) holds the viscoelastic state at the beginning
 /// of the block, in full precision (without a chain, f follows from the displacements); settle_kernels.hpp updates
 /// it after the block. The words of states in memory (contact_words.hpp) hold δf and the sum; they are valid between
