@@ -76,7 +76,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   }
   if (!scene.network.lateral_walls)
     out.push_back({"lateral walls", "the sides are free", "none: the scene asks for free sides"});
-  if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", none});
+  if (!scene.output.contacts) out.push_back({"contacts.csv", "the scene does not request it", none});
   return out;
 }
 
