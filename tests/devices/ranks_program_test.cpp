@@ -141,7 +141,7 @@ TEST_F(RanksProgram, RunsAloneUnlessItIsToldOtherwise) {
   unsetenv("PMI_SIZE");
   EXPECT_EQ(alone.code, 0) << alone.err;
   EXPECT_EQ(other.code, 1) << other.err;
-  EXPECT_THAT(other.err, HasSubstr("found this process alone, expected 2: they were begun by another MPI"));
+  EXPECT_THAT(other.err, HasSubstr("found this process alone, expected 2: they were started by another MPI"));
   const Outcome one = run_quick("one", "--ranks --backend cpu");
   EXPECT_EQ(one.code, 0) << one.err;
 }

@@ -117,7 +117,8 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
   EXPECT_EQ(test.at("strain_at_peak"), found.peak->strain);
   EXPECT_EQ(test.at("points").back().at("broken_points"), 5);
   EXPECT_EQ(test.at("points").front().at("broken_points"), 0);
-  EXPECT_HAS(test.at("rupture").at("words").get<std::string>(), "no intact contact path joins bottom and top wall");
+  EXPECT_HAS(test.at("rupture").at("words").get<std::string>(),
+             "no intact contact path joins the bottom and the top wall");
   EXPECT_HAS(test.at("rupture").at("words").get<std::string>(), "5 of 15 contact points that can break are broken");
   EXPECT_EQ(all.at("cracks").size(), 1u) << "contacts with walls cannot break here";
   EXPECT_EQ(bonds.at("points"), 5);

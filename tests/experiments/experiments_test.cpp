@@ -255,7 +255,7 @@ TEST_F(Experiments, HeldSidesAreSaid) {
   for (const char* solver : {"method = \"harmonic\"\n", quick}) {
     std::ofstream(write_scene(solver), std::ios::app) << "[network]\nlateral_walls = true\n";
     const std::string said = run_quick("cyclic").out;
-    EXPECT_HAS(said, "warning: the sides are held: moduli are those of a confined specimen");
+    EXPECT_HAS(said, "warning: the sides are held, so the moduli are confined moduli");
     EXPECT_HAS(said, "|M*|: confined modulus (the sides are held)");
     EXPECT_HAS(said, "|M*| (GPa)");
     EXPECT_FALSE(contains(said.substr(0, said.find("warning:")), "|E*|")) << said;

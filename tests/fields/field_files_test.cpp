@@ -264,7 +264,7 @@ TEST_F(FieldFiles, AListOfFramesIsGoneOnWithToo) {
 TEST_F(FieldFiles, WhatIsNoSeriesOfTheRunIsRefused) {
   const auto refused = [&](FieldFormat format) { return message_of([&] { begin(10, format, 1.0); }); };
   write(vtkhdf(), "not HDF5");
-  EXPECT_HAS(refused(FieldFormat::vtkhdf), "row.vtkhdf: fields to continue: found what cannot be read");
+  EXPECT_HAS(refused(FieldFormat::vtkhdf), "row.vtkhdf: fields to continue: found data that cannot be read");
   write(pvd(), "<DataSet timestep=\"x\n");
   EXPECT_HAS(refused(FieldFormat::vtp), "row.pvd: fields to continue: found <DataSet timestep=\"x");
   write(pvd(), "another text\n");

@@ -266,9 +266,9 @@ class Planner {
       }
       if (f.predicted && largest(*f.predicted) + plan_.geometry_error > tolerance())
         error += ", which is more than the tolerance";
-      decide("{} Hz: with density scaling {:.4g} a time step may take {:.3g} s, so {} cycle{} {} {} steps{}; {}",
-             frequency, f.density_scaling, f.loading.dt(), f.cycles, f.cycles == 1 ? "" : "s",
-             f.cycles == 1 ? "takes" : "take", f.loading.steps_per_period, f.cycles == 1 ? "" : " each", error);
+      decide("{} Hz: with density scaling {:.4g} the time step is {:.3g} s, so {} cycle{} {} {} steps{}; {}", frequency,
+             f.density_scaling, f.loading.dt(), f.cycles, f.cycles == 1 ? "" : "s", f.cycles == 1 ? "takes" : "take",
+             f.loading.steps_per_period, f.cycles == 1 ? "" : " each", error);
     }
     if (f.start == Start::rest && usual_ramp(scene_) > 0) {
       decide("{} Hz: {}", frequency,
