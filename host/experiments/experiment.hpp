@@ -33,8 +33,9 @@ struct ExperimentOf {
   /// is changed. Stores decisions, skips and warnings in `result`, which is empty except for the backend and may be
   /// moved to another address afterwards. Scene, preparation and watcher must outlive the solution. \throws InputError,
   /// RunError
-  static std::unique_ptr<Solution> plan(const Spec& spec, const Scene& scene, const Preparation& prepared,
-                                        const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
+  static std::unique_ptr<PlannedExperiment> plan(const Spec& spec, const Scene& scene, const Preparation& prepared,
+                                                 const Watcher& watcher, std::optional<Resumed> resumed,
+                                                 RunResult& result);
 
   /// Returns the names of the result files that a run of the scene writes, in addition to the files that every run
   /// writes.
@@ -56,7 +57,7 @@ struct ResultOf {
 
 /// A planned experiment, and the part of its result that is known before it runs.
 struct Planned {
-  std::unique_ptr<Solution> solution;
+  std::unique_ptr<PlannedExperiment> solution;
   RunResult result;               ///< decisions, skips, warnings and the wall time of the planning
   std::exception_ptr unsolvable;  ///< why the experiment cannot be solved; nullptr if it can
 };

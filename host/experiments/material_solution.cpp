@@ -24,10 +24,10 @@ using experiments::Material;
 /// Tolerance of E(t) if [solver] has none.
 constexpr double usual_tolerance = 1e-5;
 
-class MaterialSolution : public Solution {
+class PlannedMaterial : public PlannedExperiment {
  public:
-  MaterialSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
-                   const History& history, double poisson_ratio, Responds responds)
+  PlannedMaterial(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+                  const History& history, double poisson_ratio, Responds responds)
       : scene_(scene),
         prepared_(prepared),
         watcher_(watcher),
@@ -134,11 +134,11 @@ const char* modulus_words(bool confined) {
   return confined ? "confined modulus (the sides are held)" : "uniaxial modulus (the sides are free)";
 }
 
-std::unique_ptr<Solution> plan_material(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                        RunResult& result, const History& history, double poisson_ratio,
-                                        Responds responds) {
-  return std::make_unique<MaterialSolution>(scene, prepared, watcher, result, history, poisson_ratio,
-                                            std::move(responds));
+std::unique_ptr<PlannedExperiment> plan_material(const Scene& scene, const Preparation& prepared,
+                                                 const Watcher& watcher, RunResult& result, const History& history,
+                                                 double poisson_ratio, Responds responds) {
+  return std::make_unique<PlannedMaterial>(scene, prepared, watcher, result, history, poisson_ratio,
+                                           std::move(responds));
 }
 
 nlohmann::ordered_json material_json(const char* kind, const Material& m) {

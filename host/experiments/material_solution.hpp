@@ -35,9 +35,9 @@ using Responds =
 /// Returns a solution that computes the spectrum for the times of a history, writes the tables of the material and
 /// calls `responds`. \throws InputError if the scene has inertia (a specimen with inertia has no relaxation times), and
 /// as Harmonic does.
-std::unique_ptr<Solution> plan_material(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                        RunResult& result, const History& history, double poisson_ratio,
-                                        Responds responds);
+std::unique_ptr<PlannedExperiment> plan_material(const Scene& scene, const Preparation& prepared,
+                                                 const Watcher& watcher, RunResult& result, const History& history,
+                                                 double poisson_ratio, Responds responds);
 
 /// Returns the entries with which `results` of these experiments begins in summary.json.
 nlohmann::ordered_json material_json(const char* kind, const experiments::Material& material);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file planned_experiment.hpp  Defines a planned experiment. When it exists, every check that can refuse the scene has passed,
-/// and no file of the folder has been changed yet.
+/// \file planned_experiment.hpp  Defines a planned experiment. When it exists, every check that can refuse the scene
+/// has passed, and no file of the folder has been changed yet.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +16,9 @@ namespace macadam {
 using Saving = std::function<void(const std::string& status)>;
 
 /// A planned experiment. Scene, preparation and watcher must outlive it.
-class Solution {
+class PlannedExperiment {
  public:
-  virtual ~Solution() = default;
+  virtual ~PlannedExperiment() = default;
 
   /// Runs the experiment. Results are stored in `result` and saved as soon as they are known. \throws DivergenceError
   /// naming the particle that first left the plausible range; InterruptedError; RunError as Harmonic does.

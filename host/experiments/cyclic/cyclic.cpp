@@ -9,9 +9,9 @@ namespace macadam {
 using experiments::Cyclic;
 
 template <>
-std::unique_ptr<Solution> ExperimentOf<Cyclic>::plan(const Cyclic&, const Scene& scene, const Preparation& prepared,
-                                                     const Watcher& watcher, std::optional<Resumed> resumed,
-                                                     RunResult& result) {
+std::unique_ptr<PlannedExperiment> ExperimentOf<Cyclic>::plan(const Cyclic&, const Scene& scene,
+                                                              const Preparation& prepared, const Watcher& watcher,
+                                                              std::optional<Resumed> resumed, RunResult& result) {
   if (scene.solver.method == SolverMethod::explicit_) {
     return plan_steps(scene, prepared, watcher, std::move(resumed), result);
   }

@@ -55,10 +55,10 @@ std::string described(const Scene& scene, double viscous) {
   return out;
 }
 
-class HarmonicSolution : public Solution {
+class PlannedHarmonic : public PlannedExperiment {
  public:
-  HarmonicSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
-                   ListOfStates states)
+  PlannedHarmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+                  ListOfStates states)
       : scene_(scene), prepared_(prepared), watcher_(watcher), states_(states) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
@@ -185,9 +185,9 @@ class HarmonicSolution : public Solution {
 
 }  // namespace
 
-std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                        RunResult& result, ListOfStates states) {
-  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result, states);
+std::unique_ptr<PlannedExperiment> plan_harmonic(const Scene& scene, const Preparation& prepared,
+                                                 const Watcher& watcher, RunResult& result, ListOfStates states) {
+  return std::make_unique<PlannedHarmonic>(scene, prepared, watcher, result, states);
 }
 
 }  // namespace macadam

@@ -82,7 +82,7 @@ std::string line_of(const ResponseSample& s) {
 }
 
 /// A stepped run, after its planning.
-class Steps : public Solution {
+class Steps : public PlannedExperiment {
  public:
   Steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher, const Inertia& inertia, RunState at,
         bool resumed)
@@ -317,8 +317,8 @@ class Steps : public Solution {
 
 }  // namespace
 
-std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                     std::optional<Resumed> resumed, RunResult& result) {
+std::unique_ptr<PlannedExperiment> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                              std::optional<Resumed> resumed, RunResult& result) {
   const InPhase planning(result.phases, &PhaseSeconds::planning);
   const auto start = Clock::now();
   const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);

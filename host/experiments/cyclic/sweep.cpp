@@ -48,9 +48,10 @@ void write_sweep(const std::filesystem::path& file, const Scene& scene, const Sw
 }
 
 /// Solves the steady states and writes sweep.csv whenever the summary is saved.
-class SweepSolution : public Solution {
+class PlannedSweep : public PlannedExperiment {
  public:
-  SweepSolution(const Scene& scene, std::unique_ptr<Solution> states) : scene_(scene), states_(std::move(states)) {}
+  PlannedSweep(const Scene& scene, std::unique_ptr<PlannedExperiment> states)
+      : scene_(scene), states_(std::move(states)) {}
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     states_->solve(
@@ -64,7 +65,7 @@ class SweepSolution : public Solution {
 
  private:
   const Scene& scene_;
-  std::unique_ptr<Solution> states_;
+  std::unique_ptr<PlannedExperiment> states_;
 };
 
 }  // namespace
@@ -75,13 +76,13 @@ std::vector<std::string> ExperimentOf<Sweep>::files(const Sweep&, const Scene&) 
 }
 
 template <>
-std::unique_ptr<Solution> ExperimentOf<Sweep>::plan(
+std::unique_ptr<PlannedExperiment> ExperimentOf<Sweep>::plan(
     const Sweep&, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
     std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): stepped experiments keep it
     RunResult& result) {
   result.found.emplace<SweepResult>();
   const auto points = [](RunResult & run) -> auto& { return std::get<SweepResult>(run.found).points; };
-  return std::make_unique<SweepSolution>(scene, plan_harmonic(scene, prepared, watcher, result, points));
+  return std::make_unique<PlannedSweep>(scene, plan_harmonic(scene, prepared, watcher, result, points));
 }
 
 template <>

@@ -47,9 +47,9 @@ TransientExperiment load_test(const Creep& spec) {
 }
 
 template <>
-std::unique_ptr<Solution> ExperimentOf<Creep>::plan(const Creep& spec, const Scene& scene, const Preparation& prepared,
-                                                    const Watcher& watcher, std::optional<Resumed> resumed,
-                                                    RunResult& result) {
+std::unique_ptr<PlannedExperiment> ExperimentOf<Creep>::plan(const Creep& spec, const Scene& scene,
+                                                             const Preparation& prepared, const Watcher& watcher,
+                                                             std::optional<Resumed> resumed, RunResult& result) {
   return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
 }
 

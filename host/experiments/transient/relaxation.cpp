@@ -31,9 +31,9 @@ TransientExperiment load_test(const Relaxation& spec) {
 }
 
 template <>
-std::unique_ptr<Solution> ExperimentOf<Relaxation>::plan(const Relaxation& spec, const Scene& scene,
-                                                         const Preparation& prepared, const Watcher& watcher,
-                                                         std::optional<Resumed> resumed, RunResult& result) {
+std::unique_ptr<PlannedExperiment> ExperimentOf<Relaxation>::plan(const Relaxation& spec, const Scene& scene,
+                                                                  const Preparation& prepared, const Watcher& watcher,
+                                                                  std::optional<Resumed> resumed, RunResult& result) {
   return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
 }
 

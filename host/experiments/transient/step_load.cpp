@@ -47,7 +47,7 @@ double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
 }
 
 /// A stepped test of a load, from its planning to its results.
-class SteppedLoad : public Solution {
+class SteppedLoad : public PlannedExperiment {
  public:
   SteppedLoad(const TransientExperiment& test, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
               Inertia inertia, LoadState at, bool resumed)
@@ -310,9 +310,9 @@ class SteppedLoad : public Solution {
 
 }  // namespace
 
-std::unique_ptr<Solution> plan_load_steps(const TransientExperiment& test, const Scene& scene,
-                                          const Preparation& prepared, const Watcher& watcher,
-                                          std::optional<Resumed> resumed, RunResult& result) {
+std::unique_ptr<PlannedExperiment> plan_load_steps(const TransientExperiment& test, const Scene& scene,
+                                                   const Preparation& prepared, const Watcher& watcher,
+                                                   std::optional<Resumed> resumed, RunResult& result) {
   const InPhase planning(result.phases, &PhaseSeconds::planning);
   const auto start = Clock::now();
   Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);

@@ -9,8 +9,8 @@ namespace macadam {
 /// Plans one run from the beginning or from a checkpoint. Each point is written to the kind's file at once. Decisions
 /// are stored in `result`. \throws InputError, also naming a checkpoint whose state is from another machine; RunError
 /// as make_load_plan() and make_stepper() do.
-std::unique_ptr<Solution> plan_load_steps(const TransientExperiment& test, const Scene& scene,
-                                          const Preparation& prepared, const Watcher& watcher,
-                                          std::optional<Resumed> resumed, RunResult& result);
+std::unique_ptr<PlannedExperiment> plan_load_steps(const TransientExperiment& test, const Scene& scene,
+                                                   const Preparation& prepared, const Watcher& watcher,
+                                                   std::optional<Resumed> resumed, RunResult& result);
 
 }  // namespace macadam

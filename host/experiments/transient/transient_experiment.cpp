@@ -118,9 +118,9 @@ std::vector<std::string> load_files(const std::string& kind, const Scene& scene)
   return out;
 }
 
-std::unique_ptr<Solution> plan_load_test(const TransientExperiment& test, const Scene& scene,
-                                         const Preparation& prepared, const Watcher& watcher,
-                                         std::optional<Resumed> resumed, RunResult& result) {
+std::unique_ptr<PlannedExperiment> plan_load_test(const TransientExperiment& test, const Scene& scene,
+                                                  const Preparation& prepared, const Watcher& watcher,
+                                                  std::optional<Resumed> resumed, RunResult& result) {
   if (scene.solver.method == SolverMethod::explicit_) {
     return plan_load_steps(test, scene, prepared, watcher, std::move(resumed), result);
   }

@@ -82,8 +82,8 @@ void add_load(const TransientExperiment& test, nlohmann::ordered_json& out);
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
 /// Plans one test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
-std::unique_ptr<Solution> plan_load_test(const TransientExperiment& test, const Scene& scene,
-                                         const Preparation& prepared, const Watcher& watcher,
-                                         std::optional<Resumed> resumed, RunResult& result);
+std::unique_ptr<PlannedExperiment> plan_load_test(const TransientExperiment& test, const Scene& scene,
+                                                  const Preparation& prepared, const Watcher& watcher,
+                                                  std::optional<Resumed> resumed, RunResult& result);
 
 }  // namespace macadam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_room_test.cpp  The order in which steppers and harmonic solutions get the multiprocessors of a device. Events
-// are plain addresses here, so no device is needed.
+// multiprocessor_lease_test.cpp  The order in which steppers and harmonic solutions get the multiprocessors of a
+// device. Events are plain addresses here, so no device is needed.
 #include "kernels/cuda/device/multiprocessor_lease.hpp"
 
 #include <gtest/gtest.h>
