@@ -28,7 +28,7 @@ const DeviceInfo& device_of(const BackendReport& report, int number) {
     if (d.number == number) list += "; " + std::to_string(d.number) + " (" + d.name + ") has no code in this build";
   }
   throw InputError("device: found " + std::to_string(number) +
-                   ", expected the number of one that can run: " + report.cuda_status + ": " + list);
+                   ", expected the number of a device that can run Macadam: " + report.cuda_status + ": " + list);
 }
 
 /// Returns the devices of a list of numbers, all devices, or the first of the report (which must have one). \throws
@@ -68,7 +68,9 @@ DeviceList device_numbers(const DeviceList& asked) {
 
 DeviceSpeed measure_device(int device) {
   const kernels::CudaCode* code = cuda_code();
-  if (!code) throw RunError("device " + std::to_string(device) + " cannot be measured: there is no CUDA backend");
+  if (!code)
+    throw RunError("device " + std::to_string(device) +
+                   " cannot be measured, because the CUDA backend is not available");
   return code->measure(device);
 }
 
@@ -95,7 +97,7 @@ Backend select_backend(Backend asked, std::string* reason, const DeviceList& dev
     if (chosen != Backend::cuda && (asked == Backend::cuda || !devices.empty())) {
       throw RunError(std::string(asked == Backend::cuda ? "backend cuda" : "a CUDA device") +
                      " was asked for but cannot run: " + why + "; use --backend cpu or auto" +
-                     (devices.empty() ? "" : ", and no device"));
+                     (devices.empty() ? "" : ", and do not name a device"));
     }
   }
   if (reason) *reason = why;
@@ -104,13 +106,16 @@ Backend select_backend(Backend asked, std::string* reason, const DeviceList& dev
 
 Backend kernels::resolved(Backend asked, bool on_device, StepperOptions& options) {
   if (asked == Backend::reference) {
-    throw InputError("backend: found reference, expected cpu, cuda or auto: it has only Macadam's own laws");
+    throw InputError(
+        "backend: found reference, expected cpu, cuda or auto: the reference backend computes only Macadam's built-in "
+        "laws, not the laws of this program");
   }
   if (asked == Backend::automatic && options.devices.empty() && !on_device) return Backend::cpu;
   const Backend chosen = select_backend(asked, nullptr, options.devices);
   if (chosen != Backend::cuda) return chosen;
   if (!on_device) {
-    throw RunError("backend cuda was asked for, and this program has no kernels for devices compiled for its laws");
+    throw RunError(
+        "backend cuda was asked for but cannot run: this program was compiled without CUDA kernels for its own laws");
   }
   options.devices = device_numbers(options.devices);
   return chosen;

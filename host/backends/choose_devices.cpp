@@ -30,7 +30,8 @@ DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& d
   }
   if (out.size() > 1) {
     decision = fmt::format(
-        "devices {}: several devices step {} contacts faster than one, and these were idle; --devices {} uses one",
+        "devices {}: several devices step {} contacts faster than one device, and these devices were idle; --devices "
+        "{} uses only one",
         to_string(out), contacts, first);
   }
   return out;

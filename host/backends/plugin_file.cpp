@@ -57,7 +57,7 @@ const void* find_plugin(const PluginFile& asked, std::string& why) {
     }
     if (head->interface == asked.interface && std::string(head->version) == version()) return head;
     why = file.string() + ": found a plugin of Macadam " + head->version + " (interface " +
-          std::to_string(head->interface) + "), expected one of " + version() + " (interface " +
+          std::to_string(head->interface) + "), expected a plugin of Macadam " + version() + " (interface " +
           std::to_string(asked.interface) + ")";
     return nullptr;
   }

@@ -38,8 +38,8 @@ DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   // each process may see another device as its only one; if processes share one, NCCL reports the error
   if (devices.size() == 1) return devices;
   if (own >= devices.size()) {
-    throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " on this host with " +
-                     std::to_string(devices.size()) + " devices, expected one for each device");
+    throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " ranks on this host with " +
+                     std::to_string(devices.size()) + " CUDA devices, expected one rank per device");
   }
   return {devices[own]};
 }
@@ -54,11 +54,12 @@ Ranks* join_ranks() {
   if (joined) return joined;
   std::string why;
   const RanksPlugin* const plugin = find(why);
-  if (!plugin) throw RunError("ranks: this process cannot join the others: " + why);
+  if (!plugin) throw RunError("ranks: this process cannot join the other processes that mpirun started: " + why);
   Ranks* const found = plugin->join();
   if (found->count() == 1 && processes_begun() > 1) {
-    throw RunError("ranks: found this process alone, expected " + std::to_string(processes_begun()) +
-                   ": they were started by another MPI than libmacadam_ranks.so uses");
+    throw RunError("ranks: found only this process, expected as many processes as mpirun started, " +
+                   std::to_string(processes_begun()) +
+                   ": mpirun belongs to another MPI library than the one that libmacadam_ranks.so uses");
   }
   if (found->count() > 1) return joined = found;
   found->leave();

@@ -16,7 +16,7 @@ T counted(std::size_t found, const char* what) {
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<T>::max());
   if (found > most) {
     throw RunError("found " + std::to_string(found) + " " + what + ", expected at most " + std::to_string(most) +
-                   ": they are numbered in " + std::to_string(8 * sizeof(T)) + " bits");
+                   ", because they are numbered with integers of " + std::to_string(8 * sizeof(T)) + " bits");
   }
   return static_cast<T>(found);
 }

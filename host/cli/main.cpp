@@ -82,7 +82,9 @@ int say_and_run(int argc, char** argv) {
   // the output of a run or a specimen is in its files as well, so it may be lost
   const bool in_files = ran && (app.got_subcommand("run") || app.got_subcommand("specimen"));
   if (flush_output() || code != 0 || in_files) return code;
-  say_error("macadam: standard output: cannot be written (disk full, or nobody reads it)\n");
+  say_error(
+      "macadam: standard output: cannot be written (the disk is full, or the program that reads the output has "
+      "ended)\n");
   return 1;
 }
 

@@ -16,9 +16,10 @@ enum class Shell : std::uint8_t { bash, zsh, fish };
 }  // namespace
 
 void add_shell_commands(CLI::App& app) {
-  CLI::App& completion = *app.add_subcommand("completion", "print a script with which a shell completes commands");
+  CLI::App& completion =
+      *app.add_subcommand("completion", "print a script for tab completion of macadam commands in a shell");
   const auto shell = std::make_shared<Shell>(Shell::bash);
-  add_choice(completion, "shell", *shell, "the shell for which the script is made",
+  add_choice(completion, "shell", *shell, "shell for which the script is made",
              {{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}});
   add_examples(completion, {"macadam completion bash", "macadam completion fish"});
   completion.callback([&app, shell] {
@@ -27,7 +28,7 @@ void add_shell_commands(CLI::App& app) {
                                     : fish_completion(app));
   });
 
-  CLI::App& manual = *app.add_subcommand("man", "print the manual page, for man -l -");
+  CLI::App& manual = *app.add_subcommand("man", "print the manual page; macadam man | man -l - shows it");
   add_examples(manual, {"macadam man"});
   manual.callback([&app] { say_text(manual_page(app)); });
 }

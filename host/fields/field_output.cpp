@@ -86,8 +86,9 @@ std::unique_ptr<FieldSeries> FieldOutput::series(const char* kind, const std::st
   auto out = begin_fields(stem(kind, of), scene_.output.fields.format, std::move(mesh),
                           goes_on ? std::optional(time) : std::nullopt);
   if (goes_on && out->size() == 0) {
-    missing.push_back(fmt::format("fields: {} had no frame from which it could continue; it begins at t = {:.6g} s",
-                                  stem(kind, of).string(), time));
+    missing.push_back(
+        fmt::format("fields: the file {} had no frame to continue from; its first frame is at t = {:.6g} s",
+                    stem(kind, of).string(), time));
   }
   return out;
 }

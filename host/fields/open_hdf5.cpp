@@ -49,12 +49,13 @@ H5::FileCreatPropList creation() {
 void with_hdf5(const std::filesystem::path& file, const std::function<void()>& f) {
   const QuietHdf5 quiet;
   const auto fail = [&](const std::string& what) {
-    throw RunError(file.string() + ": HDF5 cannot continue it: " + what + (quiet.failed() ? ": " + quiet.why() : ""));
+    throw RunError(file.string() + ": HDF5 cannot continue the file: " + what +
+                   (quiet.failed() ? ": " + quiet.why() : ""));
   };
   try {
     f();
   } catch (const H5::Exception& error) { fail(error.getDetailMsg()); } catch (const std::bad_alloc&) {
-    throw RunError(file.string() + ": not enough memory to write it");
+    throw RunError(file.string() + ": not enough memory to write the file");
   }
   if (quiet.failed()) fail("an array cannot be closed");
 }

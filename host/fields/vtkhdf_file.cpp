@@ -235,7 +235,7 @@ class VtkHdfSeries : public FieldSeries {
   void reopen(double until) {
     const auto refuse = [&](const std::string& found) {
       throw InputError(name_.string(), 0, "fields to continue", found,
-                       "the fields of this run; if the file is removed, the run begins a new one");
+                       "the fields of this run; remove the file and the run begins a new one");
     };
     std::vector<double> times;
     std::int64_t points = -1;

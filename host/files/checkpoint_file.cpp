@@ -172,14 +172,14 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   std::string bytes;
   const QuietHdf5 quiet;
   const auto fail = [&](const std::string& what) {
-    throw RunError(file.string() + ": HDF5 cannot make it (out of memory?): " + what +
+    throw RunError(file.string() + ": HDF5 cannot make the checkpoint (out of memory?): " + what +
                    (quiet.failed() ? ": " + quiet.why() : ""));
   };
   try {
     bytes = file_of(checkpoint);
     if (quiet.failed()) fail("an array cannot be closed");
   } catch (const H5::Exception& error) { fail(error.getDetailMsg()); } catch (const std::bad_alloc&) {
-    throw RunError(file.string() + ": not enough memory to make it");
+    throw RunError(file.string() + ": not enough memory to make the checkpoint");
   }
   bytes.replace(0, user_block, user_block_of(std::string_view(bytes).substr(user_block)));
   write_whole(file, bytes, true);

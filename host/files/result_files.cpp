@@ -75,7 +75,8 @@ void write_whole(const std::filesystem::path& file, std::string_view bytes, bool
     throw RunError(file.string() + ": cannot be written: " + (written ? error.message() : why));
   }
   if (to_disk && !sync_folder(file.parent_path())) {
-    throw RunError(file.string() + ": cannot be written to disk safely, its folder: " + reason());
+    throw RunError(file.string() +
+                   ": the file is written, but its folder could not be synchronised to disk: " + reason());
   }
 }
 

@@ -216,15 +216,17 @@ class Harmonic::Implementation {
 
   /// Returns why a solution is not accepted, for messages.
   std::string refusal(const Work& w, const HarmonicLoad& load) const {
-    const std::string larger = specimen_.size() > largest_direct && options_.linear == LinearMethod::automatic
-                                   ? fmt::format("; of more than {} particles nothing is factored", largest_direct)
-                                   : "";
+    const std::string larger =
+        specimen_.size() > largest_direct && options_.linear == LinearMethod::automatic
+            ? fmt::format("; the direct solver is not tried for more than {} particles", largest_direct)
+            : "";
     return fmt::format(
         "residual {:.1e}, {:.1e} of it beyond rounding (expected at most {:.1e}), and error in the energy norm {:.1e} "
-        "(at "
-        "most {:.1e}) after {} iterations at {:g} Hz{}, {}: near a resonance, or a nearly singular stiffness{}",
+        "(at most {:.1e}) after {} iterations at {:g} Hz{}, {} solver: the frequency is near a resonance, or the "
+        "stiffness is nearly singular{}",
         w.residual, w.beyond_rounding, options_.tolerance, w.energy_error, energy_tolerance(), w.task.iterations,
-        load.frequency_hz, load.growth == 0 ? "" : fmt::format(" and a growth of {:g} 1/s", load.growth),
+        load.frequency_hz,
+        load.growth == 0 ? "" : fmt::format(" with a load whose amplitude grows as exp(t * {:g} 1/s)", load.growth),
         to_string(w.method), larger);
   }
 

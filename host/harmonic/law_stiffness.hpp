@@ -22,12 +22,11 @@ Out with_stiffness(PairType pair, const std::variant<L...>& law, F&& f) {
         if constexpr (has_stiffness<Own>) {
           return f(own);
         } else {
-          throw InputError(
-              std::string("contacts of ") + to_string(pair), 0, "law",
-              std::string(Own::name) + ", which has no complex stiffness" +
-                  (linear_law<Own> ? "" : ": it is not linear"),
-              "a law that has one, as all that is solved in the frequency domain asks for it; or method = \"explicit\" "
-              "with kind = \"cyclic\", which steps any law");
+          throw InputError(std::string("contacts of ") + to_string(pair), 0, "law",
+                           std::string(Own::name) + ", which has no complex stiffness" +
+                               (linear_law<Own> ? "" : ": it is not linear"),
+                           "a law with a complex stiffness, which every solution in the frequency domain needs; or "
+                           "method = \"explicit\" with kind = \"cyclic\", which steps any law");
         }
       },
       law);

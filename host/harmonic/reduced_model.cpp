@@ -215,7 +215,8 @@ ReducedModel::Solution ReducedModel::solve(const LawTable& laws, const HarmonicL
     const VectorXcd right = scale.asDiagonal() * whole.bottomLeftCorner(free, 1);
     out.of_the_motions.tail(free) = -(scale.asDiagonal() * scaled.partialPivLu().solve(right));
   }
-  if (!out.of_the_motions.allFinite()) throw RunError("harmonic: no solution between the motions known");
+  if (!out.of_the_motions.allFinite())
+    throw RunError("harmonic: the reduced system of the known motions has no finite solution");
   const double to_modulus = gauge_length(specimen_) / section_area(specimen_);
   const auto energy = [&](const Matrix& m) -> Complex {  // without conjugates
     return to_modulus * (out.of_the_motions.transpose() * m * out.of_the_motions).value();

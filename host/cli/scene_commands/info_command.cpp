@@ -20,7 +20,7 @@ void info_command() {
   const BackendReport report = report_backends();
   say("macadam {}\n", version());
   say("cpu        yes, {} threads, compiled for {}\n", report.threads, report.processor);
-  say("reference  yes, for checks: point by point, double precision, one thread\n");
+  say("reference  yes, only for checks: one contact point after the other, double precision, one thread\n");
   say("cuda       {}: {}\n", report.devices.empty() ? "no" : "yes", report.cuda_status);
   const auto list = [](const std::vector<DeviceInfo>& devices, const char* remark) {
     for (const DeviceInfo& d : devices) {

@@ -28,7 +28,8 @@ struct NewArguments {
 void write_new(const std::string& file, const std::string& text) {
   const int out = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (out < 0 && errno == EEXIST)
-    throw InputError(file, 0, "scene", "an existing file", "a new name, because no file is replaced");
+    throw InputError(file, 0, "scene", "an existing file",
+                     "the name of a new file, because macadam new never replaces a file");
   const auto fail = [&] { throw RunError(fmt::format("{}: cannot be written: {}", file, std::strerror(errno))); };
   if (out < 0) fail();
   std::size_t at = 0;
@@ -47,9 +48,10 @@ void write_new(const std::string& file, const std::string& text) {
 
 void new_command(const NewArguments& arguments) {
   write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test));
-  say("{} is written; change it, then:\n\n", arguments.file);
+  say("{} is written. Edit it, then run:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)
-    say("  put specimen.csv (id,x,y,z,radius,phase,body) into the same folder and its box into the scene\n");
+    say("  put specimen.csv (id,x,y,z,radius,phase,body) into the same folder, and write the edge lengths of its box "
+        "into the scene\n");
   say("  macadam check {0}\n  macadam run {0} --out results\n", arguments.file);
 }
 

@@ -91,7 +91,7 @@ void add_run_command(CLI::App& app) {
   const auto arguments = std::make_shared<RunArguments>();
   command
       .add_option("scene", arguments->scenes,
-                  "scene files (TOML); several scenes get one folder each in the folder of --out")
+                  "scene files (TOML); each of several scenes gets a folder of its own in the folder of --out")
       ->required()
       ->type_name("FILE");
   add_out_and_seed(command, arguments->job);
@@ -99,7 +99,8 @@ void add_run_command(CLI::App& app) {
                    "continue from the checkpoint that an interrupted run left in the folder");
   add_ranks(command, arguments->ranks);
   add_number(command, "--at-once", arguments->at_once,
-             "number of scenes that run at a time; 0: four per CUDA device, on all devices, or one per core", 0, 1024);
+             "number of scenes that run at the same time; 0: four on each CUDA device, or one on each CPU core", 0,
+             1024);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam run examples/demo/scene.toml --out results",
                          "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",

@@ -42,8 +42,9 @@ void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Ov
   for (const std::string& file : scenes) {
     const std::string name = name_of(file);
     if (const auto [other, is_new] = scene_named.emplace(name, file); !is_new) {
-      throw InputError(file + ": found the name " + name + ", which " + other->second +
-                       " has already, expected different names, because each scene gets a folder of its name");
+      throw InputError(
+          file + ": found the name " + name + ", which " + other->second +
+          " has too, expected different names, because the results folder of a scene has the scene's name");
     }
     Job one = job;
     one.scene = file;
@@ -84,8 +85,8 @@ void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Ov
   line.clear();
   if (interrupted > 0) {
     throw InterruptedError(
-        fmt::format("interrupted: {} of {} scenes are not done; --resume continues from checkpoints and repeats the "
-                    "scenes without one",
+        fmt::format("interrupted: {} of {} scenes are not done; with --resume the same command continues scenes that "
+                    "have a checkpoint and repeats the others",
                     interrupted + failed, jobs.size()));
   }
   if (failed > 0) throw RunError(fmt::format("{} of {} scenes failed", failed, jobs.size()));

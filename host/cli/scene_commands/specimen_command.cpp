@@ -54,7 +54,8 @@ void specimen_command(const SpecimenArguments& arguments) {
 }  // namespace
 
 void add_specimen_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("specimen", "build the specimen and its contact network only");
+  CLI::App& command =
+      *app.add_subcommand("specimen", "build the specimen and its contact network without running the test");
   const auto arguments = std::make_shared<SpecimenArguments>();
   add_job_options(command, arguments->job);
   command

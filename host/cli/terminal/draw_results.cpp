@@ -33,8 +33,8 @@ std::string draw_results(const std::string& script, const fs::path& folder, cons
   for (const std::string& one : {python, std::string("/usr/bin/python3")})
     if (runs({one, "-B", file.string(), folder.string()})) return fmt::format("pictures: {}\n", pictures);
   return fmt::format(
-      "no pictures: {} has no matplotlib; set MACADAM_PYTHON to a Python with matplotlib, or run that Python with {} "
-      "{}\n",
+      "no pictures: the Python interpreter {} has no matplotlib; set MACADAM_PYTHON to an interpreter that has "
+      "matplotlib, or run such an interpreter with the arguments {} {}\n",
       python, file.string(), folder.string());
 }
 

@@ -22,7 +22,8 @@ DeviceList devices_of(const std::string& text) {
     const auto [stop, error] = std::from_chars(at, end, number);
     const bool known = error == std::errc{} && number >= 0 && number <= most;
     if (!known || (stop != end && *stop != ',') || std::count(out.begin(), out.end(), number) > 0)
-      options::refuse("--device", text, fmt::format("all, or different whole numbers from 0 to {} with commas", most));
+      options::refuse("--device", text,
+                      fmt::format("all, or different whole numbers from 0 to {} separated by commas", most));
     out.push_back(number);
     if (stop == end) return out;
     at = stop;
@@ -51,7 +52,7 @@ void add_overrides(CLI::App& command, Overrides& instead) {
   add_choice(command, "--precision", instead.precision, "precision of the time steps",
              {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}})
       ->group(instead_of_scene);
-  add_choice(command, "--method", instead.method, "step in time, or solve in the frequency domain",
+  add_choice(command, "--method", instead.method, "step the test in time, or solve it in the frequency domain",
              {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})
       ->group(instead_of_scene);
   add_choice(
@@ -77,8 +78,9 @@ void say_recipe(const Scene& scene, const Preparation& prepared) {
   if (!scene.recipe) return;
   const MixDesign& design = *scene.recipe;
   const MixVolumes v = volumes_of(design);
-  say("recipe: binder {:.2f} % of the mix, {:.2f} % of the aggregate; effective {:.2f} % of the mix\n", 100 * v.binder,
-      100 * v.binder / (1 - v.binder), 100 * v.effective_binder);
+  say("recipe: binder {:.2f} % of the mix by mass, {:.2f} % of the aggregate by mass; effective binder {:.2f} % of the "
+      "mix by mass\n",
+      100 * v.binder, 100 * v.binder / (1 - v.binder), 100 * v.effective_binder);
   say("maximum density {:.1f} kg/m3, bulk density {:.1f} kg/m3, air voids {:.2f} %, VMA {:.2f} %, VFB {:.2f} %\n",
       v.maximum_density, v.bulk_density, 100 * v.air_voids, 100 * v.vma, 100 * v.vfb);
   const auto phase = [](const char* name, double mass, double volume, double density) {
@@ -92,7 +94,7 @@ void say_recipe(const Scene& scene, const Preparation& prepared) {
         row.size < design.cut ? " (in the mastic)" : "");
   }
   for (const SievePassing& s : outside_of_envelope(design))
-    say("outside of the envelope: {:.4g} % passing {:.6g} mm\n", 100 * s.passing, 1e3 * s.size);
+    say("outside of the envelope: {:.4g} % passing the sieve of {:.6g} mm\n", 100 * s.passing, 1e3 * s.size);
 }
 
 void say_preparation(const Preparation& p) {
@@ -115,9 +117,12 @@ void say_preparation(const Preparation& p) {
   }
   say("), {} contact points\n", p.network.point_area.size());
   if (p.network.dropped_gap + p.network.dropped_area > 0) {
-    say("dropped: {} facets by gap_max, {} by area_min\n", p.network.dropped_gap, p.network.dropped_area);
+    say("facets that are not contacts: {} because of gap_max, {} because of area_min\n", p.network.dropped_gap,
+        p.network.dropped_area);
   }
-  if (p.loose_particles > 0) say("warning: {} particles are not connected to both walls\n", p.loose_particles);
+  if (p.loose_particles > 0)
+    say("warning: {} particles have no path of contacts to the bottom wall, to the top wall or to both\n",
+        p.loose_particles);
   say("specimen {:.2f} s, tessellation {:.2f} s, network {:.2f} s\n", p.seconds_specimen, p.seconds_tessellation,
       p.seconds_network);
 }

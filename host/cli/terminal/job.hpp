@@ -38,7 +38,8 @@ void add_overrides(CLI::App& command, Overrides& instead);
 template <class Target>  // DeviceList, or an optional one
 CLI::Option* add_devices(CLI::App& command, Target& target) {
   return options::add(command, "--device,--devices",
-                      "number of the CUDA device as in macadam info, or several that share the specimen: 0,1,… or all",
+                      "number of a CUDA device in the list of macadam info, or of several devices that share the "
+                      "specimen: 0,1,… or all",
                       [&target](const std::string& text) { target = devices_of(text); })
       ->type_name("LIST");
 }

@@ -111,7 +111,8 @@ inline CLI::Option* add_out(CLI::App& app, std::string& target, const std::strin
 
 /// Adds --scale, the length of one unit of surface files [m].
 inline CLI::Option* add_scale(CLI::App& app, double& scale) {
-  return add_number(app, "--scale", scale, "metres per unit of the files: 1e-3 for millimetres", 1e-12, 1e12);
+  return add_number(app, "--scale", scale, "length of the files' unit in metres: 1e-3 if the files are in millimetres",
+                    1e-12, 1e12);
 }
 
 }  // namespace macadam

@@ -108,7 +108,8 @@ void time_scenes(BenchArguments arguments) {
     });
   }
   if (!arguments.against.empty() && say_changes(before, rows, arguments.against))
-    throw RunError("slower than " + arguments.against + " beyond noise");
+    throw RunError("some rows are slower than in " + arguments.against +
+                   " by more than the scatter of the measurements");
 }
 
 /// Times the scenes. With --ranks, every process uses another device, only steps are timed, and the first process
@@ -137,7 +138,7 @@ void add_choices(CLI::App& command, const std::string& name, std::vector<T>& tar
     target.clear();
     for (const std::string& word : CLI::detail::split(text, ',')) {
       const auto known = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == word; });
-      if (known == choices.end()) options::refuse(name, text, "some of " + names + ", with commas");
+      if (known == choices.end()) options::refuse(name, text, "one or more of " + names + ", with commas");
       target.push_back(known->second);
     }
   })->type_name("LIST");
@@ -153,7 +154,7 @@ void add_list(CLI::App& command, const std::string& name, std::vector<T>& target
       T value{};
       const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc{} || stop != word.data() + word.size() || !(value >= low && value <= high))
-        options::refuse(name, text, fmt::format("numbers from {} to {}, with commas", low, high));
+        options::refuse(name, text, fmt::format("numbers from {} to {}, separated by commas", low, high));
       target.push_back(value);
     }
   })->type_name("LIST");
@@ -167,33 +168,39 @@ void add_bench_command(CLI::App& app) {
   bench::BenchAxes& axes = arguments->axes;
   command
       .add_option("scene", arguments->scenes,
-                  "scenes (TOML), SCENE.toml=specimen.csv, or lattice:PARTICLES; lattice:1e4 lattice:1e5 without any")
+                  "scenes (TOML); SCENE.toml=specimen.csv for a specimen from a file; lattice:PARTICLES for a lattice "
+                  "of spheres; default: lattice:1e4 lattice:1e5")
       ->type_name("FILE");
   add_choice(command, "--backend", axes.backend, "what computes",
              {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}});
   add_devices(command, axes.devices);
   add_ranks(command, arguments->ranks);
-  add_list(command, "--threads", axes.threads, "of the CPU, one row each; 0: all", 0, 1024);
+  add_list(command, "--threads", axes.threads, "numbers of CPU threads, with one row for each number; 0: all threads",
+           0, 1024);
   add_choices(command, "--form", axes.forms, "condensed,points",
               {{"condensed", ContactForm::condensed}, {"points", ContactForm::points}});
   add_choices(command, "--precision", axes.precisions, "double,mixed,single",
               {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}});
   add_choices(command, "--geometry", axes.geometries, "fixed,updated",
               {{"fixed", Geometry::fixed}, {"updated", Geometry::updated}});
-  add_list(command, "--blocks", axes.blocks, "blocks of steps in the shortest time of load and laws; 4000 is usual",
+  add_list(command, "--blocks", axes.blocks,
+           "number of blocks of steps within the shortest time of the load and the laws; viscoelastic states are "
+           "updated once per block; 4000 is usual",
            1.0, 1e18);
-  add_list(command, "--units", axes.units, "Kelvin units of every law in place of its own; -1: its own", -1, 16);
+  add_list(command, "--units", axes.units, "number of Kelvin units that every law gets; -1: as in the scene", -1, 16);
   command.add_flag("--elastic", axes.elastic, "replace every law by its instantaneous spring");
   add_list(command, "--multiprocessors", axes.multiprocessors,
            "number of multiprocessors of a device that are used; 0: all", 0, 4096);
   add_list(command, "--loads", axes.loads, "number of frequencies that are solved at the same time", 1, 4);
   add_choice(command, "--only", arguments->only,
-             "steps in time, solutions in the frequency domain, or the preparation of a run",
+             "measure only time steps, only solutions in the frequency domain, or the preparation of a run",
              {{"step", "step"}, {"harmonic", "harmonic"}, {"preparation", "preparation"}});
   add_number(command, "--repetitions", axes.repetitions, "number of measurements per row", 1, 1000);
-  add_number(command, "--seconds", axes.seconds, "of a repetition, at the least", 1e-6, 1e4);
-  add_text(command, "--json", arguments->json, "write the rows in the format of Google Benchmark");
-  add_text(command, "--against", arguments->against, "compare with such a file: exit code 1 where a row is slower");
+  add_number(command, "--seconds", axes.seconds, "shortest duration of one repetition in seconds", 1e-6, 1e4);
+  add_text(command, "--json", arguments->json,
+           "file to which the rows are written in the JSON format of Google Benchmark");
+  add_text(command, "--against", arguments->against,
+           "file that --json wrote earlier; the command compares with it and ends with exit code 1 if a row is slower");
   add_examples(command, {"macadam bench examples/demo/scene.toml --json now.json",
                          "macadam bench lattice:1e6 --backend cuda --device all --precision single",
                          "macadam bench --backend cpu --threads 1,2 --only step --against before.json"});

@@ -99,13 +99,14 @@ void calibrate_command(CalibrateArguments arguments) {
 }  // namespace
 
 void add_calibrate_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("calibrate", "parameters of a scene from measured moduli of the mixture");
+  CLI::App& command =
+      *app.add_subcommand("calibrate", "find parameters of a scene from measured moduli of the mixture");
   const auto arguments = std::make_shared<CalibrateArguments>();
   CalibrationOptions& options = arguments->options;
   add_job_options(command, arguments->job);
   add_text(command, "--target", arguments->target,
-           "table: frequency_hz, e_star_pa or e_star_mpa, phase_deg (or e_prime_pa, e_double_prime_pa), "
-           "optionally temperature_c, e_star_std, phase_std")
+           "CSV file of measured moduli with the columns frequency_hz, e_star_pa or e_star_mpa, phase_deg (or "
+           "e_prime_pa, e_double_prime_pa), optionally temperature_c, e_star_std, phase_std")
       ->required();
   command
       .add_option("--free", arguments->free,
@@ -114,8 +115,9 @@ void add_calibrate_command(CLI::App& app) {
       ->required()
       ->type_name("NAME");
   command
-      .add_option("--bounds", arguments->bounds,
-                  "limits of parameters, separated by commas; default: four decades to either side")
+      .add_option(
+          "--bounds", arguments->bounds,
+          "limits of parameters, separated by commas; default: four decades below and above the value in the scene")
       ->delimiter(',')
       ->type_name("NAME=LOW:HIGH");
   command
@@ -137,7 +139,7 @@ void add_calibrate_command(CLI::App& app) {
   add_number(command, "--phase-deviation", options.phase_deviation,
              "standard deviation of the phase angle in degrees, if the file has no phase_std", 1e-6, 90.0);
   command.add_flag("--nearest", options.nearest,
-                   "if the targets cannot be reached, give the nearest values with a warning");
+                   "if no values of the parameters reach the targets, write the nearest values and a warning");
   add_choice(command, "--backend", arguments->backend, "device that computes: auto is a CUDA device if there is one",
              {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}})
       ->group(instead_of_scene);

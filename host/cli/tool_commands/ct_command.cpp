@@ -13,7 +13,7 @@
 namespace macadam {
 
 void add_ct_command(CLI::App& app) {
-  CLI::App& ct = *app.add_subcommand("ct", "grains, phases and specimens from images of computed tomography");
+  CLI::App& ct = *app.add_subcommand("ct", "find grains, phases and specimens in images of computed tomography");
   add_examples(ct, {"macadam ct phantom examples/ct/scene.toml --voxel \"200 um\" --out results/phantom",
                     "macadam ct segment results/phantom/scan.mha --out results/segmented",
                     "macadam ct twin results/segmented --scene examples/ct/scene.toml --out results/twin"});
@@ -27,7 +27,7 @@ void add_ct_command(CLI::App& app) {
   ct.allow_extras();
   ct.callback([] {
     throw InputError("macadam ct", 0, "images of computed tomography", "a program built without ITK",
-                     "one built with it: install libinsighttoolkit5-dev and build again, with -D MACADAM_CT=ON");
+                     "a program built with ITK: install libinsighttoolkit5-dev and build again, with -D MACADAM_CT=ON");
   });
 #endif
 }

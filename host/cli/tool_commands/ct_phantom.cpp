@@ -39,7 +39,7 @@ void phantom_command(CtPhantomArguments arguments) {
   say("{} x {} x {} voxels of {:.4g} um: {} grains, aggregate {:.2f} %, mastic {:.2f} %, voids {:.2f} %\n", n[0], n[1],
       n[2], 1e6 * spec.voxel, phantom.grains.size(), 100 * phantom.aggregate, 100 * phantom.mastic,
       100 * phantom.voids);
-  say("scan.mha, phantom.json and truth in {}\n", arguments.out);
+  say("scan.mha, phantom.json and the subfolder \"truth\" are in {}\n", arguments.out);
 }
 
 }  // namespace
@@ -47,7 +47,8 @@ void phantom_command(CtPhantomArguments arguments) {
 void add_ct_phantom(CLI::App& ct) {
   const auto arguments = std::make_shared<CtPhantomArguments>();
   PhantomSpec& spec = arguments->spec;
-  CLI::App& command = *ct.add_subcommand("phantom", "a synthetic scan of a scene's specimen, with its truth");
+  CLI::App& command =
+      *ct.add_subcommand("phantom", "make a synthetic scan of a scene's specimen, with the true grains and phases");
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
   add_text(command, "--voxel", arguments->voxel, "edge of a voxel, as \"100 um\"", "LENGTH")->required();
   add_out(command, arguments->out);
@@ -63,11 +64,14 @@ void add_ct_phantom(CLI::App& ct) {
   add_number(command, "--samples", spec.samples, "number of sample columns along each edge of a voxel", 1, 16);
   add_number(command, "--blur", spec.blur, "standard deviation of the blur, in voxels", 0.0, 10.0);
   add_fraction(command, "--noise", spec.noise,
-               "standard deviation of the noise, as a fraction of the grey values aggregate - air", 0.0, 1.0);
-  add_fraction(command, "--cupping", spec.cupping, "loss of grey value on the axis, as a fraction", 0.0, 1.0);
-  add_fraction(command, "--rings", spec.rings, "offsets of the rings, as a fraction of the grey values aggregate - air",
+               "standard deviation of the noise, as a fraction of the grey-value difference between aggregate and air",
                0.0, 1.0);
-  add_fraction(command, "--drift", spec.drift, "change of brightness between slices, as a fraction", 0.0, 1.0);
+  add_fraction(command, "--cupping", spec.cupping,
+               "loss of grey value on the axis of the specimen, as a fraction of the grey value", 0.0, 1.0);
+  add_fraction(command, "--rings", spec.rings,
+               "offsets of the rings, as a fraction of the grey-value difference between aggregate and air", 0.0, 1.0);
+  add_fraction(command, "--drift", spec.drift, "change of brightness between slices, as a fraction of the grey value",
+               0.0, 1.0);
   add_number(command, "--grey-air", spec.grey_air, "grey value of air", 0.0, 65535.0);
   add_number(command, "--grey-mastic", spec.grey_mastic, "grey value of mastic", 0.0, 65535.0);
   add_number(command, "--grey-aggregate", spec.grey_aggregate, "grey value of aggregate", 0.0, 65535.0);

@@ -52,15 +52,17 @@ void segment(CtSegmentArguments arguments) {
       std::count_if(out.grains.begin(), out.grains.end(), [](const auto& grain) { return grain.border; });
   line.clear();
   const ScanCorrections& c = out.corrections;
-  say("corrections, as parts of the contrast: slices {:.1f} %, rings {:.1f} %, hardening {:.1f} %\n", 100 * c.slices,
-      100 * c.rings, 100 * c.hardening);
+  say("corrections of grey values, in % of the contrast: slices {:.1f} %, rings {:.1f} %, hardening {:.1f} %\n",
+      100 * c.slices, 100 * c.rings, 100 * c.hardening);
   say("air voids {:.2f} %, mastic {:.2f} %, aggregate {:.2f} % of the specimen; confidence {:.3f}\n",
       100 * out.air_voids, 100 * out.mastic, 100 * out.aggregate, out.confidence_mean);
   if (out.block > 1) {
-    say("the scan is larger than memory: images have blocks of {0} x {0} x {0} voxels, and {1} surfaces are finer\n",
+    say("the scan does not fit in memory: a voxel of the written images is the mean of {0} x {0} x {0} voxels of the "
+        "scan; the surfaces of {1} grains have a finer resolution\n",
         out.block, out.refined);
   }
-  say("{} grains, {} of them cut by the end of the specimen; {:.2f} % of the aggregate is in no grain\n",
+  say("{} grains, {} of them cut by the boundary of the specimen; {:.2f} % of the aggregate's volume belongs to no "
+      "grain\n",
       out.grains.size(), border, 100 * out.in_no_grain);
   for (const std::string& warning : out.warnings) say("warning: {}\n", warning);
   say("files in {}: library border grains.csv gradation.csv cuts.csv labels.mha phases.mha confidence.mha planes.png "
@@ -73,44 +75,52 @@ void segment(CtSegmentArguments arguments) {
 void add_ct_segment(CLI::App& ct) {
   const auto arguments = std::make_shared<CtSegmentArguments>();
   SegmentOptions& options = arguments->segment;
-  CLI::App& command = *ct.add_subcommand("segment", "grains and phases from a scan");
+  CLI::App& command = *ct.add_subcommand("segment", "find the grains and phases in a scan");
   command.add_option("images", arguments->images, "scan: .mha, .mhd, .nrrd, .tif, .h5, or a folder of .tif")
       ->required()
       ->type_name("FILE");
   add_text(command, "--dataset", arguments->dataset, "dataset of an HDF5 file, with the axes z, y, x", "NAME");
   command
       .add_option("--voxel", arguments->voxel,
-                  "edges of a voxel: \"25 um\", or three: \"25 um,25 um,50 um\"; instead of the edges in the file")
+                  "edge length of a voxel, \"25 um\", or three edge lengths along x, y and z, \"25 um,25 um,50 um\"; "
+                  "replaces the edge lengths in the file")
       ->delimiter(',')
       ->expected(1, 3)
       ->type_name("LENGTH");
   add_out(command, arguments->out);
-  add_text(command, "--region", arguments->region,
-           "the specimen in the scan: found, whole, cylinder, prism, cylinder:x,y,diameter[,z0,z1] or "
-           "prism:x0,y0,z0,x1,y1,z1; default: found",
-           "REGION");
+  add_text(
+      command, "--region", arguments->region,
+      "region of the scan that the specimen fills: found (detected), whole (all voxels), cylinder or prism (detected "
+      "with this outline), or a given one, cylinder:x,y,diameter[,z0,z1] or prism:x0,y0,z0,x1,y1,z1; default: found",
+      "REGION");
   command.add_flag("--no-slices", arguments->no_slices, "do not correct the grey levels of slices");
   command.add_flag("--no-rings", arguments->no_rings, "do not correct rings");
-  command.add_flag("--no-hardening", arguments->no_hardening, "do not correct grey levels over radius and height");
+  command.add_flag("--no-hardening", arguments->no_hardening,
+                   "do not correct beam hardening (grey levels that change with radius and height)");
   add_choice(command, "--denoise", options.denoising, "filter of the noise; diffusion keeps edges",
              {{"diffusion", Denoising::diffusion}, {"median", Denoising::median}, {"none", Denoising::none}});
   add_fraction(command, "--air-voids", options.air_voids,
-               "fraction of the specimen's volume, from the laboratory (0.04, \"4 %\")", 0.0, 0.5);
+               "air voids measured in the laboratory, as a fraction of the specimen's volume (0.04, \"4 %\")", 0.0,
+               0.5);
   add_fraction(command, "--aggregate", options.aggregate,
-               "fraction of the specimen's volume, from the laboratory (0.4, \"40 %\")", 0.05, 0.95);
+               "aggregate measured in the laboratory, as a fraction of the specimen's volume (0.4, \"40 %\")", 0.05,
+               0.95);
   add_text(command, "--memory", arguments->memory,
-           "memory that may be used (\"3 GB\"; default: four fifths of the free memory); a larger scan is segmented by "
-           "means of blocks",
+           "memory that may be used (\"3 GB\"; default: four fifths of the free memory); a scan that needs more memory "
+           "is first averaged over blocks of voxels",
            "BYTES");
-  add_text(command, "--smallest", arguments->smallest, "diameter of the smallest grain to keep apart (\"4 mm\")",
-           "LENGTH");
+  add_text(command, "--smallest", arguments->smallest,
+           "diameter of the smallest grain that is separated from its neighbours (\"4 mm\")", "LENGTH");
   add_text(command, "--gradation", arguments->gradation,
-           "gradation from the laboratory: a CSV file, sieve_mm,passing_percent or sieve_m,passing");
-  add_text(command, "--cuts", arguments->cuts, "a cuts.csv of the same scan, in which the column `cut` was edited");
-  add_choice(command, "--recipe", options.recipe, "steps of the segmentation",
+           "CSV file of the gradation measured in the laboratory, with the columns sieve_mm,passing_percent or "
+           "sieve_m,passing");
+  add_text(command, "--cuts", arguments->cuts,
+           "cuts.csv that this command wrote for the same scan, with an edited column `cut`");
+  add_choice(command, "--recipe", options.recipe,
+             "method of the segmentation: Macadam's own, or the published one (docs/ct.md)",
              {{"own", SegmentRecipe::own}, {"paper", SegmentRecipe::paper}});
-  add_number(command, "--facets", options.facets, "facets of a grain's surface; up to 800 for a grain that needs more",
-             100, 10'000);
+  add_number(command, "--facets", options.facets,
+             "number of facets of a grain's surface; a grain that needs more gets up to 800", 100, 10'000);
   add_number(command, "--threads", arguments->threads, "number of CPU threads; results do not depend on it", 1, 1024);
   for (const char* name : {"--no-slices", "--no-rings", "--no-hardening", "--denoise"})
     command.get_option(name)->group("Faults of the scan");

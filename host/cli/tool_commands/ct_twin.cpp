@@ -44,12 +44,12 @@ void twin_command(CtTwinArguments arguments) {
   line.clear();
   write_twin(arguments.out, twin, scene);
   const Vec3d& size = twin.specimen.box.size;
-  say("box of {:.4g} x {:.4g} x {:.4g} mm: {} grains ({} clusters, {} too little in it), {} void spheres, {} "
-      "particles\n",
+  say("box of {:.4g} x {:.4g} x {:.4g} mm: {} grains ({} of them several spheres each, {} left out because the box "
+      "holds too little of them), {} void spheres, {} particles\n",
       1e3 * size.x, 1e3 * size.y, 1e3 * size.z, twin.grains, twin.clusters, twin.lost, twin.specimen.voids.size(),
       twin.specimen.size());
-  say("aggregate {:.2f} %, mastic {:.2f} %, voids {:.2f} % and {:.2f} % left out\n", 100 * twin.aggregate,
-      100 * twin.mastic, 100 * twin.voids, 100 * twin.voids_left_out);
+  say("aggregate {:.2f} %, mastic {:.2f} %, voids {:.2f} %; further voids of {:.2f} % are left out\n",
+      100 * twin.aggregate, 100 * twin.mastic, 100 * twin.voids, 100 * twin.voids_left_out);
   say("macadam run {}/scene.toml --out DIR\n", arguments.out);
 }
 
@@ -57,21 +57,26 @@ void twin_command(CtTwinArguments arguments) {
 
 void add_ct_twin(CLI::App& ct) {
   const auto arguments = std::make_shared<CtTwinArguments>();
-  CLI::App& command = *ct.add_subcommand("twin", "the specimen in a scan as a scene that runs");
-  add_text(command, "folder", arguments->folder, "folder that ct segment wrote, or the folder truth of a phantom",
+  CLI::App& command = *ct.add_subcommand("twin", "make a scene from the specimen in a scan");
+  add_text(command, "folder", arguments->folder,
+           "folder that macadam ct segment wrote, or the subfolder \"truth\" of a folder that macadam ct phantom wrote",
            "FOLDER")
       ->required();
-  add_text(command, "--scene", arguments->scene, "scene with materials, contacts, loading, radii of the spheres")
+  add_text(command, "--scene", arguments->scene,
+           "scene file that gives materials, contacts, loading and the radii of the spheres")
       ->required();
   add_out(command, arguments->out, "folder for the scene");
-  command.add_option("--box", arguments->box, "lower and upper corner in the scan: \"1 mm,1 mm,0,21 mm,21 mm,30 mm\"")
+  command
+      .add_option(
+          "--box", arguments->box,
+          "x, y, z of the lower and of the upper corner of the box in the scan: \"1 mm,1 mm,0,21 mm,21 mm,30 mm\"")
       ->delimiter(',')
       ->expected(6)
       ->type_name("LENGTH");
-  add_fraction(command, "--porosity", arguments->spec.porosity, "porosity of the mastic, instead of the scene's", -1.0,
-               1.0);
-  add_text(command, "--least-void", arguments->least_void, "radius below which a void is left out; 0: two voxels",
-           "LENGTH");
+  add_fraction(command, "--porosity", arguments->spec.porosity,
+               "porosity of the mastic, in place of the scene's; negative if the spheres overlap", -1.0, 1.0);
+  add_text(command, "--least-void", arguments->least_void,
+           "radius below which a void is left out; 0: twice the edge of a voxel", "LENGTH");
   add_number(command, "--seed", arguments->spec.seed, "seed of the mastic and of the fillings of grains", 0,
              std::numeric_limits<std::uint64_t>::max());
   add_examples(command, {"macadam ct segment results/phantom/scan.mha --out results/segmented",

@@ -34,20 +34,21 @@ void require_uses(const CLI::App& command, const FitArguments& arguments) {
   };
   const FitModel model = arguments.fit.model;
   if (!arguments.parameters.empty())
-    refuse("this option beside --parameters", "it with measurements, or not at all",
+    refuse("this option together with --parameters", "this option only with a CSV file of measurements",
            {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson", "--shift",
             "--reference-temperature"});
   else if (model == FitModel::kelvin)
-    refuse("this option with model kelvin", "it with model 2s2p1d or huet-sayegh, which a chain is made of",
+    refuse("this option with model kelvin",
+           "this option only with --model 2s2p1d or huet-sayegh, from which a Kelvin chain is computed",
            {"--from", "--to", "--error"});
   else
     refuse(std::string("this option with model ") + (model == FitModel::two_s2p1d ? "2s2p1d" : "huet-sayegh"),
-           "it with model kelvin, or not at all", {"--units", "--most-units", "--criterion", "--flow", "--no-flow"});
+           "this option only with --model kelvin", {"--units", "--most-units", "--criterion", "--flow", "--no-flow"});
   if (arguments.fit.units) {
     refuse("this option beside --units", "one of the two", {"--most-units"});
     if (arguments.flow || arguments.no_flow)
-      refuse("this option beside --units and --flow or --no-flow", "not all of them: there is nothing left to choose",
-             {"--criterion"});
+      refuse("this option beside --units and --flow or --no-flow",
+             "a command without this option: nothing is left to choose", {"--criterion"});
   }
 }
 
@@ -84,26 +85,29 @@ void fit_command(const CLI::App& command, FitArguments arguments) {
 }  // namespace
 
 void add_fit_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("fit", "a contact law from measured complex moduli");
+  CLI::App& command = *app.add_subcommand("fit", "fit a contact law to measured complex moduli");
   const auto arguments = std::make_shared<FitArguments>();
   FitOptions& fit = arguments->fit;
   command
       .add_option("data", arguments->data,
-                  "table: frequency_hz, e_star_pa, e_star_mpa or g_star_pa, phase_deg, optionally temperature_c, "
-                  "e_star_std, phase_std")
+                  "CSV file of measured moduli with the columns frequency_hz, e_star_pa, e_star_mpa or g_star_pa, "
+                  "phase_deg, optionally temperature_c, e_star_std, phase_std")
       ->type_name("FILE");
   add_out(command, arguments->out);
   command.add_flag("--no-pictures", arguments->no_pictures, "draw no pictures");
   add_choice(command, "--model", fit.model, "model to fit",
              {{"kelvin", FitModel::kelvin}, {"2s2p1d", FitModel::two_s2p1d}, {"huet-sayegh", FitModel::huet_sayegh}});
-  add_number(command, "--units", fit.units, "Kelvin units; without it the criterion chooses", 0,
+  add_number(command, "--units", fit.units,
+             "number of Kelvin units; without this option --criterion chooses the number", 0,
              laws::GeneralisedKelvin::max_units);
   add_number(command, "--most-units", fit.most_units, "largest number of Kelvin units that the criterion may choose", 0,
              laws::GeneralisedKelvin::max_units);
   add_choice(command, "--criterion", fit.criterion, "information criterion that chooses the number of Kelvin units",
              {{"aicc", Criterion::aicc}, {"bic", Criterion::bic}});
-  auto* flow = command.add_flag("--flow", arguments->flow, "always a dashpot in series, without the criterion");
-  command.add_flag("--no-flow", arguments->no_flow, "never a dashpot in series")->excludes(flow);
+  auto* flow =
+      command.add_flag("--flow", arguments->flow, "always use a dashpot in series, whatever --criterion would choose");
+  command.add_flag("--no-flow", arguments->no_flow, "never use a dashpot in series, whatever --criterion would choose")
+      ->excludes(flow);
   add_choice(command, "--shift", fit.shift, "law by which temperature shifts the curves",
              {{"none", ShiftKind::none},
               {"wlf", ShiftKind::wlf},
@@ -112,15 +116,15 @@ void add_fit_command(CLI::App& app) {
   add_number(command, "--reference-temperature", fit.reference_temperature,
              "temperature at which a_T is 1 [degrees Celsius]; default: the middle one of the measured temperatures",
              -273.0, 1000.0);
-  add_number(command, "--poisson", arguments->poisson, "Poisson's ratio, which gives |E*| from a column g_star_pa",
-             -0.99, 0.5);
+  add_number(command, "--poisson", arguments->poisson,
+             "Poisson's ratio with which |E*| is computed from the column g_star_pa", -0.99, 0.5);
   add_text(command, "--parameters", arguments->parameters,
-           "TOML file of a 2S2P1D or Huet-Sayegh model, instead of data");
-  add_number(command, "--from", arguments->from, "lowest frequency of the chain [Hz]; default: the lowest of the data",
-             1e-15, 1e15);
-  add_number(command, "--to", arguments->to, "highest frequency of the chain [Hz]; default: the highest of the data",
-             1e-15, 1e15);
-  add_number(command, "--error", arguments->error, "largest relative error of the chain", 1e-6, 0.5);
+           "TOML file of a 2S2P1D or Huet-Sayegh model to convert into a Kelvin chain, in place of measured data");
+  add_number(command, "--from", arguments->from,
+             "lowest frequency of the Kelvin chain [Hz]; default: the lowest measured frequency", 1e-15, 1e15);
+  add_number(command, "--to", arguments->to,
+             "highest frequency of the Kelvin chain [Hz]; default: the highest measured frequency", 1e-15, 1e15);
+  add_number(command, "--error", arguments->error, "largest relative error of the Kelvin chain's |E*|", 1e-6, 0.5);
   const std::string model = "The model", temperatures = "Temperatures", chain = "The Kelvin chain of another model";
   for (const char* name : {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson"})
     command.get_option(name)->group(model);

@@ -40,8 +40,8 @@ fs::path package_folder() {
       fmt::format("import sys, importlib.util as u; sys.exit(u.find_spec('macadam.{}') is None)", command);
   if (!runs({python, "-c", look})) {
     throw InputError(
-        fmt::format("macadam {0}: found no Python package macadam.{0} by {1}, expected one: pip install it, or name "
-                    "a Python with this package in MACADAM_PYTHON",
+        fmt::format("macadam {0}: found no Python package macadam.{0} with the interpreter {1}, expected the package: "
+                    "install it with pip, or set MACADAM_PYTHON to an interpreter that has it",
                     command, python));
   }
   std::vector<std::string> words{python, "-m", "macadam", command};

@@ -115,7 +115,7 @@ void measure(const ShapesArguments& arguments) {
   write_shape_tables(arguments.out, names, shapes);
   say("{}", statistics_text(shapes));
   if (std::any_of(shapes.begin(), shapes.end(), [](const ShapeMeasure& m) { return m.d_long > 1; })) {
-    say("warning: aggregates of more than 1 m; files in millimetres want --scale 1e-3\n");
+    say("warning: some aggregates are larger than 1 m; if the files are in millimetres, give --scale 1e-3\n");
   }
   say("\nfiles in {}: shapes.csv statistics.csv correlation.csv\n", arguments.out);
 }
@@ -135,7 +135,7 @@ void check(const ShapesArguments& arguments) {
   throw_errors(outcomes);
   const auto good = std::count_if(outcomes.begin(), outcomes.end(), [](const auto& o) { return o.value; });
   if (const auto all = std::ssize(files); good < all) {
-    throw InputError(fmt::format("{} of {} surfaces are not fit for measuring and filling", all - good, all));
+    throw InputError(fmt::format("{} of {} surfaces cannot be measured and filled", all - good, all));
   }
 }
 
@@ -163,28 +163,32 @@ void add_shapes_command(CLI::App& app) {
         ->type_name("FILE");
   };
 
-  CLI::App& measure_app = *shapes.add_subcommand("measure", "dimensions, volume, area and shape indices of each");
+  CLI::App& measure_app =
+      *shapes.add_subcommand("measure", "print dimensions, volume, area and shape indices of each shape");
   add_paths(measure_app);
   add_out(measure_app, arguments->out, "of the tables");
   add_scale(measure_app, arguments->scale);
   measure_app.add_flag("--repair", arguments->repair, "repair faulty surfaces before measuring them");
   const auto add_wrap = [&](CLI::App& command) {
-    return command.add_flag("--wrap", arguments->wrap,
-                            "accept a new skin around a faulty surface that changes volume or area by more than 1 %");
+    return command.add_flag(
+        "--wrap", arguments->wrap,
+        "accept a repair that wraps a new surface around a faulty one, even if volume or area change by more than 1 %");
   };
   add_wrap(measure_app)->needs("--repair");
   measure_app.callback([arguments] { measure(*arguments); });
 
-  CLI::App& check_app = *shapes.add_subcommand("check", "faults of each surface, and where they are");
+  CLI::App& check_app = *shapes.add_subcommand("check", "list the faults of each surface and where they are");
   add_paths(check_app);
   check_app.callback([arguments] { check(*arguments); });
 
-  CLI::App& repair_app = *shapes.add_subcommand("repair", "make one fit for measuring and filling");
+  CLI::App& repair_app = *shapes.add_subcommand("repair", "repair a surface so that it can be measured and filled");
   repair_app.add_option("file", arguments->paths, "STL, OFF, PLY or OBJ file")
       ->required()
       ->expected(1)
       ->type_name("FILE");
-  add_text(repair_app, "--out", arguments->out, "file to write; its ending is the format")->required();
+  add_text(repair_app, "--out", arguments->out,
+           "file to write; its ending (.stl, .off, .ply or .obj) chooses the format")
+      ->required();
   add_wrap(repair_app);
   repair_app.callback([arguments] { repair(*arguments); });
 

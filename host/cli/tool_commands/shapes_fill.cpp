@@ -40,7 +40,8 @@ void print_report(const Surface& surface, const MultiSphere& cluster, const Fill
   row("D^L (mm)", 1e3 * m.d_long, 1e3 * r.d_long);
   row("D^I (mm)", 1e3 * m.d_intermediate, 1e3 * r.d_intermediate);
   row("D^S (mm)", 1e3 * m.d_short, 1e3 * r.d_short);
-  say("covered {:.2f} % of the shape, {:.2f} % outside it, largest overlap {:.1f} % of the radii's sum\n",
+  say("the spheres cover {:.2f} % of the shape's volume; {:.2f} % of it lies outside the shape; the largest overlap of "
+      "two spheres is {:.1f} % of the sum of their radii\n",
       100 * r.covered, 100 * r.outside, 100 * r.largest_overlap);
   say("surface deviation {:.4g} mm on average, {:.4g} mm at most\n", 1e3 * r.deviation_mean, 1e3 * r.deviation_largest);
 }
@@ -71,12 +72,14 @@ void add_shapes_fill(CLI::App& shapes) {
   FillSpec& spec = arguments->spec;
   CLI::App* fill = shapes.add_subcommand("fill", "fill a shape with spheres");
   fill->add_option("file", arguments->file, "closed surface (STL, OFF, PLY or OBJ)")->required()->type_name("FILE");
-  fill->add_option("--radius", arguments->radius, "of the spheres, or the least and the greatest: \"0.75 mm,1 mm\"")
+  fill->add_option("--radius", arguments->radius,
+                   "radius of the spheres, or their smallest and largest radius: \"0.75 mm,1 mm\"")
       ->required()
       ->delimiter(',')
       ->expected(1, 2)
       ->type_name("LENGTH");
-  add_fraction(*fill, "--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape", -0.5, 1.0);
+  add_fraction(*fill, "--porosity", spec.porosity,
+               "1 - sum of the spheres' volumes / volume of the shape; negative if the spheres overlap", -0.5, 1.0);
   add_number(*fill, "--least", spec.least, "a shape that needs fewer spheres than this becomes a single sphere", 1,
              1'000'000);
   add_choice(*fill, "--single", spec.single,
@@ -84,9 +87,10 @@ void add_shapes_fill(CLI::App& shapes) {
              {{"intermediate", SingleSphere::intermediate},
               {"circumscribed", SingleSphere::circumscribed},
               {"volume", SingleSphere::volume}});
-  add_number(*fill, "--seed", spec.seed, "another number, other spheres", 0, std::numeric_limits<std::uint64_t>::max());
-  add_text(*fill, "--circumscribed", arguments->circumscribed, "scale the shape to D^I/2 of this: \"6.295 mm\"",
-           "LENGTH");
+  add_number(*fill, "--seed", spec.seed, "seed of the filling: another seed gives other spheres", 0,
+             std::numeric_limits<std::uint64_t>::max());
+  add_text(*fill, "--circumscribed", arguments->circumscribed,
+           "scale the shape so that half of its intermediate diameter D^I has this length: \"6.295 mm\"", "LENGTH");
   add_scale(*fill, arguments->scale);
   add_out(*fill, arguments->out);
   add_examples(*fill, {"macadam shapes fill examples/shapes/aggregate_07.off --circumscribed \"6.3 mm\" --radius "

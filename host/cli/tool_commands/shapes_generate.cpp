@@ -38,11 +38,12 @@ void add_shapes_generate(CLI::App& shapes) {
   CLI::App& command = *shapes.add_subcommand("generate", "make the library of crushed aggregates, in metres");
   const auto arguments = std::make_shared<ShapesGenerateArguments>();
   add_out(command, arguments->out, "of the OFF files");
-  auto* seed = add_number(command, "--seed", arguments->seed, "another library with the same statistics", 0,
+  auto* seed = add_number(command, "--seed", arguments->seed,
+                          "seed: another seed gives another library with the same statistics", 0,
                           std::numeric_limits<std::uint64_t>::max());
-  auto* count = add_number(command, "--count", arguments->count, "how many shapes", 1, 10'000);
-  add_number(command, "--icosahedron", arguments->icosahedron, "instead: the subdivided icosahedron of this radius [m]",
-             1e-9, 1e9)
+  auto* count = add_number(command, "--count", arguments->count, "number of shapes", 1, 10'000);
+  add_number(command, "--icosahedron", arguments->icosahedron,
+             "write a subdivided icosahedron of this radius [m] instead of a library", 1e-9, 1e9)
       ->excludes(seed)
       ->excludes(count);
   add_examples(command, {"macadam shapes generate --out results/library --seed 2 --count 20",

@@ -78,9 +78,9 @@ class Planner {
         throw InputError(scene_.file.string(), 0, what, found + " " + beside, expected);
       };
       if (automatic() && !facts[pair]->stiffness) {
-        refuse(
-            "tolerance in [solver]", fmt::format("{}", tolerance()),
-            "no tolerance: errors are measured against the frequency domain, where this law has no complex stiffness");
+        refuse("tolerance in [solver]", fmt::format("{}", tolerance()),
+               "no tolerance: errors are measured against a solution in the frequency domain, for which this law has "
+               "no complex stiffness");
       }
       if (facts[pair]->linear) continue;
       if (scene_.network.quadrature == Quadrature::exact) {
@@ -100,7 +100,8 @@ class Planner {
     const bool fixed = plan_.geometry == Geometry::fixed;
     if (automatic()) {
       // carried frames turn while the points move with them, so the two forms differ by the square of the strain
-      decide("contact form {}: the other form differs only by {}", to_string(plan_.form),
+      decide("contact form {}: |E*| with the other form (condensed or points) would differ only by {}",
+             to_string(plan_.form),
              fixed ? "rounding" : fmt::format("about {:.0e}, the square of the strain", strain * strain));
       decide("geometry {}: at a strain of {:g}, keeping the initial geometry changes |E*| by at most about {:.1e}",
              to_string(plan_.geometry), strain, error);
@@ -112,7 +113,8 @@ class Planner {
   /// Makes the harmonic solver. If that is not possible, `no_harmonic_` says why.
   void make_harmonic() {
     if (prepared_.loose_particles > 0) {
-      no_harmonic_ = fmt::format("{} particles are not connected to both walls", prepared_.loose_particles);
+      no_harmonic_ = fmt::format("{} particles have no path of contacts to the bottom wall, to the top wall or to both",
+                                 prepared_.loose_particles);
       return;
     }
     if (const auto without = first_without_stiffness(scene_.laws)) {
@@ -133,7 +135,7 @@ class Planner {
     start_ = asked_start(scene_);
     if (!plans_with_solutions(scene_)) return;
     make_harmonic();
-    if (!harmonic_) decide("no harmonic solution to start from or to compare with: {}", no_harmonic_);
+    if (!harmonic_) decide("there is no harmonic solution to start from or to compare with: {}", no_harmonic_);
     const bool local = scene_.solver.damping_kind == Damping::local;
     if (local) decide("local damping is not linear, so predicted errors do not contain its effect");
     if (is_strain_large(scene_, plan_.geometry)) {
@@ -261,8 +263,10 @@ class Planner {
         error = fmt::format("predicted error of |E*| {:+.1e}, of phi {:+.1e} rad", f.predicted->e_star,
                             f.predicted->phase_rad);
       } else {
-        error = fmt::format("estimated error from inertia {:.1e}, by the height of the specimen and its slowest wave",
-                            f.density_scaling * inertia_estimate(scene_, prepared_, frequency));
+        error = fmt::format(
+            "estimated error from inertia {:.1e}, computed from the height of the specimen and the speed of its "
+            "slowest wave",
+            f.density_scaling * inertia_estimate(scene_, prepared_, frequency));
       }
       if (f.predicted && largest(*f.predicted) + plan_.geometry_error > tolerance())
         error += ", which is more than the tolerance";

@@ -29,15 +29,15 @@ experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& secti
                  "amplitude of the strain: displacement of the top wall over the height"},
                 {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}}),
                  "start from zero displacement, or in the steady state of the harmonic solution",
-                 "\"rest\"; with tolerance \"steady\""},
+                 "\"rest\"; \"steady\" if tolerance is given"},
                 {"cycles", Need::optional, into(spec.cycles, 1, most), "number of periods of each test",
-                 "5; from a steady start 1; with tolerance, from rest, 4 or more"},
+                 "5; 1 from a steady start; 4 or more from rest if tolerance is given"},
                 {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp),
-                 "number of periods over which the load grows smoothly", "0; with tolerance, from rest, 1"},
+                 "number of periods over which the load grows smoothly", "0; 1 from rest if tolerance is given"},
                 {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most), "number of last periods that are fitted",
                  "2 if there are four cycles or more, else 1"},
                 {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most),
-                 "samples per period, which are the lines of response.csv"}});
+                 "number of samples per period; each sample is a line of response.csv"}});
   require_once(section, "frequencies", spec.frequencies, "Hz", "frequency");
   require_once(section, "temperatures", spec.temperatures, "degrees C", "temperature");
   if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {

@@ -43,7 +43,7 @@ constexpr std::size_t sample_words = 4;
 
 RunState to_run_state(Checkpoint checkpoint, const std::filesystem::path& file) {
   const auto damaged = [&](const std::string& what) {
-    throw InputError(file.string(), 0, "checkpoint", what, "what this version writes");
+    throw InputError(file.string(), 0, "checkpoint", what, "data as this version of Macadam writes them");
   };
   RunState out;
   try {

@@ -116,8 +116,9 @@ class PlannedHarmonic : public PlannedExperiment {
           for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
         }
       } catch (const InterruptedError&) {
-        throw InterruptedError("interrupted at " + where +
-                               "; summary.json holds the results before it; method harmonic keeps no checkpoints");
+        throw InterruptedError(
+            "interrupted at " + where +
+            "; summary.json holds the results up to there; a run with method harmonic writes no checkpoints");
       }
     }
   }

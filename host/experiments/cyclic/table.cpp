@@ -80,8 +80,9 @@ std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
     out += fmt::format("{} Hz: {}\n", f.frequency_hz, words);
   }
   if (known)
-    out +=
-        fmt::format("err: difference from the harmonic solution at true mass, {} relative, phi in radians\n", modulus);
+    out += fmt::format(
+        "err: difference from the harmonic solution without density scaling; relative for {}, in radians for phi\n",
+        modulus);
   return out;
 }
 

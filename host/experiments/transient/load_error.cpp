@@ -61,7 +61,7 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
     const auto law = facts_of(scene.laws)[pair];
     if (!law || law->linear) continue;
     plan.decisions.push_back(fmt::format(
-        "errors are estimates, because law {} of {} is not linear, and then the response without time steps is unknown",
+        "errors are estimates, because law {} of {} is not linear, so that the response without time steps is unknown",
         law->name, to_string(static_cast<PairType>(pair))));
     return {};
   }

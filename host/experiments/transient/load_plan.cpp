@@ -95,7 +95,7 @@ class LoadPlanner {
     constexpr double no_shorter = 1.001;
     plan_.platen_mass = no_shorter * std::pow(particles / wall, 2);
     if (!(wall < 1e20)) throw RunError("the top wall touches no particle, so nothing carries the stress");
-    decide("the loaded top wall has a mass of {:.3g} kg, the smallest that does not shorten the time step",
+    decide("the loaded top wall has a mass of {:.3g} kg, the smallest mass that does not shorten the time step",
            plan_.platen_mass);
   }
 

@@ -46,7 +46,7 @@ UnsteppedAnswer from_numbers(const std::vector<double>& numbers) {
 
 LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file) {
   const auto damaged = [&](const std::string& what) {
-    throw InputError(file.string(), 0, "checkpoint", what, "what this version writes");
+    throw InputError(file.string(), 0, "checkpoint", what, "data as this version of Macadam writes them");
   };
   LoadState out;
   try {

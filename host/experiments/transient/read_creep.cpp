@@ -16,17 +16,18 @@ Creep ExperimentOf<Creep>::read(const scene::Section& section) {
   Creep out;
   Points times;
   std::vector<Key> keys = times.keys("times", duration);
-  keys.insert(
-      keys.end(),
-      {kind_key(),
-       poisson_key(out.poisson_ratio),
-       {"stress", Need::required, into(out.stress, modulus, any), "that is held; tension positive"},
-       {"ramp", Need::optional, into(out.ramp, duration, non_negative),
-        "time over which the load grows evenly; 0: at once"},
-       {"release", Need::optional, into(out.release, duration, positive),
-        "time at which the stress begins to be removed, over the same time in which it was applied", "never"},
-       {"platen_mass", Need::optional, into(out.platen_mass, mass, positive),
-        "mass of the loaded top wall, for method \"explicit\"", "the smallest that does not shorten the time step"}});
+  keys.insert(keys.end(),
+              {kind_key(),
+               poisson_key(out.poisson_ratio),
+               {"stress", Need::required, into(out.stress, modulus, any),
+                "stress that is applied and held; tension is positive"},
+               {"ramp", Need::optional, into(out.ramp, duration, non_negative),
+                "time over which the load grows evenly; 0: at once"},
+               {"release", Need::optional, into(out.release, duration, positive),
+                "time at which the stress begins to be removed, over the same time in which it was applied", "never"},
+               {"platen_mass", Need::optional, into(out.platen_mass, mass, positive),
+                "mass of the loaded top wall, for method \"explicit\"",
+                "the smallest mass that does not shorten the time step"}});
   section.read(keys);
   out.times = times.all(section, "times", "s", "time");
   if (out.release && *out.release < out.ramp) {

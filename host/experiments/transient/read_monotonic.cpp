@@ -28,7 +28,7 @@ Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
                 "strain at which the test ends, in place of times; it has the sign of the rate", "times"}});
   section.read(keys);
   if (!strain) {
-    if (!section.has("times")) section.refuse("times", "nothing", "times, or the strain at which the test ends");
+    if (!section.has("times")) section.refuse("times", "nothing", "times, or the key strain, at which the test ends");
     out.times = times.all(section, "times", "s", "time");
     if (const double last = out.rate * out.times.back(); last != 0 && !any.holds(last))
       section.refuse("times", fmt::format("a strain of {:g} at the last time", last), any.words);

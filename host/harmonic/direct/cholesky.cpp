@@ -102,7 +102,7 @@ struct Cholesky::Factor {
   void require(const char* what, std::size_t particles) const {
     if (common.status >= CHOLMOD_OK) return;
     const char* why = common.status == CHOLMOD_OUT_OF_MEMORY ? "not enough memory"
-                      : common.status == CHOLMOD_TOO_LARGE   ? "more entries than its 32-bit indices count"
+                      : common.status == CHOLMOD_TOO_LARGE   ? "more entries than 32-bit indices can number"
                                                              : "CHOLMOD failed";
     throw RunError(fmt::format("harmonic: {} of {} particles: {}", what, particles, why));
   }

@@ -114,8 +114,9 @@ std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, co
                                                     const FreeMotions& free, Backend backend, const DeviceList& devices,
                                                     std::optional<std::size_t> asked) {
   if (free.motions.size() > kernels::most_free_motions) {
-    throw NotIterable(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
-                                  free.motions.size(), kernels::most_free_motions));
+    throw NotIterable(
+        fmt::format("harmonic: found {} rigid motions of the whole specimen that no wall resists, expected at most {}",
+                    free.motions.size(), kernels::most_free_motions));
   }
   const std::size_t usual = usual_boxes(specimen.size()), boxes = asked.value_or(usual);
   kernels::Layout layout = kernels::make_order(specimen, boxes > 0 ? boxes : usual);

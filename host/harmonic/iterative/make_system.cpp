@@ -219,7 +219,7 @@ LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen
     if (const double square = boxes_move.squaredNorm(); square > 0)
       k += usual / square * boxes_move * boxes_move.transpose();
   }
-  if (!invert_in_parallel(k)) throw NotIterable("harmonic: boxes of particles can move without force");
+  if (!invert_in_parallel(k)) throw NotIterable("harmonic: groups of neighbouring particles can move without force");
   out.coarse.assign(k.data(), k.data() + k.size());
   return out;
 }
