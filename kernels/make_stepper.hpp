@@ -45,7 +45,7 @@ std::unique_ptr<Stepper> make_stepper_of(Backend backend, const Specimen& specim
   std::string names;
   ((names += (names.empty() ? "" : " or ") + std::string(to_string(compiled))), ...);
   throw InputError(std::string("precision: found ") + to_string(options.precision) + ", expected " + names +
-                   ": the program has no other compiled for its laws");
+                   ": this program was compiled for its own laws without the other precisions");
 }
 
 }  // namespace macadam

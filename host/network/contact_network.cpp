@@ -75,7 +75,7 @@ double distance_to_wall(const Specimen& specimen, const Facet& f) {
     throw InputError(specimen.source, specimen.line_of(f.a),
                      fmt::format("distance in metres of particle {}'s centre to the {} wall that it is bonded to", f.a,
                                  name[-1 - f.b]),
-                     fmt::format("{}", h), "more than 1e-9 of its radius");
+                     fmt::format("{}", h), "more than 1e-9 of the particle's radius");
   }
   return h;
 }

@@ -33,7 +33,8 @@ void check_curve(const MixDesign& design) {
     if (!(std::isfinite(curve[k].size) && curve[k].size > 0)) wrong(in_millimetres(curve[k].size), "a size above 0");
     if (!is_share(curve[k].passing)) wrong(passing, "0 % to 100 %");
     if (k == 0) {
-      if (curve[0].passing != 1) wrong(passing + ", the coarsest sieve", "one that 100 % pass: no size is known above");
+      if (curve[0].passing != 1)
+        wrong(passing + ", the coarsest sieve", "a coarsest sieve that 100 % pass, because sizes above it are unknown");
       continue;
     }
     const SievePassing& above = curve[k - 1];
@@ -63,7 +64,7 @@ void check_envelope(const MixDesign& design) {
     if (!sizes.insert(p.size).second) wrong(in_millimetres(p.size) + " twice", "each sieve once");
     if (!(is_share(p.least) && is_share(p.most) && p.least <= p.most))
       wrong(in_percent(p.least) + " to " + in_percent(p.most) + " passing " + in_millimetres(p.size),
-            "least and most, from 0 % to 100 %");
+            "the least before the most, both from 0 % to 100 %");
   }
 }
 
@@ -98,7 +99,7 @@ void check_contents(const MixDesign& design) {
            of_mix ? "above 0 and at most 75 % of the mix" : "above 0 and at most 300 % of the aggregate");
   if (design.absorbed_binder && design.maximum_density)
     refuse(design, "absorbed_binder", "absorbed_binder and maximum_density",
-           "one of them: each follows from the other");
+           "only one of them, because each follows from the other");
   if (design.absorbed_binder && !is_share(*design.absorbed_binder))
     refuse(design, "absorbed_binder", in_percent(*design.absorbed_binder) + " of the aggregate's mass", "0 % to 100 %");
   if (design.air_voids.has_value() == design.bulk_density.has_value())

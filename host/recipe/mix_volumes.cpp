@@ -50,23 +50,24 @@ double absorbed_of(const MixDesign& design, const Portion& all, double binder) {
       refuse(design, "maximum_density",
              fmt::format("{}, by which {} of the aggregate's mass would be absorbed", in_kg_m3(measured),
                          in_percent((binder - design.binder_density * (1 / measured - all.volume)) / all.mass)),
-             fmt::format("at least {}, without absorption: {}", in_kg_m3(1 / solid),
+             fmt::format("at least {}, which is the value without absorption: {}", in_kg_m3(1 / solid),
                          sum_of(all, binder, design.binder_density)));
     absorbed = std::max(0.0, binder - design.binder_density * (1 / measured - all.volume));
     if (absorbed > binder)
-      refuse(design, "maximum_density",
-             fmt::format("{}, by which {} of the mix is absorbed: an effective binder of {}", in_kg_m3(measured),
-                         in_percent(absorbed), in_percent(binder - absorbed)),
-             fmt::format("at most {}, with all the binder absorbed: 1 kg / ({:.6g} kg / {:.6g} kg/m3)",
-                         in_kg_m3(1 / all.volume), all.mass, all.mass / all.volume));
+      refuse(
+          design, "maximum_density",
+          fmt::format("{}, from which {} of the mix would be absorbed binder and {} effective binder",
+                      in_kg_m3(measured), in_percent(absorbed), in_percent(binder - absorbed)),
+          fmt::format("at most {}, which is the value if all the binder is absorbed: 1 kg / ({:.6g} kg / {:.6g} kg/m3)",
+                      in_kg_m3(1 / all.volume), all.mass, all.mass / all.volume));
   }
   if (absorbed > binder)
     refuse(design, "absorbed_binder",
-           fmt::format("{} of the aggregate's mass, {} of the mix: an effective binder of {} - {} = {}, so that the "
-                       "air voids are beyond the VMA",
+           fmt::format("{} of the aggregate's mass, which is {} of the mix and leaves an effective binder of {} - {} = "
+                       "{}: the air voids would exceed the VMA",
                        in_percent(*design.absorbed_binder), in_percent(absorbed), in_percent(binder),
                        in_percent(absorbed), in_percent(binder - absorbed)),
-           fmt::format("at most {} of the aggregate's mass, all of the binder", in_percent(binder / all.mass)));
+           fmt::format("at most {} of the aggregate's mass, which is all the binder", in_percent(binder / all.mass)));
   return absorbed;
 }
 
@@ -76,8 +77,8 @@ double air_voids_of(const MixDesign& design, double maximum_density) {
   const double bulk = *design.bulk_density, voids = 1 - bulk / maximum_density;  // EN 12697-8
   if (bulk > maximum_density + rounding)
     refuse(design, "bulk_density",
-           fmt::format("{}, by which the air voids are 1 - {:.6g} / {:.6g} = {}", in_kg_m3(bulk), bulk, maximum_density,
-                       in_percent(voids)),
+           fmt::format("{}, from which the air voids would be 1 - {:.6g} / {:.6g} = {}", in_kg_m3(bulk), bulk,
+                       maximum_density, in_percent(voids)),
            "at most the maximum density, " + in_kg_m3(maximum_density));
   return std::max(0.0, voids);
 }
@@ -129,8 +130,8 @@ MixVolumes volumes_of(const MixDesign& design) {
   const double mastic = fine.volume + filler.volume + out.effective_binder / design.binder_density;
   if (!(mastic > 0))
     refuse(design, "binder",
-           fmt::format("no mastic: nothing passes {} and all binder is absorbed", in_millimetres(design.cut)),
-           "binder or fines to fill the mastic with");
+           fmt::format("no mastic: no aggregate passes {} and all binder is absorbed", in_millimetres(design.cut)),
+           "more binder, or aggregate finer than the cut");
   out.mastic_volume = mastic * out.bulk_density;
   out.mastic_density = out.mastic_mass / mastic;
   return out;
@@ -142,10 +143,12 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
     if (wrong) throw InputError(design.source, design.line, "[specimen.recipe]", found, expected);
   };
   alone(!spec.mastic, "no [specimen.mastic]", "[specimen.mastic] with its radii");
-  alone(!spec.aggregate.empty(), "classes of aggregate together with it", "none: they follow from the recipe");
-  alone(spec.mastic->porosity || spec.mastic->count, "a porosity or count of the mastic together with it",
-        "none: both follow from the recipe");
-  alone(spec.voids && spec.voids->count, "a count of voids together with it", "a fraction of voids, or neither");
+  alone(!spec.aggregate.empty(), "classes of aggregate together with the recipe",
+        "no classes, because they follow from the recipe");
+  alone(spec.mastic->porosity || spec.mastic->count, "a porosity or count of the mastic together with the recipe",
+        "neither, because both follow from the recipe");
+  alone(spec.voids && spec.voids->count, "a count of voids together with the recipe",
+        "a fraction of voids, or neither count nor fraction");
   if (spec.voids && !spec.voids->fraction) spec.voids->fraction = volumes.air_voids;
   const double of_voids = spec.voids ? *spec.voids->fraction : 0;  // fraction of the box
   alone(of_voids > volumes.air_voids + 1e-9,

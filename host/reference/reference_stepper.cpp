@@ -107,7 +107,7 @@ class ReferenceStepper : public Stepper {
   }
 
   ContactState contacts(const ContactNetwork&) const override {
-    throw RunError("backend reference does not tell of its contacts");
+    throw RunError("backend reference cannot report the forces of its contacts");
   }
 
   std::vector<Break> point_breaks(const ContactNetwork& network) const override {

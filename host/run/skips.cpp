@@ -82,7 +82,8 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   }
   append(geometry_skips(geometry, strain));
   if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
-    out.push_back({"second moments", "a facet has one point, so three chains replace six", "rounding"});
+    out.push_back(
+        {"second moments", "a facet has one contact point, so three chains of law states replace six", "rounding"});
   }
   if (const auto n = prepared.network.dropped_area; n > 0) {
     out.push_back(
@@ -91,7 +92,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   }
   if (const auto n = prepared.network.dropped_gap; n > 0) {
     out.push_back({"open facets", fmt::format("{} wider than gap_max", n),
-                   "this is another model: compare with a run without gap_max"});
+                   "the model changes: compare with a run without gap_max"});
   }
   append(asked_skips(scene));
   return out;

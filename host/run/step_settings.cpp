@@ -40,8 +40,8 @@ std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Back
 void require_possible(double steps, double dt, const std::string& what) {
   constexpr double most = 1e12;
   if (steps < most) return;  // a NaN is refused too
-  throw RunError(
-      fmt::format("the time step of {:.6g} s would take {:.6g} steps {}; raise density_scaling", dt, steps, what));
+  throw RunError(fmt::format(
+      "with the time step of {:.6g} s the run would take {:.6g} steps {}; increase density_scaling", dt, steps, what));
 }
 
 void add_settings(const experiments::Stepped& found, const Scene& scene, const RunResult& run, std::int64_t steps,

@@ -97,13 +97,12 @@ std::vector<Part> specimen_by_volume(bool shapes) {
     out.push_back({"[specimen.shapes]",
                    {{"library", R"("aggregates")"}, {"radius", R"(["0.75 mm", "1 mm"])"}, {"porosity", "0.12"}},
                    "Without this section every aggregate is one sphere."});
-  out.push_back(
-      {"[[specimen.aggregate]]",
-       {{"sieve", R"(["4.75 mm", "9.5 mm"])"}, {"volume_fraction", "0.24"}},
-       "Classes of aggregates, one [[specimen.aggregate]] between every two sieves. The mastic (binder, filler, "
-       "fine sand) takes the rest of the solid volume.",
-       true,
-       {"count"}});
+  out.push_back({"[[specimen.aggregate]]",
+                 {{"sieve", R"(["4.75 mm", "9.5 mm"])"}, {"volume_fraction", "0.24"}},
+                 "Classes of aggregates, one [[specimen.aggregate]] between every two sieves. The mastic (binder, "
+                 "filler, fine sand) fills the remaining solid volume.",
+                 true,
+                 {"count"}});
   out.push_back(
       {"[[specimen.aggregate]]", {{"sieve", R"(["2 mm", "4.75 mm"])"}, {"volume_fraction", "0.19"}}, "", false});
   out.push_back({"[specimen.mastic]",

@@ -9,7 +9,8 @@
 namespace macadam {
 
 void apply(const Overrides& asked, Scene& scene) {
-  if (asked.seed && scene.specimen.file) throw InputError("--seed: the scene takes its specimen from a file");
+  if (asked.seed && scene.specimen.file)
+    throw InputError("--seed: has no effect, because the scene takes its specimen from a file");
   if (asked.seed) {
     scene.specimen.seed = *asked.seed;
     // a checkpoint is valid for one text only, so the seed must be in it

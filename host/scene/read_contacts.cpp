@@ -95,11 +95,12 @@ Law law_named_in(const Section& section) {
 /// Returns the keys that decide which facets between two particles become contacts.
 std::vector<Key> keys_of(FacetLimits& limits) {
   // The gap d − R_a − R_b in units of the mean radius is d/mean − 2.
-  constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, where centres coincide"};
-  return {{"gap_max", Need::optional, into(limits.gap_max, ratio, gap),
-           "largest gap between two particles in contact, in units of their mean radius", "every facet is a contact"},
-          {"area_min", Need::optional, into(limits.area_min, ratio, non_negative),
-           "smallest facet that is a contact, in units of the mean facet", "every facet is a contact"}};
+  constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, at which the centres coincide"};
+  return {
+      {"gap_max", Need::optional, into(limits.gap_max, ratio, gap),
+       "largest gap between two particles in contact, in units of their mean radius", "every facet is a contact"},
+      {"area_min", Need::optional, into(limits.area_min, ratio, non_negative),
+       "smallest area of a facet that is a contact, as a fraction of the mean facet area", "every facet is a contact"}};
 }
 
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network) {

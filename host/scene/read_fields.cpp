@@ -34,8 +34,8 @@ void check_fields(const Section& section, const FieldSpec& spec) {
   if (spec.any()) return;
   for (const char* key : {"every", "format"}) {
     if (const auto value = section.find(key)) {
-      value->refuse(value->shown() + " without anything in fields",
-                    "fields = [\"particles\"] with it, or no " + std::string(key));
+      value->refuse(value->shown() + " without the key fields",
+                    "also fields = [\"particles\"], or no " + std::string(key));
     }
   }
 }

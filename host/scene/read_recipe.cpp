@@ -68,7 +68,7 @@ MixDesign read_recipe(const Section& section) {
        "binder in the pores of the aggregate, as a fraction of the aggregate's mass", "0"},
       {"maximum_density", Need::optional, into(out.maximum_density, density, any),
        "measured maximum density, in place of absorbed_binder, which is computed from it", "none"},
-      {"air_voids", Need::optional, into(out.air_voids, ratio, any), "fraction of the bulk volume",
+      {"air_voids", Need::optional, into(out.air_voids, ratio, any), "air voids as a fraction of the bulk volume",
        "computed from bulk_density"},
       {"bulk_density", Need::optional, into(out.bulk_density, density, any),
        "measured bulk density, in place of air_voids, which are computed from it", "none"},
@@ -104,7 +104,7 @@ void take_densities(const MixDesign& recipe, const Section& root, Materials& mat
     take("aggregate", materials.aggregate, volumes.aggregate_density,
          fmt::format("its aggregate above the cut, with {:.4g} % of absorbed binder", 100 * volumes.absorbed_binder));
   take("mastic", materials.mastic, volumes.mastic_density,
-       fmt::format("of 1 kg of mix {:.6g} kg in {:.6g} cm3", volumes.mastic_mass,
+       fmt::format("1 kg of the mix has {:.6g} kg of mastic in {:.6g} cm3", volumes.mastic_mass,
                    1e6 * volumes.mastic_mass / volumes.mastic_density));
 }
 

@@ -16,7 +16,8 @@ std::optional<ShapeSpec::Library> shipped_library(const std::string& name) {
 }
 
 ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folder) {
-  constexpr Rule porosity{[](double v) { return v >= -0.5 && v < 1; }, "a porosity from -0.5 to below 1"};
+  constexpr Rule porosity{[](double v) { return v >= -0.5 && v < 1; },
+                          "a porosity from -0.5 to below 1 (negative: the spheres overlap)"};
   constexpr Rule gap{[](double v) { return v > 0 && v < 0.5; }, "a fraction above 0 and below 0.5"};
   constexpr Rule hold_out{[](double v) { return v >= 0 && v <= 10; }, "a stiffness from 0 to 10 times a pair's"};
   ShapeSpec out;
@@ -56,7 +57,8 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
        {"placement", Need::optional,
         into<PlacementMethod>(out.placement,
                               {{"packing", PlacementMethod::packing}, {"insertion", PlacementMethod::insertion}}),
-        "packing: all at once, grown while overlaps push them apart; insertion: one by one at random positions"},
+        "packing: all aggregates grow together while overlaps push them apart; insertion: one aggregate after the "
+        "other at a random position"},
        {"allow_short", Need::optional, into(out.allow_short),
         "insertion: whether aggregates that find no space are left out"},
        {"test", Need::optional,

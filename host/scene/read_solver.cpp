@@ -71,7 +71,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
   section.read(
       {{"method", Need::optional,
         into<SolverMethod>(spec.method, {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}}),
-        "step in time, or solve in the frequency domain", "cyclic: \"explicit\"; other tests: \"harmonic\""},
+        "step the test in time, or solve it in the frequency domain",
+        "cyclic: \"explicit\"; other tests: \"harmonic\""},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error),
         "largest error of |E*| (relative) and of phi [rad]; the program chooses and reports the settings that are not "
         "given",
@@ -126,8 +127,9 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         Need::optional,
         {[&](const Value& v) { spec.devices = read_devices(v, most_devices); },
          {"whole number, list of them or \"all\"", nullptr, fmt::format("from 0 to {}", most_devices)}},
-        "number of the CUDA device as in macadam info, or of several that share the specimen",
-        "the first that can run; a stepped run of 300,000 contacts or more also uses idle ones of the same type"},
+        "number of a CUDA device in the list of macadam info, or of several devices that share the specimen",
+        "the first device that can run Macadam; a stepped run of 300,000 contacts or more also uses idle devices of "
+        "the same type"},
        {"inertia", Need::optional, into(spec.inertia), "method \"harmonic\": whether particles have inertia"}});
   read_damping(section, spec);
 

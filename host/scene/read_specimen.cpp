@@ -60,7 +60,8 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
 }
 
 MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
-  constexpr Rule porosity{[](double v) { return v > -1 && v < 1; }, "a porosity between -1 and 1"};
+  constexpr Rule porosity{[](double v) { return v > -1 && v < 1; },
+                          "a porosity between -1 and 1 (negative: the spheres overlap)"};
   MasticSpec out;
   out.line = section.line();
   section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max),
@@ -108,7 +109,7 @@ void require_possible(const Section& section, const SpecimenSpec& spec) {
   if (spec.voids)
     box -= spec.voids->count ? static_cast<double>(*spec.voids->count) * sphere_volume(2 * spec.voids->radius_min)
                              : *spec.voids->fraction * box;
-  if (!(box > 0)) section.refuse("voids", "voids as large as the box", "smaller or fewer ones");
+  if (!(box > 0)) section.refuse("voids", "voids as large as the box", "smaller or fewer voids");
   if (fractions > 0 && !spec.mastic) {
     section.refuse("aggregate", "volume_fraction without [specimen.mastic]",
                    "count, because only mastic determines the solid volume");
@@ -131,8 +132,9 @@ void require_possible(const Section& section, const SpecimenSpec& spec) {
     number += static_cast<double>(*spec.mastic->count);
   }
   if (solid >= 2 * box) {
-    section.refuse(spec.mastic ? "mastic" : "aggregate", fmt::format("spheres of at least {:.4g} m3", solid),
-                   fmt::format("less than twice the box, {:.4g} m3: a porosity above -1", box));
+    section.refuse(
+        spec.mastic ? "mastic" : "aggregate", fmt::format("spheres with a volume of at least {:.4g} m3", solid),
+        fmt::format("less than twice the volume of the box, {:.4g} m3, so that the porosity is above -1", box));
   }
   for (const AggregateClass& c : spec.aggregate) {
     number += c.volume_fraction.value_or(0) * solid / sphere_volume(c.sieve_max);
@@ -140,14 +142,14 @@ void require_possible(const Section& section, const SpecimenSpec& spec) {
   const double aggregates = counted + fractions * solid;
   if (aggregates >= box) {
     section.refuse("aggregate", fmt::format("aggregates of at least {:.4g} m3", aggregates),
-                   fmt::format("less than the box, {:.4g} m3, because aggregates do not overlap", box));
+                   fmt::format("less than the volume of the box, {:.4g} m3, because aggregates do not overlap", box));
   }
   if (spec.mastic && aggregates >= solid) {
     section.refuse("aggregate", fmt::format("aggregates of at least {:.4g} m3", aggregates),
                    fmt::format("less than the solid volume at this porosity, {:.4g} m3", solid));
   }
   if (!(number <= static_cast<double>(most_particles))) {
-    section.refuse(spec.mastic ? "mastic" : "aggregate", fmt::format("sizes that take {:.3g} particles", number),
+    section.refuse(spec.mastic ? "mastic" : "aggregate", fmt::format("sizes that need {:.3g} particles", number),
                    fmt::format("at most {} particles", most_particles));
   }
 }
@@ -213,7 +215,7 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                                       {"volume_uniform", SizeLaw::volume_uniform}}),
         "distribution of the diameters between two sieves"},
        {"spacing", Need::optional, into(spec.spacing, length, non_negative),
-        "smallest distance between an aggregate and those inserted before it"},
+        "smallest distance between an aggregate and the aggregates inserted before it"},
        {"fix_aggregates", Need::optional, into(spec.fix_aggregates),
         "whether aggregates are fixed while the mastic relaxes"},
        {"attempts", Need::optional, into(spec.attempts, 1),

@@ -73,11 +73,11 @@ Materials read_materials(const Section& section, Need need) {
                              "computed from [specimen.recipe] if that is given"}});
     });
   };
-  section.read(
-      {{"aggregate", Need::optional, phase(materials.aggregate), "material of the aggregates", "none"},
-       {"mastic", Need::optional, phase(materials.mastic), "material of the mastic", "none"},
-       {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
-        "temperature of the whole specimen, which laws with a shift follow", "the laws' reference temperatures"}});
+  section.read({{"aggregate", Need::optional, phase(materials.aggregate), "material of the aggregates", "none"},
+                {"mastic", Need::optional, phase(materials.mastic), "material of the mastic", "none"},
+                {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
+                 "temperature of the whole specimen; laws that have a shift change with it",
+                 "the laws' reference temperatures"}});
   return materials;
 }
 

@@ -63,18 +63,19 @@ laws::Shift ShiftKeys::shift(const Section& section) const {
   }
   if (table_.log10_a_T.size() != t.size()) {
     section.refuse("log10_a_T", fmt::format("{} numbers for {} temperatures", table_.log10_a_T.size(), t.size()),
-                   "as many");
+                   "one number per temperature");
   }
   return table_;
 }
 
 std::string range_of(const laws::Shift& shift) {
   if (const auto* wlf = std::get_if<laws::Wlf>(&shift))
-    return fmt::format("one above {:.6g}, reference_temperature - C2, where a_T is a number",
+    return fmt::format("a temperature above {:.6g} (reference_temperature - C2), so that a_T is finite",
                        wlf->reference_temperature - wlf->C2);
   if (const auto* table = std::get_if<laws::ShiftTable>(&shift))
-    return fmt::format("{} to {}, as in its table", table->temperatures.front(), table->temperatures.back());
-  return "one where a_T is a number";
+    return fmt::format("a temperature from {} to {}, the range of the law's table", table->temperatures.front(),
+                       table->temperatures.back());
+  return "a temperature at which a_T is finite";
 }
 
 }  // namespace macadam::scene

@@ -167,7 +167,9 @@ class SceneRun {
   std::vector<std::string> checkpoint_warnings(Backend backend) {
     const std::filesystem::path newest = out_ / checkpoint_name;
     if (!resume_ && is_stepped() && watcher_.warn && is_checkpoint_of(newest, scene_, backend)) {
-      watcher_.warn(newest.string() + ": this run was begun before and now starts again; --resume would continue it");
+      watcher_.warn(newest.string() +
+                    ": an earlier run left this checkpoint; the run now starts from the beginning, and --resume would "
+                    "have continued it");
     }
     if (resumed_) require_same_specimen(resumed_->file, resumed_->checkpoint, prepared());
     if (damage_.empty()) return {};

@@ -49,7 +49,8 @@ void require_folders_differ(const std::vector<SceneJob>& jobs) {
   std::set<std::filesystem::path> folders;
   for (const SceneJob& job : jobs) {
     if (!folders.insert(std::filesystem::weakly_canonical(job.out)).second)
-      throw InputError(job.out.string() + ": found two scenes with this folder, expected a folder for each");
+      throw InputError(job.out.string() +
+                       ": found two scenes with this results folder, expected a separate folder for each scene");
   }
 }
 
@@ -302,9 +303,9 @@ class Pool {
 
 std::vector<JobOutcome> run_many(const std::vector<SceneJob>& jobs, const ManyOptions& options) {
   if (const Ranks* team = ranks()) {
-    throw InputError(
-        "scenes: found several with " + std::to_string(team->count()) +
-        " ranks, expected one: a single process runs several scenes side by side on all devices of its host");
+    throw InputError("scenes: found several scenes with " + std::to_string(team->count()) +
+                     " ranks, expected one scene; without --ranks a single process runs several scenes side by side on "
+                     "all devices of its host");
   }
   require_folders_differ(jobs);
   if (jobs.empty()) return {};

@@ -110,8 +110,9 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
 
 void require_no_run(const std::filesystem::path& out) {
   const auto refuse = [&](const std::string& found) {
-    throw InputError(out.string(), 0, "folder of the specimen", found,
-                     "a folder without a run, whose files these would replace; choose another folder");
+    throw InputError(
+        out.string(), 0, "folder of the specimen", found,
+        "a folder without the files of a run, because the specimen's files would replace them; choose another folder");
   };
   if (has_checkpoint(out)) refuse("the checkpoint of a run");
   const std::filesystem::path file = out / "summary.json";

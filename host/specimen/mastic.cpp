@@ -26,7 +26,7 @@ void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Place
   constexpr std::size_t shown = 10;
   for (std::size_t k = 0; k < std::min(hidden.size(), shown); ++k) message += " " + std::to_string(hidden[k]);
   if (hidden.size() > shown) message += " …";
-  throw RunError(origin.text() + message + "; ask for fewer or more equal mastic spheres");
+  throw RunError(origin.text() + message + "; choose fewer mastic spheres, or radii that differ less");
 }
 
 }  // namespace

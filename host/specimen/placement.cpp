@@ -54,8 +54,8 @@ std::string no_room(const Population& c, std::size_t placed, std::int64_t attemp
   }
   char text[320];
   std::snprintf(text, sizeof text,
-                "no room for aggregate %zu of %zu of class %s (diameter %.4g mm) in %lld attempts: %zu of %zu placed, "
-                "%.1f %% of the class's volume; ask for less of this class or of larger ones, a larger box, smaller "
+                "no space for aggregate %zu of %zu of class %s (diameter %.4g mm) in %lld attempts: %zu of %zu placed, "
+                "%.1f %% of the class's volume; choose less of this class or of coarser classes, a larger box, smaller "
                 "sieves, more attempts or another seed",
                 placed + 1, c.radius.size(), c.row.name.c_str(), 2e3 * c.radius[placed],
                 static_cast<long long>(attempts), placed, c.radius.size(), 100 * volume / total);
@@ -103,8 +103,8 @@ void Placement::place_voids(const Population& voids, std::int32_t body) {
     const std::optional<Vec3d> centre = position_for(voids.radius[k], 0);
     if (!centre)
       throw RunError(
-          fmt::format("{}no room for void {} of {} (diameter {:.4g} mm) in {} attempts; ask for fewer or "
-                      "smaller voids, less aggregate or another seed",
+          fmt::format("{}no space for void {} of {} (diameter {:.4g} mm) in {} attempts; choose fewer or smaller "
+                      "voids, less aggregate or another seed",
                       voids.origin.text(), k + 1, voids.radius.size(), 2e3 * voids.radius[k], attempts_));
     add_aggregate(*centre, voids.radius[k], body++);
   }
@@ -130,8 +130,8 @@ Vec3d Placement::point_outside_aggregates() {
 }
 
 void Placement::no_room_for_mastic() const {
-  throw RunError(origin_.text() + "no room for mastic outside the aggregates in " + std::to_string(attempts_) +
-                 " attempts; ask for less aggregate");
+  throw RunError(origin_.text() + "no space for mastic outside the aggregates in " + std::to_string(attempts_) +
+                 " attempts; choose less aggregate");
 }
 
 /// Returns a random centre for a sphere inside the box, clear of all placed spheres; nothing if all attempts_ trials

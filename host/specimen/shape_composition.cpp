@@ -94,7 +94,7 @@ ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<Shap
     for (const AggregateRequest& r : drawn) row.fraction += composer.volume(r.shape, r.size) / box;
     if (!request.count && std::abs(row.fraction - row.fraction_asked) > tolerance * row.fraction_asked)
       throw InputError(
-          request.origin.source, request.origin.line, request.name + ": share of the box", shown(row.fraction_asked),
+          request.origin.source, request.origin.line, request.name + ": fraction of the box", shown(row.fraction_asked),
           shown(row.fraction) + " (the nearest found with these shapes), or wider sieves, or a larger box");
     if (!drawn.empty()) require_fit(request.origin, request.name, drawn.front().size, spec.box);
     result.row.push_back(row);

@@ -72,8 +72,9 @@ class Finder {
       if (options_.on_progress) options_.on_progress(out_.solutions, out_.error);
       if (out_.error <= options_.tolerance && checked()) return finished();
     }
-    throw RunError(fmt::format("spectrum: E(t) is known to {:.1e} only after {} solutions, expected {:.1e} at most",
-                               std::max(out_.error, out_.checked), out_.solutions, options_.tolerance));
+    throw RunError(
+        fmt::format("spectrum: the relative error of E(t) is still {:.1e} after {} solutions, expected at most {:.1e}",
+                    std::max(out_.error, out_.checked), out_.solutions, options_.tolerance));
   }
 
  private:
@@ -162,11 +163,11 @@ Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
                      const std::array<std::optional<Law>, pair_types>& laws, const SpectrumOptions& options) {
   if (!(options.shortest > 0 && options.longest > options.shortest && std::isfinite(options.longest))) {
     throw InputError("spectrum", 0, "times", fmt::format("{:g} to {:g} s", options.shortest, options.longest),
-                     "positive ones, the shorter one first");
+                     "two positive times, the shorter one first");
   }
   if (!(options.tolerance >= 1e-10)) {
     throw InputError("spectrum", 0, "tolerance", fmt::format("{:g}", options.tolerance),
-                     "at least 1e-10: solutions have no more digits");
+                     "at least 1e-10, because the solutions are not more accurate");
   }
   require_stiffness(laws);
   for (const auto& law : laws)

@@ -14,8 +14,9 @@ void require_convergence(const Sample& sample, const std::string& of) {
   const auto& [now, particle] = sample;
   if (particle < 0 && std::isfinite(now.top_force()) && std::isfinite(now.top_displacement())) return;
   const std::string what =
-      particle >= 0 ? fmt::format("particle {} moves more than its radius in a step, or not finitely", particle)
-                    : "force or motion of the top wall is not finite";
+      particle >= 0
+          ? fmt::format("particle {} moves more than its radius in one step, or its motion is not finite", particle)
+          : "force or motion of the top wall is not finite";
   const std::string where = of.empty() ? fmt::format("step {}", now.step) : fmt::format("{}, step {}", of, now.step);
   throw DivergenceError(fmt::format("the time stepping diverged: {}, at t = {:.6g} s ({}); use a smaller "
                                     "time_step or safety",

@@ -82,8 +82,9 @@ class Joined {
     const std::span<Tetrahedron> all = of(t.site[0]);
     const auto found = std::ranges::lower_bound(all, t.site, come_before, &Tetrahedron::site);
     if (found == all.end() || found->site != t.site) {
-      throw RunError(fmt::format("tessellation: parts differ in the tetrahedron of particles {}, {}, {}, {}", t.site[0],
-                                 t.site[1], t.site[2], t.site[3]));
+      throw RunError(
+          fmt::format("tessellation: two parts of the box disagree on the tetrahedron of particles {}, {}, {}, {}",
+                      t.site[0], t.site[1], t.site[2], t.site[3]));
     }
     return static_cast<std::int32_t>(begin_[t.site[0]] + (found - all.begin()));
   }

@@ -12,7 +12,7 @@ void Ranks::require_same(const std::string& what, std::int64_t value) {
   const std::int64_t low = least_of(value), high = -least_of(-value);
   if (low == high) return;
   throw RunError("ranks: " + what + ": found " + std::to_string(low) + " and " + std::to_string(high) +
-                 ", expected the same of all: they no longer run the same scene");
+                 ", expected the same value on all ranks: the ranks no longer run the same scene");
 }
 
 }  // namespace macadam

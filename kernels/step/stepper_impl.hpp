@@ -134,7 +134,8 @@ class StepperImpl final : public Stepper {
     const std::size_t n = network.contacts.size();
     if (n != contacts_) {
       throw InputError("contacts of a stepper: found a network of " + std::to_string(n) +
-                       " contacts, expected that of " + std::to_string(contacts_) + " that the stepper was made of");
+                       " contacts, expected the network of " + std::to_string(contacts_) +
+                       " contacts that the stepper was made from");
     }
     ContactState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<std::array<double, 6>>(n), {}, {0}};
     const auto each_group = [&](auto&& f) {
@@ -174,7 +175,8 @@ class StepperImpl final : public Stepper {
   void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
     exec_.use_device();
     if (options_.skip_rotations && largest(spin) > 0) {
-      throw InputError("a spin was given to particles that nothing can turn: set skip_rotations to false");
+      throw InputError(
+          "angular velocities were given, but the stepper leaves out rotations: set skip_rotations to false");
     }
     exec_.gather();
     std::vector<R> v = exec_.velocities();
@@ -206,7 +208,7 @@ class StepperImpl final : public Stepper {
     for (const StateArray& array : arrays) {
       if (array.name == "step") step = std::get_if<std::vector<std::int64_t>>(&array.values);
     }
-    if (!step || step->size() != 1) throw RunError("state: found no number of the step, expected one");
+    if (!step || step->size() != 1) throw RunError("state: found no step number, expected one");
     exec_.states().replace(arrays);
     step_ = step->front();
   }
@@ -280,8 +282,8 @@ class StepperImpl final : public Stepper {
       all.add(inverse), all.add(std::vector{options.dt});
       if (const StartState* s = options.start)
         all.add(s->displacement), all.add(s->rotation), all.add(s->velocity), all.add(s->spin), all.add(s->chain);
-      options.ranks->require_same("checksum of time step, masses and start, which hosts of one kind find alike",
-                                  all.value());
+      options.ranks->require_same(
+          "checksum of time step, masses and start state (equal only if all hosts are of the same kind)", all.value());
     }
     wall_table_ = WallTable<R>(options.boundary);
     WallMotion<R> wall = wall_table_.motion();

@@ -22,7 +22,8 @@ void require_start(std::size_t particles, const ContactNetwork& network, const F
                    const StepperOptions& options) {
   const StartState& start = *options.start;
   if (!options.boundary.body_force.empty())
-    throw InputError("start state: found body forces, expected none: steady states have none in them");
+    throw InputError(
+        "start state: found body forces, expected none, because a steady state is computed without body forces");
   for (const auto& law : laws) {
     if (law && !law->linear)
       throw InputError(std::string("start state: found law ") + law->name +
@@ -87,7 +88,7 @@ void require_boundary(std::size_t particles, const StepperOptions& options) {
   }
   if (!boundary.body_force.empty() && boundary.body_force.size() != particles) {
     refuse("body forces", std::to_string(boundary.body_force.size()),
-           "none, or one a particle: " + std::to_string(particles));
+           "none, or one per particle: " + std::to_string(particles));
   }
 }
 
@@ -108,7 +109,7 @@ void require_input(std::size_t particles, const ContactNetwork& network, const F
   }
   if (options.damping_kind == Damping::viscous && !(options.damping * options.dt < 2)) {
     throw InputError("viscous damping: found beta * dt = " + std::to_string(options.damping * options.dt) +
-                     ", expected below 2 (a smaller time_step, or less damping)");
+                     ", expected below 2 (choose a smaller time_step or less damping)");
   }
   require_boundary(particles, options);
   if (options.start) require_start(particles, network, laws, options);

@@ -41,7 +41,7 @@ def main() -> None:
         return
     program = own_program()
     if program is None:
-        sys.exit("macadam: found no program macadam/bin/macadam, expected it in an installed package")
+        sys.exit("macadam: found no program macadam/bin/macadam, expected it in the installed Python package")
     os.execv(program, ["macadam", *sys.argv[1:]])
 
 

@@ -114,7 +114,7 @@ def _as_list(numbers: Sequence[Number] | Number) -> Any:
 # Returns the arguments unchanged. Raises InputError for `resume` without `out`.
 def _require_folder_to_resume(call: dict[str, Any]) -> dict[str, Any]:
     if call.get("resume") and call.get("out") is None:
-        raise _core.InputError("resume: found no out, expected the folder of the interrupted run")
+        raise _core.InputError("resume: found no value of out, expected the folder of the interrupted run")
     return call
 
 

@@ -182,7 +182,7 @@ void make_stepper_object(HeldStepper* self, PreparedPointer specimen, const Boun
 
 void bind_stepper(nb::module_& m) {
   nb::class_<HeldStepper>(m, "Stepper",
-                          "HeldStepper a specimen in time: velocities at half steps, displacements at whole steps.")
+                          "Steps a specimen in time: velocities at half steps, displacements at whole steps.")
       .def("__init__", &make_stepper_object, nb::arg("specimen"), nb::arg("boundary"), nb::kw_only(),
            nb::arg("dt") = nb::none(), nb::arg("backend") = "auto", nb::arg("precision") = "double",
            nb::arg("form") = "condensed", nb::arg("geometry") = "updated", nb::arg("damping_kind") = "none",

@@ -99,7 +99,7 @@ PlyHeader read_ply_header(const SurfaceFile& file) {
       if (header.elements.empty()) words.fail("header", "a property before any element", "a whole .ply file");
       PlyProperty property = property_line(words);
       if (header.elements.back().find(property.name))
-        words.fail("property", in_quotes(property.name) + " again", "it once");
+        words.fail("property", in_quotes(property.name) + " again", "each property once");
       header.elements.back().properties.push_back(std::move(property));
     } else {
       words.fail("header", in_quotes(keyword), "format, element, property, comment, obj_info or end_header");

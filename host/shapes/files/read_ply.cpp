@@ -160,7 +160,7 @@ SurfaceSoup read_ply(const SurfaceFile& file) {
   SurfaceSoup soup;
   bool points = false, facets = false;
   const auto once = [&](const PlyElement& element, bool& done) {
-    if (done) file.fail(element.line, "element " + element.name, "it again", "it once");
+    if (done) file.fail(element.line, "element " + element.name, "a second element of this name", "only one");
     done = true;
   };
   for (const PlyElement& element : header.elements) {

@@ -38,7 +38,8 @@ void require_floats(const std::filesystem::path& file, const std::vector<Point>&
   for (const Point& p : points) {
     for (const double x : {p.x(), p.y(), p.z()}) {
       if (!std::isfinite(static_cast<float>(x)))
-        throw InputError(file.string(), 0, "coordinate", fmt::format("{}", x), "one that single precision can hold");
+        throw InputError(file.string(), 0, "coordinate", fmt::format("{}", x),
+                         "a number that single precision can hold");
     }
   }
 }

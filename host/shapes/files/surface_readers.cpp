@@ -111,7 +111,7 @@ SurfaceSoup read_obj(const SurfaceFile& file) {
     } else if (std::find(std::begin(without_facets), std::end(without_facets), keyword) != std::end(without_facets)) {
       while (!words.in_line().empty()) continue;  // skips the line and its continuation lines
     } else {
-      words.fail("keyword", in_quotes(keyword), "v, f or another one of OBJ");
+      words.fail("keyword", in_quotes(keyword), "v, f or another keyword of OBJ files");
     }
   }
   return soup;

@@ -56,7 +56,7 @@ std::int64_t ShapeFiller::spheres(double scale, const FillSpec& spec) const {
   check(name_, scale, spec);
   const double volume = (1 - spec.porosity) * measure_.volume * scale * scale * scale;
   const double number = volume / diameters(spec).mean_volume();
-  require(number <= most_spheres, name_, "number of spheres that radii and porosity ask for", std::round(number),
+  require(number <= most_spheres, name_, "number of spheres that the radii and the porosity need", std::round(number),
           "at most 100000");
   return std::llround(number);
 }
@@ -121,7 +121,7 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
     if (round == most_rounds)
       throw RunError(name_ + ": " + std::to_string(hidden.size()) + " of " + std::to_string(count) +
                      " spheres have no Laguerre cell, the first is sphere " + std::to_string(hidden.front()) +
-                     "; ask for more equal radii or a higher porosity");
+                     "; choose radii that differ less, or a higher porosity");
     for (std::int32_t i : hidden) boxed.centre[i] = position(boxed.radius[i], positions) - low;
     relax(
         boxed, false, [](double) {}, wall);

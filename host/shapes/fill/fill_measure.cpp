@@ -21,7 +21,7 @@ constexpr double surface_samples = 20'000;
 
 void check(const Surface& surface, const MultiSphere& cluster) {
   if (const SurfaceVerdict verdict = check_surface(surface); !verdict.good())
-    throw InputError(surface.name, 0, "surface", verdict.text(), "one fit for filling");
+    throw InputError(surface.name, 0, "surface", verdict.text(), "a surface that can be filled");
   const auto refuse = [&](const std::string& what, const std::string& found, const char* expected) {
     throw InputError(surface.name, 0, "cluster: " + what, found, expected);
   };

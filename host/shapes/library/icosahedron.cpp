@@ -65,7 +65,7 @@ Surface geodesic_sphere(int levels) {
 
 Surface subdivided_icosahedron(double radius) {
   if (!(std::isfinite(radius) && radius > 0))
-    throw InputError("icosahedron", 0, "radius", fmt::format("{} m", radius), "a finite one above zero");
+    throw InputError("icosahedron", 0, "radius", fmt::format("{} m", radius), "a finite radius above 0");
   Surface s = geodesic_sphere(1);
   s.name = "icosahedron";
   for (Vec3d& p : s.points) p = radius * p;

@@ -156,7 +156,7 @@ std::string statistics_text(const std::vector<ShapeMeasure>& shapes) {
     for (const double x : p.paper) text += fmt::format(" {:>8.{}f}", x, p.decimals);
     text += "\n";
   }
-  text += "SI and Fl: of shapes with D^I of 4 mm or more\n\nshapes by sieve (mm):";
+  text += "SI and Fl are computed from shapes with D^I of 4 mm or more\n\nshapes by sieve (mm):";
   for (std::size_t k = 0; k < standard_sieves().size(); ++k) {
     const double lower = standard_sieves()[k];
     const auto n = std::count_if(shapes.begin(), shapes.end(),

@@ -73,7 +73,7 @@ class Repair {
       add_step("nothing to do");
       return read_;
     }
-    if (good) add_step("good, but not as it would be read back: " + verdict_.text());
+    if (good) add_step("good, but the written file would be read back with faults: " + verdict_.text());
     const Surface mended = mend(good ? read_ : surface_);
     if (keep(without_specks(mended))) return read_;
     add_step("still " + verdict_.text());
@@ -274,7 +274,7 @@ Surface repair_surface(const Surface& surface, SurfaceRepair* repair, const std:
             ? fmt::format("filled holes are more than {:.0f} % of the area", 100 * SurfaceRepair::most_filled)
             : fmt::format("the repair changes volume or area by more than {:.0f} %", 100 * SurfaceRepair::bound);
     throw RunError(
-        fmt::format("{}: {}, which only --wrap accepts: {}; {}", surface.name, why, done.what, done.changes()));
+        fmt::format("{}: {}; give --wrap to accept the repair: {}; {}", surface.name, why, done.what, done.changes()));
   }
   if (repair) *repair = done;
   return repaired;

@@ -37,7 +37,8 @@ void check(const std::vector<ShapeTemplate>& shapes, const ShapeComposition& com
   if (!(spec.spacing >= 0 && std::isfinite(spec.spacing)))
     refuse("spacing", shown(spec.spacing) + " m", "a finite length, not negative");
   const bool insertion = spec.method == PlacementMethod::insertion;
-  if (!insertion && spec.spacing > 0) refuse("spacing", shown(spec.spacing) + " m with packing", "insertion, or a gap");
+  if (!insertion && spec.spacing > 0)
+    refuse("spacing", shown(spec.spacing) + " m with packing", "insertion, or a gap in place of the spacing");
   if (!spec.spheres.empty() && (!insertion || spec.spheres.size() != composition.aggregate.size()))
     refuse("spheres", insertion ? std::to_string(spec.spheres.size()) : "a test by them with packing",
            "insertion, and the spheres of each of " + std::to_string(composition.aggregate.size()) + " aggregates");
@@ -89,9 +90,9 @@ std::string no_room(const ShapeComposition& composition, const std::vector<Shape
   }
   char text[400];
   std::snprintf(text, sizeof text,
-                "no room for aggregate %d of %d of class %s (D^I %.4g mm) in %lld attempts: %d placed, %.1f %% of the "
-                "class's volume; ask for less of this class or of larger ones, a larger box, more attempts, short "
-                "classes, or packing in place of insertion",
+                "no space for aggregate %d of %d of class %s (D^I %.4g mm) in %lld attempts: %d placed, %.1f %% of the "
+                "class's volume; choose less of this class or of coarser classes, a larger box, more attempts, "
+                "allow_short = true, or placement = \"packing\"",
                 placed + 1, static_cast<int>(composition.row[lost.size_class].count_asked),
                 composition.row[lost.size_class].name.c_str(), 1e3 * lost.size, static_cast<long long>(attempts),
                 placed, 100 * reached / total);
@@ -131,11 +132,10 @@ void pack_all(const Box& box, const std::vector<ShapeTemplate>& shapes, const Sh
   const double reached = pack(box, bodies, from, spec.gap, report("packing aggregates"));
   if (reached == 1) return;
   char text[320];
-  std::snprintf(
-      text, sizeof text,
-      "the aggregates jammed at %.4g of their size: %.3g %% of the box, %.3g %% asked; ask for less, a larger "
-      "box, or a smaller gap",
-      reached, 100 * reached * reached * reached * volume / box.volume(), 100 * volume / box.volume());
+  std::snprintf(text, sizeof text,
+                "the aggregates jammed at %.4g of their final size: they fill %.3g %% of the box, and %.3g %% is "
+                "requested; choose less aggregate, a larger box, or a smaller gap",
+                reached, 100 * reached * reached * reached * volume / box.volume(), 100 * volume / box.volume());
   throw RunError(spec.origin + text);
 }
 

@@ -64,7 +64,7 @@ class Calibrator {
     if (numbers < free_.size()) {
       throw InputError(data.source, 0, "measurements",
                        fmt::format("{} numbers, priors included, for {} free parameters", numbers, free_.size()),
-                       "as many or more");
+                       "at least one number per free parameter");
     }
   }
 
@@ -273,16 +273,17 @@ class Calibrator {
     for (std::size_t i = 0; i < free_.size(); ++i) {
       const CalibratedParameter& p = out_.parameters[i];
       if (p.at_bound)
-        out_.warnings.push_back(
-            fmt::format("{} lies at a bound, {:.4g}: the deviations hold for this value of it", p.name, p.value));
+        out_.warnings.push_back(fmt::format(
+            "{} lies at its bound {:.4g}; the standard deviations of the other parameters hold for this value", p.name,
+            p.value));
     }
     const std::string alone = priors_ > 0 ? " without the priors" : "";
     for (const Combination& c : out_.combinations) {
-      out_.warnings.push_back(
-          std::isfinite(c.deviation)
-              ? fmt::format("the measurements{} hardly determine {}: within a factor of {:.2g} to either side, 95 %",
-                            alone, name_of(out_, c), std::exp(two_sided * c.deviation))
-              : fmt::format("the measurements{} do not determine {}", alone, name_of(out_, c)));
+      out_.warnings.push_back(std::isfinite(c.deviation)
+                                  ? fmt::format("the measurements{} hardly determine {}: its 95 % interval extends by "
+                                                "a factor of {:.2g} to either side",
+                                                alone, name_of(out_, c), std::exp(two_sided * c.deviation))
+                                  : fmt::format("the measurements{} do not determine {}", alone, name_of(out_, c)));
     }
     const double missed = std::sqrt(out_.misfit / static_cast<double>(out_.points.size()) /
                                     residuals_each(options_.misfit));  // in standard deviations (rms)

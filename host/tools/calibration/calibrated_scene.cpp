@@ -31,8 +31,8 @@ void require_calibrated(const Scene& scene, const Calibration& calibration) {
     const auto at = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.name == p.name; });
     // the value is a product of a few factors, each of them rounded
     if (at == known.end() || !(std::abs(at->value / p.value - 1) < 1e-14)) {
-      throw RunError(fmt::format("{}: {} is {}, calibrated was {}", scene.file.string(), p.name,
-                                 at == known.end() ? "not there" : fmt::format("{}", at->value), p.value));
+      throw RunError(fmt::format("{}: {} is {}, but the calibrated value is {}", scene.file.string(), p.name,
+                                 at == known.end() ? "missing" : fmt::format("{}", at->value), p.value));
     }
   }
 }

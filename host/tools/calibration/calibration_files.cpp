@@ -153,7 +153,7 @@ void require_calibration_folder(const Scene& scene, const std::filesystem::path&
   }
   if (std::filesystem::exists(out / "scene.toml", error) && !std::filesystem::exists(out / "calibration.json", error)) {
     throw InputError("command line", 0, "--out", "a folder with a scene.toml that no calibration wrote",
-                     "another folder: it would be replaced");
+                     "another folder, because this scene.toml would be replaced");
   }
 }
 

@@ -29,7 +29,7 @@ void require_valid_input(const Scene& scene, const ModulusData& data, const Cali
   const bool counts_modulus = options.misfit != Misfit::phase, counts_phase = options.misfit != Misfit::modulus;
   if ((counts_modulus && !data.moduli) || (counts_phase && !data.phases)) {
     throw InputError(data.source, 0, "measurements", data.moduli ? "no phase angles" : "no moduli",
-                     fmt::format("them for the misfit {}", to_string(options.misfit)));
+                     fmt::format("this column, which the misfit {} needs", to_string(options.misfit)));
   }
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const ModulusPoint& p = data.points[i];
@@ -38,7 +38,7 @@ void require_valid_input(const Scene& scene, const ModulusData& data, const Cali
         (data.deviations &&
          ((counts_modulus && !positive(p.e_star_std)) || (counts_phase && !positive(p.phase_std))))) {
       throw InputError(data.source, 0, fmt::format("measurement {}", i + 1), "an invalid number",
-                       "finite ones; frequency, |E*| and standard deviations positive");
+                       "finite numbers, and a positive frequency, |E*| and standard deviations");
     }
   }
   if (!positive(options.e_star_deviation) || !positive(options.phase_deviation)) {

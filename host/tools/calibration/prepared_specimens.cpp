@@ -91,8 +91,8 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
   std::vector<std::optional<double>> out;
   const std::vector<double> several = loading_of(scene).temperatures;
   if (!data.temperatures && several.size() > 1) {
-    refuse("column temperature_c", fmt::format("none beside the {} temperatures of the scene", several.size()),
-           "it, or one temperature in the scene");
+    refuse("column temperature_c", fmt::format("no such column, but {} temperatures in the scene", several.size()),
+           "this column, or a single temperature in the scene");
   }
   if (data.temperatures) {
     out = measured_temperatures(scene, data);
@@ -190,7 +190,7 @@ Specimens::Answer Specimens::answer_of(const ModulusParts& parts, const LawTable
     if (found == all.end()) {
       throw InputError("free parameters", 0, parameter.name,
                        fmt::format("a specimen without {} contacts", to_string(parameter.pair)),
-                       "parameters that change something in it");
+                       "parameters of pairs that have contacts in the specimen");
     }
     out.by.push_back(out.modulus *
                      Complex(found->d_e_star_pa / std::abs(out.modulus), found->d_phase_deg * std::numbers::pi / 180));

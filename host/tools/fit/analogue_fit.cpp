@@ -139,7 +139,7 @@ Minimum fit_analogue(const Problem& problem) {
       }
     }
   }
-  throw RunError("fit: no start of the model gives a finite misfit");
+  throw RunError("fit: no starting values of the model give a finite misfit");
 }
 
 AnalogueModel analogue_of(const Unknowns& u, const std::vector<double>& theta) {

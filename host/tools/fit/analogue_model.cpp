@@ -57,7 +57,7 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
     t.log_modulus = std::log(std::abs(modulus));
     t.phase = std::arg(modulus);
     if (!std::isfinite(t.log_modulus))
-      refuse("modulus", fmt::format("{} at {} Hz", std::abs(modulus), f * middle), "a finite one");
+      refuse("modulus", fmt::format("{} at {} Hz", std::abs(modulus), f * middle), "a finite modulus");
     targets.push_back(t);
   }
   const std::vector<double> fine = between(lowest_hz, highest_hz, 100);
@@ -84,7 +84,8 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
     fewer = std::move(chain);
   }
   refuse("largest error", fmt::format("{} from {} to {} Hz", largest_error, lowest_hz, highest_hz),
-         fmt::format("at least {:.3g}, which up to {} units reach, or a shorter range", smallest_error, most_units));
+         fmt::format("at least {:.3g}, the smallest error that up to {} units reach, or a shorter range",
+                     smallest_error, most_units));
   return {};
 }
 

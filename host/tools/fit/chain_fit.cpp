@@ -83,7 +83,7 @@ Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, 
     if (!contains(unknowns, chain->unknowns) || best.misfit <= chain->minimum.misfit) continue;
     best = std::min(refine(unknowns, targets, limits, embedded(unknowns, limits, *chain), tolerance), best, lower);
   }
-  if (!std::isfinite(best.misfit)) throw RunError("fit: no start of the chain gives a finite misfit");
+  if (!std::isfinite(best.misfit)) throw RunError("fit: no starting values of the chain give a finite misfit");
   return best;
 }
 

@@ -159,7 +159,8 @@ Chain choose_chain(const Problem& problem, const ModulusData& data, Fit& fit) {
   }
   if (!options.units && asked.size() > 1 && fit.candidates[fit.chosen].units == options.most_units) {
     fit.warnings.push_back(
-        fmt::format("{} would take more than {} Kelvin units", to_string(options.criterion), options.most_units));
+        fmt::format("the criterion {} would choose more than {} Kelvin units; --most-units allows more",
+                    to_string(options.criterion), options.most_units));
   }
   return *asked[fit.chosen];
 }

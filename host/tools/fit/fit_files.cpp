@@ -200,8 +200,9 @@ namespace {
 
 /// Returns a sentence about the chain that replaces a fitted model.
 std::string conversion_text(const KelvinConversion& conversion, std::pair<double, double> range_hz) {
-  return fmt::format("Kelvin chain of {} units for it from {:.4g} to {:.4g} Hz: largest error {:.2g} % of |E*|\n",
-                     conversion.law.units(), range_hz.first, range_hz.second, 100 * conversion.largest_error);
+  return fmt::format(
+      "Kelvin chain of {} units that replaces the model from {:.4g} to {:.4g} Hz: largest error {:.2g} % of |E*|\n",
+      conversion.law.units(), range_hz.first, range_hz.second, 100 * conversion.largest_error);
 }
 
 /// Returns the frequency range of that chain [Hz]: as given, or the range of the data. \throws InputError when there is
@@ -209,8 +210,8 @@ std::string conversion_text(const KelvinConversion& conversion, std::pair<double
 std::pair<double, double> chain_range(std::optional<double> from, std::optional<double> to,
                                       std::optional<std::pair<double, double>> data) {
   if (!data && !(from && to)) {
-    throw InputError("command line", 0, "range of the Kelvin chain", "not both of --from and --to",
-                     "both: a model alone has no range");
+    throw InputError("command line", 0, "range of the Kelvin chain", "not both --from and --to",
+                     "both, because a model without data has no frequency range");
   }
   return {from.value_or(data ? data->first : 0), to.value_or(data ? data->second : 0)};
 }

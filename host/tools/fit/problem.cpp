@@ -20,7 +20,8 @@ void check(const ModulusData& data, const FitOptions& options) {
   };
   if (data.points.empty()) refuse("measurements", "none", "at least two");
   if (!data.moduli || !data.phases)
-    refuse("measurements", data.moduli ? "no phase angles" : "no moduli", "both: a law is fitted to modulus and phase");
+    refuse("measurements", data.moduli ? "no phase angles" : "no moduli",
+           "both, because a law is fitted to modulus and phase");
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const ModulusPoint& p = data.points[i];
     const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
@@ -28,7 +29,7 @@ void check(const ModulusData& data, const FitOptions& options) {
         (data.temperatures && !(p.temperature_c > -laws::zero_celsius && std::isfinite(p.temperature_c))) ||
         (data.deviations && !(positive(p.e_star_std) && positive(p.phase_std)))) {
       refuse(fmt::format("measurement {}", i + 1), "an invalid number",
-             "finite ones; frequency, |E*| and standard deviations positive");
+             "finite numbers, and a positive frequency, |E*| and standard deviations");
     }
   }
   constexpr int most_possible = laws::GeneralisedKelvin::max_units;

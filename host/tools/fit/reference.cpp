@@ -31,9 +31,10 @@ void move_reference(const Problem& problem, const ModulusData& data, Chain& fitt
   std::vector<double>& theta = fitted.minimum.theta;
   double* const constants = theta.data() + u.of_model();
   if (u.shift == ShiftKind::wlf && !(std::exp(constants[1]) + change > 0)) {
-    throw InputError(data.source, 0, "reference temperature", fmt::format("{}", wanted),
-                     fmt::format("one above {:.4g} degrees C, where a_T of the fitted law becomes infinite",
-                                 u.reference_temperature - std::exp(constants[1])));
+    throw InputError(
+        data.source, 0, "reference temperature", fmt::format("{}", wanted),
+        fmt::format("a temperature above {:.4g} degrees C, at which a_T of the fitted law becomes infinite",
+                    u.reference_temperature - std::exp(constants[1])));
   }
   const double log_a = log_shift(u, theta.data(), {1, wanted, problem.wanted_isotherm});
   scale_times(u, log_a, theta.data());

@@ -83,10 +83,11 @@ void ask_about_phases(const ModulusData& data, const ColumnsRead& columns, Compl
   if (high->phase_deg > largest_radians) return;
   // without moduli, phases of 0.2 radians (11 degrees) and more are taken for radians
   if (data.moduli ? !moduli_contradict_phases(data) : high->phase_deg < 0.2) return;
-  complaints.add(0, "column phase_deg", fmt::format("phases of {:.3g} to {:.3g}", low->phase_deg, high->phase_deg),
-                 data.moduli ? "larger ones in degrees for such a change of the moduli: are these radians? They have a "
-                               "column phase_rad"
-                             : "larger ones in degrees: are these radians? They have a column phase_rad");
+  complaints.add(
+      0, "column phase_deg", fmt::format("phases of {:.3g} to {:.3g}", low->phase_deg, high->phase_deg),
+      data.moduli
+          ? "larger phases in degrees for such a change of the moduli; if these are radians, name the column phase_rad"
+          : "larger phases in degrees; if these are radians, name the column phase_rad");
 }
 
 void ask_about_temperatures(const ModulusData& data, const std::string& column, Complaints& complaints) {
@@ -95,14 +96,14 @@ void ask_about_temperatures(const ModulusData& data, const std::string& column, 
   if (column == "temperature_c" && low->temperature_c > hottest) {
     complaints.add(0, "column temperature_c",
                    fmt::format("temperatures of {} to {}", low->temperature_c, high->temperature_c),
-                   "degrees Celsius: are these kelvins? They have a column temperature_k");
+                   "degrees Celsius; if these are kelvins, name the column temperature_k");
   }
   if (column == "temperature_k" && high->temperature_c < coldest) {
     constexpr double zero = laws::zero_celsius;
     complaints.add(
         0, "column temperature_k",
         fmt::format("temperatures of {:.4g} to {:.4g}", low->temperature_c + zero, high->temperature_c + zero),
-        "kelvins: are these degrees Celsius? They have a column temperature_c");
+        "kelvins; if these are degrees Celsius, name the column temperature_c");
   }
 }
 

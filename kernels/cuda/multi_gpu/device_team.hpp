@@ -41,7 +41,7 @@ class DeviceTeam {
       : ranks_(ranks && ranks->count() > 1 ? ranks : nullptr) {
     if (ranks_ && devices.size() > 1) {
       throw InputError("device: found " + to_string(devices) + " beside " + std::to_string(ranks_->count()) +
-                       " ranks, expected one for each rank");
+                       " ranks, expected one device per rank");
     }
     for (const int device : devices) member_.push_back({device, nullptr, nullptr});
     for (Member& m : member_) {

@@ -64,7 +64,7 @@ class NcclRanks final : public Ranks {
     if (device == device_) return;
     if (link_) {
       throw RunError("ranks: found device " + std::to_string(device) + ", expected " + std::to_string(device_) +
-                     ", which the others know");
+                     ", which this rank reported to the other ranks");
     }
     ncclUniqueId id{};
     if (number_ == 0) check(ncclGetUniqueId(&id), "start");

@@ -39,7 +39,7 @@ class TileBlocks {
     if (!launch_.has_memory() && (block.relax != 0 || block.follow != 0)) {
       throw InputError(std::string("law of ") + to_string(static_cast<PairType>(number)) +
                        ": found a block with relax " + std::to_string(block.relax) + " and follow " +
-                       std::to_string(block.follow) + ", expected 0 of a memoryless law");
+                       std::to_string(block.follow) + ", expected 0 for both, because the law has no memory");
     }
     data_.set_law(number, {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
                            static_cast<float>(view.alpha), static_cast<float>(block.follow)});

@@ -18,8 +18,8 @@ def main(arguments: list[str] | None = None) -> int:
         epilog="example: macadam report results/demo results/paper --out report.html",
     )
     parser.add_argument("dirs", nargs="+", metavar="DIR", help="folder of results; several are shown side by side")
-    parser.add_argument("--out", default="report.html", metavar="FILE", help="the file to write (report.html)")
-    parser.add_argument("--title", help="of the page; else the names of the folders")
+    parser.add_argument("--out", default="report.html", metavar="FILE", help="file to write (default: report.html)")
+    parser.add_argument("--title", help="title of the page (default: the names of the folders)")
     options = parser.parse_args(arguments)
     try:
         print(report(options.dirs, options.out, options.title))

@@ -41,7 +41,9 @@ def add(page: Page, folders: list[Folder]) -> None:
     sensitive = [f for f in runs if any(r.get("sensitivities") for r in f.by_frequency)]
     for folder in (f for f in runs if f.by_frequency and f not in sensitive):
         page.leave_out(
-            folder.label, "sensitivities", "not asked for: sensitivities = true in [output], method harmonic"
+            folder.label,
+            "sensitivities",
+            "not requested: they need sensitivities = true in [output] and method harmonic",
         )
     if sensitive:
         page.section("Sensitivity of the result")
@@ -90,7 +92,7 @@ def _numbers_caption(folders: list[Folder]) -> str:
         if gone:
             text += "; left out were " + " and ".join(gone)
         if f.summary.get("loose_particles"):
-            text += f"; {look.number(f.summary['loose_particles'])} particles have none"
+            text += f"; {look.number(f.summary['loose_particles'])} particles have no contact"
         words.append(text + ".")
     return " ".join(words)
 
@@ -139,7 +141,7 @@ def _shares(page: Page, folder: Folder) -> None:
     top = max(NAMES, key=lambda p: rows[-1]["shares"].get(p) or 0)
     page.figure(
         figure,
-        f"Share of E* that each type of contact carries. At {_at(rows[-1])} the largest is "
+        f"Fraction of E* that each type of contact carries. At {_at(rows[-1])} the largest is "
         f"{NAMES[top]}, {look.percent(rows[-1]['shares'][top], 2)}.",
         "shares of E* by type of contact",
     )
@@ -179,9 +181,10 @@ def _sensitivities(page: Page, folder: Folder) -> None:
     first = names[0]
     page.figure(
         figure,
-        f"What 10 % more of a parameter changes, to first order, for the {len(names)} that matter most to |E*| "
+        f"Change of |E*| and phase angle if a parameter grows by 10 %, to first order, for the "
+        f"{len(names)} parameters with the largest effect on |E*| "
         f"({' and '.join(map(_at, ends))}). "
-        f"Most depends on {first}: {look.number(float(effects[-1].get(first, (0, 0))[0]), 2)} % of |E*| at "
+        f"The largest effect is that of {first}: {look.number(float(effects[-1].get(first, (0, 0))[0]), 2)} % of |E*| at "
         f"{_at(ends[-1])}.",
         "sensitivities of |E*| and phase angle",
     )

@@ -44,7 +44,9 @@ def add_decisions(page: Page, folders: list[Folder]) -> None:
     for f in runs:
         if not (f.summary.get("solver") or {}).get("decisions") and not f.summary.get("skips"):
             page.leave_out(
-                f.label, "decisions and skips", "the run had none: it is not stepped, or all its settings are given"
+                f.label,
+                "decisions and skips",
+                "the program decided nothing: the run is not stepped, or the scene gives all its settings",
             )
 
 
@@ -130,4 +132,4 @@ def add_warnings(page: Page, folders: list[Folder]) -> None:
             page.text(f"{of}warning: {words}", "warning")
         unkept = [look.hertz(r["frequency_hz"]) for r in f.by_frequency if r.get("tolerance_kept") is False]
         if unkept and not f.summary.get("warnings"):
-            page.text(f"{of}the tolerance was not kept at {', '.join(unkept)}.", "warning")
+            page.text(f"{of}the tolerance was not met at {', '.join(unkept)}.", "warning")

@@ -63,14 +63,14 @@ def write(page: Page, out: str | Path, title: str, subtitle: str) -> Path:
     `out` is a folder."""
     out = Path(out)
     if out.is_dir():
-        raise ReportError(f"{out}: found a folder, expected the name of a file to write")
+        raise ReportError(f"{out}: found a folder, expected the name of a file")
     out.parent.mkdir(parents=True, exist_ok=True)
     import matplotlib
 
     now = datetime.datetime.now().astimezone()
     foot = (
         f"Written {now:%Y-%m-%d %H:%M %Z} on {platform.node()}, {platform.system()} {platform.machine()}, "
-        f"Python {platform.python_version()}, matplotlib {matplotlib.__version__}. This file is complete in itself."
+        f"Python {platform.python_version()}, matplotlib {matplotlib.__version__}. This file needs no other files."
     )
     part = out.with_name(f".{out.name}.{os.getpid()}.part")
     try:
@@ -204,7 +204,7 @@ def _summary_sentences(f: Folder) -> list[str]:
         ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
         words.append(f"Its |E*| and phase angle are {' and '.join(_point(r) for r in ends)}.")
     elif f.in_time:
-        words.append(f"Test: {f.in_time['kind']}. Found: {_main_results(f)}.")
+        words.append(f"Test: {f.in_time['kind']}. Results: {_main_results(f)}.")
         rupture = (f.in_time.get("rupture") or {}).get("words")
         if rupture and rupture not in (s.get("warnings") or []):  # a warning is shown already
             words.append(rupture)
@@ -214,7 +214,7 @@ def _summary_sentences(f: Folder) -> list[str]:
     elif f.kind == "run":
         words.append("The specimen broke at every frequency, so no modulus was measured.")
     elif fits.main_result(f):
-        words.append(f"Found: {fits.main_result(f)}.")
+        words.append(f"Result: {fits.main_result(f)}.")
     else:
         words.append(f"The folder holds a {_KINDS[f.kind]}.")
     by_frequency = [r for r in f.results if "frequency_hz" in r and "cracks" in r]

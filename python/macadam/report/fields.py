@@ -128,7 +128,7 @@ def figure(
     if least is None and strongest < 1:
         least = float(np.quantile(np.abs(values), 1 - strongest))
     if least is not None:
-        words.append(f"those with at least {look.number(least, 2)} are drawn")
+        words.append(f"only those with at least {look.number(least, 2)} are drawn")
         data = _selected_part(data, np.abs((data.point_data if of_points else data.cell_data)["shown"]) >= least, of_points)
         low = low if limits else max(low, least)
     made, axes = look.figure(*size)

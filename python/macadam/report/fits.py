@@ -71,7 +71,8 @@ def _calibration(page: Page, f: Folder) -> None:
     page.table(
         ["parameter", "found", "standard deviation", "before", "bounds", "at a bound"],
         rows,
-        "Parameters of the contact laws that were free. No standard deviation: the measurements do not determine it.",
+        "Free parameters of the contact laws. The measurements do not determine a parameter that has no standard "
+        "deviation.",
     )
     e = s.get("errors") or {}
     seeds = s.get("seeds") or []
@@ -110,7 +111,7 @@ def _fit(page: Page, f: Folder) -> None:
         page.table(
             ["unit", "spring", "dashpot (Pa s)", "retardation time"],
             rows,
-            f"The law found, model {s.get('model', '–')}.",
+            f"Fitted law (model {s.get('model', '–')}).",
         )
     page.figure(
         _measured(table, "fitted_e_star_pa", "fitted_phase_deg"),

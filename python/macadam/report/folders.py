@@ -121,20 +121,20 @@ def read(path: str | Path) -> Folder:
     if not path.exists():
         raise ReportError(f"{path}: no such folder")
     if not path.is_dir():
-        raise ReportError(f"{path}: found a file, expected the folder that it is in")
+        raise ReportError(f"{path}: found a file, expected the results folder that holds the file")
     kind = next((kind for name, kind in KINDS.items() if (path / name).is_file()), None)
     if kind is None and (path / "study.toml").is_file():
         raise ReportError(
             f"{path}: found a study; its own report is {path / 'report.html'}, its results are in {path / 'results'}"
         )
     if kind is None:
-        raise ReportError(f"{path}: no result folder of macadam: found none of {', '.join(KINDS)}")
+        raise ReportError(f"{path}: not a results folder of macadam: found none of the files {', '.join(KINDS)}")
     folder = Folder(path, kind)
     name = next(name for name, of in KINDS.items() if of == kind)
     if name.endswith(".json"):
         folder.summary = _json(path / name)
     if kind == "run" and "status" not in folder.summary:
-        raise ReportError(f"{path / name}: found no status, expected a summary.json of macadam")
+        raise ReportError(f'{path / name}: found no key "status", expected a summary.json that macadam wrote')
     return folder
 
 

@@ -63,8 +63,12 @@ def _bars(folder: Folder) -> np.ndarray:
 def _error_note(found: list[Folder]) -> str:
     words = ""
     for stepped, what in (
-        (False, "The curves are known to"),
-        (True, "Error bars of stepped points are their difference from the answer without steps, or an estimate of it: at most"),
+        (False, "The relative error of the curves is at most"),
+        (
+            True,
+            "Error bars of stepped points show the difference from the response without time steps, or its estimate: "
+            "at most",
+        ),
     ):
         worst = max((_errors(f).max() for f in found if _is_stepped(f) == stepped), default=0)
         words += f" {what} {look.percent(float(worst), 2)}." if worst else ""

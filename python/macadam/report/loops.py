@@ -96,7 +96,7 @@ def _add_master_curve(page: Page, folder: Folder) -> None:
             page.leave_out(
                 folder.label,
                 "master curve",
-                "the frequencies are of one temperature; the curve over them is the picture of |E*|",
+                "all frequencies are tested at one temperature; the figure of |E*| over frequency shows that curve",
             )
         return
     if any(r.get("reduced_frequency_hz") is None for r in rows):

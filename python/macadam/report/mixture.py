@@ -91,7 +91,7 @@ def _composition(page: Page, folders: list[Folder]) -> None:
         page.table(
             ["class"] + [f.label for f in with_classes],
             rows,
-            "Number of aggregates (of the others: spheres) placed "
+            "Number of aggregates (spheres of the other phases) placed "
             "in the specimen, and their fraction of the box.",
         )
     else:

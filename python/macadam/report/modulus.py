@@ -175,7 +175,7 @@ def _caption(found: list[Curve]) -> str:
         )
     for seeds in scatter(found):
         words.append(
-            f"Black: {seeds.label}, with their standard deviation as bars; it is "
+            f"Black: {seeds.label}, with their standard deviation as bars; the deviation is "
             f"{look.percent(float((seeds.e_scatter / seeds.e_star).max()), 2)} of |E*| and "
             f"{look.number(float(seeds.phase_scatter.max()), 2)}° at most."
         )

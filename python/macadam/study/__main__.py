@@ -40,7 +40,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         return _command(_options(arguments), stop)
     except KeyboardInterrupt:
-        print("\nmacadam study: stopped; the same command continues", file=sys.stderr)
+        print("\nmacadam study: stopped; run the same command again to continue", file=sys.stderr)
         return 130
     finally:
         for number, handler in before.items():
@@ -55,17 +55,21 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         "Results that are already in the folder are not computed again.",
         epilog="example: macadam study study.toml --out results/study",
     )
-    parser.add_argument("study", metavar="STUDY.toml", help="what to vary; docs/studies.md explains it")
-    parser.add_argument("--out", required=True, metavar="DIR", help="folder of the study; made if it is not there")
+    parser.add_argument("study", metavar="STUDY.toml", help="file that says which keys to vary (docs/studies.md)")
+    parser.add_argument("--out", required=True, metavar="DIR", help="folder of the study; created if it does not exist")
     parser.add_argument(
         "--on",
         choices=("local", "slurm", "threads"),
-        help="instead of the study's: this machine by Parsl, a Slurm cluster, or threads of this process",
+        help="where the scenes run, in place of run.on in the study file: local (this machine, through Parsl), slurm (a "
+        "Slurm cluster) or threads (of this process)",
     )
     parser.add_argument(
-        "--workers", type=int, metavar="N", help="programs at a time on a machine, instead of the study's"
+        "--workers",
+        type=int,
+        metavar="N",
+        help="number of programs that run at the same time on one machine, in place of run.workers in the study file",
     )
-    parser.add_argument("--retry-failed", action="store_true", help="try points again that failed")
+    parser.add_argument("--retry-failed", action="store_true", help="compute failed points again")
     parser.add_argument("--list", action="store_true", help="print the points and compute nothing")
     parser.add_argument(
         "--check", action="store_true", help="check the scene of every point by macadam check, and compute nothing"
@@ -129,7 +133,7 @@ def _print_notes(notes: list[str]) -> None:
     for note in notes[:_NOTES]:
         print(f"note: {note}", file=sys.stderr)
     if len(notes) > _NOTES:
-        print(f"note: {len(notes) - _NOTES} more points have the scene of another one", file=sys.stderr)
+        print(f"note: {len(notes) - _NOTES} more points have the same scene as another point", file=sys.stderr)
 
 
 def _print_study(found: Any, out: str) -> int:

@@ -114,7 +114,7 @@ def _add(design: Design, job: Job, equal: list[Job]) -> None:
     """Adds a job to the design. equal: earlier jobs with the same scene; the job then uses their result. A job with the
     same values and experiment as one of these is not added."""
     if any(normal(job.values) == normal(o.values) and job.experiment == o.experiment for o in equal):
-        design.notes.append(f"{job.label}: asked for more than once; it has one row")
+        design.notes.append(f"{job.label}: this point occurs more than once in the study; it has one row in the table")
         return
     if equal:
         design.notes.append(f"{job.label}: the same scene as {equal[0].label}; computed once, and both have a row")

@@ -34,7 +34,7 @@ def grid(asked: Table) -> dict[str, list[Any]]:
             same = _text(value)
             if same in first:
                 raise StudyError(
-                    f"grid.{key}: found {first[same]!r} and {value!r}, which are one value, expected each value once"
+                    f"grid.{key}: found {first[same]!r} and {value!r}, which are the same value, expected each value once"
                 )
             first[same] = value
     return axes
@@ -61,7 +61,9 @@ def samples(asked: Table) -> list[dict[str, Any]]:
         for key in keys:
             if key not in point:
                 gives = next(p for p, other in zip(places, out, strict=True) if key in other)
-                raise StudyError(f"{place}: found no value for {key}, which {gives} gives, expected one in every point")
+                raise StudyError(
+                    f"{place}: found no value for {key}, which {gives} gives, expected a value of this key in every point"
+                )
     return out
 
 

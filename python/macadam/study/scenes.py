@@ -30,7 +30,7 @@ def read_toml(file: Path) -> Table:
     except (OSError, ValueError) as error:  # ValueError: invalid UTF-8, invalid TOML, numbers of thousands of digits
         raise StudyError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
     except RecursionError:
-        raise StudyError(f"{file}: found lists or tables nested deeper than Python follows, expected some levels") from None
+        raise StudyError(f"{file}: found lists or tables nested too deeply for Python, expected fewer levels") from None
 
 
 def with_value(scene: Table, key: str, value: Any) -> Table:

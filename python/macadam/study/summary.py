@@ -46,7 +46,8 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
     page.section("In short")
     if missing:
         page.text(
-            f"{missing} of {len(design.results)} results are missing: {study.reason}. The same command continues.",
+            f"{missing} of {len(design.results)} results are missing: {study.reason}. "
+            "Run the same command again to continue.",
             "failure",
         )
     if failed:
@@ -56,7 +57,7 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
     for note in study.notes[:NOTES]:
         page.text(f"{note}.", "warning")
     if len(study.notes) > NOTES:
-        page.text(f"{len(study.notes) - NOTES} more points have the scene of another one.", "warning")
+        page.text(f"{len(study.notes) - NOTES} more points have the same scene as another point.", "warning")
     values = quantities(found, design) if len(found) else []
     for q in values:
         words = f"{q.title}: {_value(q, q.jobs['value'].min())} to {_value(q, q.jobs['value'].max())}{_strongest_factor_words(q)}"

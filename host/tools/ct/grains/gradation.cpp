@@ -65,13 +65,13 @@ std::vector<SievePassing> read_gradation(const std::filesystem::path& path) {
     if (!(out[i].size > out[i - 1].size)) throw InputError(file, out[i].line, sieve, "said twice", "once");
     if (out[i].passing < out[i - 1].passing) {
       throw InputError(file, out[i].line, sieve, fmt::format("{:.6g} %", 100 * out[i].passing),
-                       fmt::format("at least the {:.6g} % that pass the next smaller one", 100 * out[i - 1].passing));
+                       fmt::format("at least the {:.6g} % that pass the next smaller sieve", 100 * out[i - 1].passing));
     }
   }
   if (out.back().passing < 0.999) {
     throw InputError(file, out.back().line, "passing the largest sieve",
                      fmt::format("{:.6g} %", 100 * out.back().passing),
-                     "100 %: how large the largest grains are must be known");
+                     "100 %, because the size of the largest grains must be known");
   }
   return out;
 }
@@ -121,8 +121,9 @@ double trust_in_sizes(const std::vector<ScannedGrain>& grains, const std::vector
   if (laboratory.empty() || grains.empty()) return 1;
   double low = 0.5 * smallest, high = laboratory.back().size;
   if (!(high > low)) {
-    warnings.push_back(
-        fmt::format("the laboratory has no grain above {:.4g} mm, and the scan shows nothing else", 1e3 * low));
+    warnings.push_back(fmt::format(
+        "the laboratory's gradation has no grain above {:.4g} mm, but the scan shows only grains above this size",
+        1e3 * low));
     return doubtful;
   }
   while (high - low > 1e-4 * high) {
@@ -142,11 +143,11 @@ double trust_in_sizes(const std::vector<ScannedGrain>& grains, const std::vector
   // With a few dozen grains the median differs by a fifth by chance. A sieve also lets through grains somewhat larger
   // than its mesh: long grains, worn wires.
   if (middle > 0.7 * high && middle < 1.4 * high && largest < 1.25 * laboratory.back().size) return 1;
-  warnings.push_back(fmt::format(
-      "half of the grains' volume is below {:.3g} mm, of the laboratory's below {:.3g} mm, as far as a scan can show "
-      "it; "
-      "the largest grain passes {:.3g} mm, the laboratory's all pass {:.3g} mm: is the edge of a voxel right?",
-      1e3 * middle, 1e3 * high, 1e3 * largest, 1e3 * laboratory.back().size));
+  warnings.push_back(
+      fmt::format("half of the grains' volume in the scan is below {:.3g} mm, and in the laboratory's gradation below "
+                  "{:.3g} mm (only sizes that a scan can show); the largest grain passes {:.3g} mm in the scan and "
+                  "{:.3g} mm in the laboratory: the edge of a voxel may be wrong, please check it",
+                  1e3 * middle, 1e3 * high, 1e3 * largest, 1e3 * laboratory.back().size));
   return doubtful;
 }
 

@@ -26,7 +26,7 @@ VoxelType type_of(const H5::DataSet& set, const std::string& file) {
   const std::size_t bytes = set.getDataType().getSize();
   if (set.getTypeClass() == H5T_FLOAT) return bytes > 4 ? VoxelType::f64 : VoxelType::f32;
   if (set.getTypeClass() != H5T_INTEGER || bytes > 8)
-    throw InputError(file, 0, "type of the voxels", "one that is no number", "8, 16 or 32 bits, or float");
+    throw InputError(file, 0, "type of the voxels", "a type that is not a number", "8, 16 or 32 bits, or float");
   const bool sign = set.getIntType().getSign() != H5T_SGN_NONE;
   const int power = bytes == 1 ? 0 : bytes == 2 ? 1 : bytes <= 4 ? 2 : 3;
   return static_cast<VoxelType>(2 * power + sign);
@@ -54,9 +54,9 @@ std::string name_of(const H5::H5File& file, const std::string& asked, const std:
   if (asked.empty() && volumes.size() == 1) return volumes.front();
   std::string names;
   for (std::size_t n = 0; n < volumes.size() && n < 20; ++n) names += (n == 0 ? "" : ", ") + volumes[n];
-  if (volumes.empty()) throw InputError(path, 0, "datasets of three dimensions", "none", "one at least");
+  if (volumes.empty()) throw InputError(path, 0, "datasets of three dimensions", "none", "at least one");
   if (asked.empty())
-    throw InputError(path, 0, "datasets of three dimensions", names, "one only, or --dataset with the name of one");
+    throw InputError(path, 0, "datasets of three dimensions", names, "only one, or the name of one in --dataset");
   throw InputError(path, 0, "dataset", "none of the name \"" + asked + "\"", "one of " + names);
 }
 
@@ -130,7 +130,7 @@ class Hdf5Slices : public ImageSlices {
       work();
     } catch (const H5::Exception& error) {
       throw InputError(file_, 0, "image", "one that HDF5 cannot read (" + error.getDetailMsg() + ")",
-                       "a whole HDF5 file");
+                       "a complete HDF5 file");
     }
   }
 

@@ -43,12 +43,14 @@ void check_counts(const ImageHeader& header, const fs::path& path, const fs::pat
   for (const std::int64_t n : header.size) bytes *= n > 0 ? static_cast<double>(n) : 0;
   const std::string found =
       fmt::format("{} x {} x {} of {} bits", header.size[0], header.size[1], header.size[2], header.bits);
-  if (!(bytes > 0 && bytes < 0x1p46)) throw InputError(path.string(), 0, "voxels", found, "at least one, and a scan");
+  if (!(bytes > 0 && bytes < 0x1p46))
+    throw InputError(path.string(), 0, "voxels", found, "at least one, and no more than a scan can have");
   // largest compression ratios: 1032 for deflate, 2730 for LZW; 4000 is above both
   const double there =
       fs::is_directory(voxels) ? std::numeric_limits<double>::infinity() : static_cast<double>(fs::file_size(voxels));
   if (bytes > 4000 * there)
-    throw InputError(path.string(), 0, "voxels", found, fmt::format("no more than {:.0f} bytes can hold", there));
+    throw InputError(path.string(), 0, "voxels", found,
+                     fmt::format("no more voxels than the {:.0f} bytes of the file can hold", there));
 }
 
 }  // namespace

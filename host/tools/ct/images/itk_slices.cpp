@@ -127,14 +127,14 @@ void note_directions(const itk::ImageIOBase& io, std::vector<std::string>& notes
       "x, "
       "y and z of the results are the axes of the voxels, and grains and specimen are {} those that were scanned",
       d[0][0], d[0][1], d[0][2], d[1][0], d[1][1], d[1][2], d[2][0], d[2][1], d[2][2],
-      determinant < 0 ? "mirror images of" : "turned against"));
+      determinant < 0 ? "mirror images of" : "rotated relative to"));
 }
 
 /// Returns the header of one file. \throws InputError.
 ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
   const std::string file = io.GetFileName();
   std::size_t bytes = 0;  // bytes per voxel
-  attempt(file, "image", "a whole image file", [&] {
+  attempt(file, "image", "a complete image file", [&] {
     read_information(io);
     bytes = io.GetComponentSize();  // throws if the type is not known
   });
@@ -192,8 +192,7 @@ VoxelType type_of(const itk::ImageIOBase& io) {
     case Type::DOUBLE:
       return VoxelType::f64;
     default:
-      throw InputError(io.GetFileName(), 0, "type of the voxels", "one that is not known",
-                       "8, 16 or 32 bits, or float");
+      throw InputError(io.GetFileName(), 0, "type of the voxels", "an unknown type", "8, 16 or 32 bits, or float");
   }
 }
 

@@ -110,7 +110,7 @@ struct Directory {
       if (values != 1 || !is_whole(type))
         refuse(tag, fmt::format("{} values of type {}", values, type), "one whole number, of type 1, 3 or 4");
       if (!page.numbers.emplace(tag, numbers.at(inside, static_cast<int>(bytes))).second)
-        refuse(tag, "two of it", "one");
+        refuse(tag, "this tag twice", "one");
     }
     // a tag of storage with several values gets the value 0, which raw_voxels() treats as not contiguous
     if (std::ranges::count(of_storage, tag) > 0)
@@ -122,7 +122,7 @@ struct Directory {
   /// Checks the combination of all tags of a page. \throws InputError for voxels that ITK would misread or cannot read.
   void check_voxels(const Page& page) const {
     if (page.at(tags::values, 1) != 1)
-      refuse(tags::values, fmt::format("{} values a voxel", page.at(tags::values)),
+      refuse(tags::values, fmt::format("{} values per voxel", page.at(tags::values)),
              std::string("one grey value a voxel") + to_grey);
     constexpr std::uint64_t palette = 3;
     if (const std::uint64_t meaning = page.at(tags::meaning, 1); meaning > 1 && meaning != palette)
@@ -138,7 +138,7 @@ struct Directory {
       refuse(tags::bits, fmt::format("{} bits per voxel, of format {} (tag {})", n, as, tags::format), known);
     if (as == floating && page.at(tags::meaning, 1) == white_is_zero)
       refuse(tags::meaning, "PhotometricInterpretation 0 (white is 0) of floats",
-             "1: of floats nothing tells which value is black, so they cannot be inverted");
+             "1: floats cannot be inverted, because their largest value (black) is unknown");
   }
 
   [[noreturn]] void refuse(std::uint64_t tag, const std::string& found, const std::string& expected) const {
@@ -227,7 +227,7 @@ TiffPages pages_of(const Page& first, std::size_t number, bool big_endian, const
   for (const char* axis : {"channels", "frames"}) {
     if (const std::int64_t n = number_in(first.description, axis); n > 1)
       throw InputError(file.string(), 0, "description of the TIFF file", fmt::format("{}={}", axis, n),
-                       "one grey value a voxel, and slices of one time");
+                       "one grey value per voxel, and slices of one time");
   }
   return out;
 }

@@ -50,7 +50,7 @@ std::int64_t block_of(const FineScan& scan, const std::string& file, const Segme
     if (bytes_in_blocks(scan, block) <= memory) return block;
   std::string found = fmt::format("{:.3g} GB", gigabytes(memory));
   if (!scan.file.apart())
-    found += ", and a file of which no part can be read alone (raw MetaImage, HDF5 and folders of TIFFs can)";
+    found += ", and a file that cannot be read in parts (raw MetaImage, HDF5 and folders of TIFF files can)";
   throw InputError(file, 0, "memory", found,
                    fmt::format("{:.3g} GB for the means of blocks of {} voxels, a tenth of the smallest grain",
                                gigabytes(bytes_in_blocks(scan, most)), most));
@@ -92,7 +92,8 @@ Vec3d spacing_of(const ScanFile& file, const ImageHeader& header, std::vector<st
     for (const std::string& note : header.notes) notes += (notes.empty() ? " (" : "; ") + note;
     if (!(own.x > 0))
       throw InputError(file.path.string(), 0, "edge of a voxel",
-                       "none in the file" + notes + (notes.empty() ? "" : ")"), "--voxel with one: \"25 um\"");
+                       "none in the file" + notes + (notes.empty() ? "" : ")"),
+                       "the edge in --voxel, such as \"25 um\"");
     return own;
   }
   const double ratios[3] = {own.x / given.x, own.y / given.y, own.z / given.z};
@@ -117,8 +118,9 @@ Segmentation segment_open(ImageSlices& image, const Vec3d& spacing, const ScanFi
     return segment_scan(std::move(scan), options);
   }
   if (options.recipe == SegmentRecipe::paper) {
-    throw InputError(name, 0, "memory", fmt::format("{:.3g} GB", gigabytes(memory)),
-                     fmt::format("{:.3g} GB: the paper's recipe has no blocks", gigabytes(whole)));
+    throw InputError(
+        name, 0, "memory", fmt::format("{:.3g} GB", gigabytes(memory)),
+        fmt::format("{:.3g} GB: with the recipe paper the whole scan must fit in memory", gigabytes(whole)));
   }
   fine.block = block_of(fine, name, options, memory);
   CoarseScan coarse = read_coarse(fine, options);

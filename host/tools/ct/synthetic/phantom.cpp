@@ -45,11 +45,11 @@ void check(const PhantomSpec& spec, const Box& box) {
   refuse(!(spec.blur == 0 || (spec.blur >= 0.1 && spec.blur <= 10)), "blur", spec.blur, "0, or 0.1 to 10 voxels");
   for (const auto& [name, value] :
        {std::pair{"noise", spec.noise}, {"cupping", spec.cupping}, {"rings", spec.rings}, {"drift", spec.drift}})
-    refuse(!(value >= 0 && value < 1), name, value, "a share of 0 to below 1");
+    refuse(!(value >= 0 && value < 1), name, value, "a fraction from 0 to below 1");
   double voxels = 1;
   for (const double side : {box.size.x, box.size.y, box.size.z})
     voxels *= (side - 2 * spec.sawn + 2 * spec.air) / spec.voxel;
-  refuse(voxels > most_voxels, "number of voxels", voxels, "at most 2e9; ask for larger ones");
+  refuse(voxels > most_voxels, "number of voxels", voxels, "at most 2e9; choose larger voxels");
 }
 
 /// Returns the specimen of a file. Each aggregate must be one sphere, because a file does not contain the surfaces of
@@ -63,10 +63,10 @@ GeneratedSpecimen from_file(const Scene& scene) {
     const auto body = static_cast<std::size_t>(out.specimen.body[i]);
     if (met.size() <= body) met.resize(body + 1);
     if (met[body]++)
-      throw InputError(
-          out.specimen.source, out.specimen.line_of(static_cast<std::int64_t>(i)), "spheres of a body",
-          fmt::format("another one of body {}", body),
-          "one: the surface of a cluster is not in the file; a scene that generates its specimen knows it");
+      throw InputError(out.specimen.source, out.specimen.line_of(static_cast<std::int64_t>(i)), "spheres of a body",
+                       fmt::format("a second sphere of body {}", body),
+                       "one sphere per body, because the file does not hold the surface of a cluster; use a scene that "
+                       "generates its specimen");
     Aggregate a;
     a.body = out.specimen.body[i];
     a.shape = "sphere";

@@ -220,7 +220,8 @@ Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
                      "one, which gives the radius of the twin's mastic particles");
   if (spec.porosity) how.mastic->porosity = spec.porosity, how.mastic->count.reset();
   if (!how.mastic->porosity)
-    throw InputError(how.source, how.mastic->line, "mastic", "a count", "a porosity, here or with --porosity");
+    throw InputError(how.source, how.mastic->line, "mastic", "a count",
+                     "a porosity, in [specimen.mastic] or in --porosity");
 
   report("reading the scan", 0);
   const Cut cut = cut_out(folder, spec);
@@ -269,7 +270,7 @@ Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
   }
   settle_mastic(out.specimen, placement, true, Origin(how), {}, report);
   part_voids(first_void, end_of_voids, out.specimen);
-  report("what hangs on nothing", 0);
+  report("removal of unconnected particles", 0);
   std::tie(out.enclosed_mastic, out.enclosed_aggregate) = std::tuple_cat(remove_hanging(out.specimen, scene.network));
   validate(out.specimen, out.specimen.source);
   return out;

@@ -24,9 +24,10 @@ double quantile(const Histogram& h, double share) {
 double within(double wanted, double low, double high, const char* what, std::vector<std::string>& warnings) {
   const double from = low + 0.25 * (high - low), to = low + 0.75 * (high - low);
   if (wanted >= from && wanted <= to) return wanted;
-  warnings.push_back(fmt::format(
-      "the given volume fraction of {} does not agree with the grey values; the thresholds come only near to it",
-      what));
+  warnings.push_back(
+      fmt::format("the given volume fraction of {} does not agree with the grey values; the chosen thresholds only "
+                  "come close to this fraction",
+                  what));
   return std::clamp(wanted, from, to);
 }
 

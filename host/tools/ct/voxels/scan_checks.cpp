@@ -51,10 +51,10 @@ std::vector<bool> clipped_voxels(const Image<float>& scan, const Image<std::uint
     for (std::size_t i = 0; i < scan.count(); ++i) there += region.voxels[i] && scan.voxels[i] == end;
     const double share = static_cast<double>(there) / static_cast<double>(inside);
     if (!(share > 0.01)) continue;
-    warnings.push_back(fmt::format(
-        "{:.1f} % of the specimen's voxels have the {} grey value {}: the scan is clipped there, and surfaces beside "
-        "such voxels are not where they should be",
-        100 * share, name, end));
+    warnings.push_back(
+        fmt::format("{:.1f} % of the specimen's voxels have the {} grey value {}: the scan is clipped there, and "
+                    "surfaces next to such voxels may be in the wrong place",
+                    100 * share, name, end));
     clipped.resize(scan.count());
     for (std::size_t i = 0; i < scan.count(); ++i) {
       if (region.voxels[i] && scan.voxels[i] == end) clipped[i] = true;
@@ -81,8 +81,8 @@ void check_ends(const Image<std::uint8_t>& region, std::vector<std::string>& war
   for (std::size_t a = 0; a < 3; ++a) {
     if (there[a][0] == there[a][1]) continue;
     warnings.push_back(
-        fmt::format("the specimen ends in air at one end along {}, and with the scan at the {} one: is "
-                    "a part of the scan missing?",
+        fmt::format("along {} the specimen ends in air at one end, but at its {} end it reaches the edge of the scan: "
+                    "a part of the scan may be missing",
                     "xyz"[a], there[a][0] ? "lower" : "upper"));
   }
 }
@@ -95,7 +95,7 @@ void check_rings(const Image<float>& scan, const Image<std::uint8_t>& region) {
                      fmt::format("{:.0f} % of the variance of its grey values follows from the distance to the axis "
                                  "alone, from ring to ring",
                                  100 * share),
-                     fmt::format("at most {:.0f} %: the specimen is hidden behind them", 100 * most));
+                     fmt::format("at most {:.0f} %, because stronger rings hide the specimen", 100 * most));
   }
 }
 
@@ -105,10 +105,9 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
   if (options.air_voids) {
     throw InputError(
         "the scan", 0, "grey levels", fmt::format("two, {:.5g} and {:.5g}", levels.mastic, levels.aggregate),
-        fmt::format(
-            "three: air voids are {:.3g} % of the specimen, as was said. If they are too few for a grey level of "
-            "their own in the histogram, give --air-voids 0: they are then taken for mastic",
-            100 * *options.air_voids));
+        fmt::format("three, because the given air voids are {:.3g} % of the specimen. If they are too few for a grey "
+                    "level of their own in the histogram, give --air-voids 0, and they are taken for mastic",
+                    100 * *options.air_voids));
   }
   // around a region given by coordinates there may be more of the specimen
   const std::optional<double> around = options.given ? std::nullopt : level_around(scan, region);
@@ -117,14 +116,14 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
         "the scan", 0, "grey levels",
         fmt::format("two, {:.5g} and {:.5g}, and the lower one is the level of the air around the specimen",
                     levels.mastic, levels.aggregate),
-        "air, mastic and aggregate: a phase is missing, or has the grey value of another (where grains lie in air "
-        "alone, give --air-voids 0: the air is then taken for mastic)");
+        "air, mastic and aggregate: a phase is missing, or has the grey value of another phase (if the grains lie in "
+        "air without mastic, give --air-voids 0, and the air is taken for mastic)");
   }
   warnings.push_back("the scan has two grey levels: they were taken for mastic and aggregate, without air voids");
   if (around) return 1;  // the air around the specimen has another level, so neither phase is air
   warnings.push_back(
-      "nothing in it tells which two phases they are, so that no grain is more than half sure: give --air-voids 0 "
-      "where there are none");
+      "the scan does not show which two phases its two grey levels are, so the confidence of every grain is at most "
+      "one half; give --air-voids 0 if the specimen has no air voids");
   return doubtful;
 }
 
@@ -149,10 +148,10 @@ double trust_in_axes(const Image<std::uint8_t>& phases, std::vector<std::string>
   // Compaction turns flat grains horizontal: chord lengths in a core may differ by a quarter. A factor of two in the
   // voxel height gives a ratio of 2.
   if (!(*longest > 1.5 * *shortest)) return 1;
-  warnings.push_back(fmt::format(
-      "chords through the aggregate are {:.3g}, {:.3g} and {:.3g} mm long along x, y and z: are the edges of a voxel "
-      "{:.4g}, {:.4g} and {:.4g} mm?",
-      1e3 * chord[0], 1e3 * chord[1], 1e3 * chord[2], 1e3 * edges[0], 1e3 * edges[1], 1e3 * edges[2]));
+  warnings.push_back(
+      fmt::format("the mean chords through the aggregate differ: they are {:.3g}, {:.3g} and {:.3g} mm along x, y and "
+                  "z. The edges of a voxel, {:.4g}, {:.4g} and {:.4g} mm, may be wrong: please check them",
+                  1e3 * chord[0], 1e3 * chord[1], 1e3 * chord[2], 1e3 * edges[0], 1e3 * edges[1], 1e3 * edges[2]));
   return doubtful;
 }
 
@@ -181,7 +180,7 @@ void check_thickness(const Image<float>& scan) {
     if (n >= least) continue;
     throw InputError("the scan", 0, axis == 2 ? "slices" : fmt::format("voxels along {}", "xy"[axis]),
                      std::to_string(n),
-                     fmt::format("at least {}: grains are found in a volume, not in a picture", least));
+                     fmt::format("at least {}, because grains are found in a volume, not in a picture", least));
   }
 }
 
