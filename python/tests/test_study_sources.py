@@ -150,9 +150,9 @@ def test_files_come_first_and_keep_the_order_of_the_pairs(folder: Path) -> None:
             {"latin_hypercube": {"points": 2, DELTA: [1, 2]}, "list": [{"contacts.M-A.E": 1e9}]},
             "latin_hypercube 1: found no value for contacts.M-A.E, which list 1 gives",
         ),
-        ({"grid": {DELTA: [1, 1.0]}}, f"grid.{DELTA}: found 1 and 1.0, which are one value"),
+        ({"grid": {DELTA: [1, 1.0]}}, f"grid.{DELTA}: found 1 and 1.0, which are the same value"),
         ({"grid": {"loading.frequencies": [[1, 2.0], [1.0, 2]]}}, "which are one value"),
-        ({"grid": {"specimen.x": ["2 %", "2.0 %"]}}, "found '2 %' and '2.0 %', which are one value"),
+        ({"grid": {"specimen.x": ["2 %", "2.0 %"]}}, "found '2 %' and '2.0 %', which are the same value"),
     ],
 )
 def test_what_is_set_twice_or_not_at_all_is_refused(asked: dict, says: str, folder: Path) -> None:
@@ -199,7 +199,7 @@ list = [{{ "{DELTA}" = 2 }}, {{ "{DELTA}" = 3 }}, {{ "{DELTA}" = 2.0 }}]
     assert command.main(["study.toml", "--out", "out"]) == 0
     said = capsys.readouterr()
     same = f"{DELTA} = 2, binder = same: the same scene as {DELTA} = 2, binder = plain; computed once"
-    assert same in said.err and "binder = plain: asked for more than once; it has one row" in said.err
+    assert same in said.err and "binder = plain: this point occurs more than once in the study; it has one row" in said.err
     assert sorted(lines(log, "begin")) == [2.0, 3.0]
     table = pd.read_csv("out/table.csv")
     assert table[[DELTA, "binder", "e_star_pa"]].values.tolist() == [

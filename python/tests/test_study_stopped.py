@@ -56,7 +56,7 @@ def test_a_signal_ends_the_study(running: Running, number: int, to_group: bool) 
     _, said = running.process.communicate(timeout=LONG)
     worked = _processor_time_of_ended_processes() - ended_before - at_signal
     assert worked + max(parsl_pool.AFTER_INTERRUPT, programs.GRACE) <= BOUND
-    assert running.process.returncode == 130 and "the same command continues" in said
+    assert running.process.returncode == 130 and "run the same command again to continue" in said
     assert "Traceback" not in said
     _, left = psutil.wait_procs(ours | running.left(), timeout=LONG)
     assert not left

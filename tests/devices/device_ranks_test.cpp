@@ -182,10 +182,10 @@ TEST(Ranks, ThatDifferAreRefused) {
   expect_refused(
       "checksum of time step, masses and start", [](int rank, StepperOptions& o) { o.density_scaling = 1 + rank; },
       none);
-  expect_refused("the number of time steps to take: found 10 and 11, expected the same of all", as_it_is,
+  expect_refused("the number of time steps to take: found 10 and 11, expected the same value on all ranks", as_it_is,
                  [](int rank) { return std::int64_t{rank}; });
   expect_refused(
-      "beside 2 ranks, expected one for each rank",
+      "beside 2 ranks, expected one device per rank",
       [](int, StepperOptions& o) {
         o.devices = {0, 0};
       },

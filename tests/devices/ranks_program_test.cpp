@@ -125,7 +125,7 @@ TEST_F(RanksProgram, FailsAsOne) {
   const Outcome several =
       together(fmt::format("run {} {} --ranks --out {}", path("scene.toml"), path("other.toml"), path("two")));
   EXPECT_EQ(several.code, 2) << several.err;
-  EXPECT_THAT(several.err, HasSubstr("found several with 2 ranks, expected one"));
+  EXPECT_THAT(several.err, HasSubstr("found several scenes with 2 ranks, expected one scene"));
   use(FAKE_PLUGIN);
   const Outcome paper = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(paper.code, 1) << paper.err;
@@ -141,7 +141,10 @@ TEST_F(RanksProgram, RunsAloneUnlessItIsToldOtherwise) {
   unsetenv("PMI_SIZE");
   EXPECT_EQ(alone.code, 0) << alone.err;
   EXPECT_EQ(other.code, 1) << other.err;
-  EXPECT_THAT(other.err, HasSubstr("found this process alone, expected 2: they were started by another MPI"));
+  EXPECT_THAT(
+      other.err,
+      HasSubstr(
+          "found only this process, expected as many processes as mpirun started, 2: mpirun belongs to another MPI"));
   const Outcome one = run_quick("one", "--ranks --backend cpu");
   EXPECT_EQ(one.code, 0) << one.err;
 }
@@ -164,7 +167,7 @@ TEST_F(RanksProgram, SaysWhatItNeeds) {
   fs::copy_file(folder_ / "t8.csv", plugins_ / "libmacadam_ranks.so");
   const Outcome two = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(two.code, 1) << two.err;
-  EXPECT_THAT(two.err, HasSubstr("ranks: this process cannot join the others: "));
+  EXPECT_THAT(two.err, HasSubstr("ranks: this process cannot join the other processes that mpirun started: "));
   setenv("MACADAM_PLUGIN_PATH", plugins_.c_str(), 1);
   EXPECT_THAT(macadam("info").out, HasSubstr("ranks      no: " + (plugins_ / "libmacadam_ranks.so").string()));
   unsetenv("MACADAM_PLUGIN_PATH");

@@ -149,7 +149,7 @@ TEST_F(CheckpointedRun, AnythingElseIsRefusedAndNamed) {
   EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "backend reference keeps no checkpoints");
   other = scene;
   other.solver.method = SolverMethod::harmonic;
-  EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "method harmonic keeps no checkpoints");
+  EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "method harmonic writes no checkpoints");
   other = scene;
   other.text.clear();
   EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "not read from a file");
@@ -462,10 +462,11 @@ TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
   fs::copy(out("out"), copy);
   ASSERT_EQ(end_of(start("copy", false)), 0);
   EXPECT_HAS(read(folder_ / "stderr.txt"),
-             "this run was begun before and now starts again; --resume would continue it");
+             "an earlier run left this checkpoint; the run now starts from the beginning, and --resume would have "
+             "continued it");
   EXPECT_FALSE(fs::exists(file("copy")));
   ASSERT_EQ(end_of(start("out", true)), 0) << read(folder_ / "stderr.txt");
-  EXPECT_EQ(read(folder_ / "stderr.txt").find("starts again"), std::string::npos);
+  EXPECT_EQ(read(folder_ / "stderr.txt").find("starts from the beginning"), std::string::npos);
   expect_same("out", "one");
   EXPECT_EQ(end_of(start("out", true)), 2);
   EXPECT_HAS(read(folder_ / "stderr.txt"), "no such file");

@@ -236,7 +236,7 @@ TEST_F(Check, WarnsOfABoxThatIsAlmostEmpty) {
   EXPECT_FALSE(contains(macadam("check " + path("scene.toml")).out, "warning"));
   std::string large = usual;
   write(scene, large.replace(large.find(box), box.size(), "box = [8, 8, 11]"));
-  const char* words = "% of the box of 8 x 8 x 11 m, expected 10 % or more: lengths of spheres and";
+  const char* words = "% of the box of 8 x 8 x 11 m, expected 10 % or more; check that the lengths of the spheres and";
   EXPECT_HAS(macadam("check " + path("scene.toml")).out, words);
   EXPECT_TRUE(
       contains(nlohmann::json::parse(macadam("check --json " + path("scene.toml")).out).at("warnings").at(0), words));

@@ -242,11 +242,11 @@ TEST_F(SteppedLoad, WhatDoesNotFitStepsIsRefused) {
   EXPECT_HAS(unread("kind = \"sweep\"\nfrequencies = [1]\n"), "this kind is not stepped in time");
   EXPECT_HAS(unread("kind = \"creep\"\nstress = 1e5\nplaten_mass = 0\ntimes = [1]\n"), "positive");
   EXPECT_HAS(unread("kind = \"creep\"\nstress = 1e5\ntimes = [1]\n", "density_scaling = []\n"), "density_scaling");
-  EXPECT_HAS(unread("kind = \"monotonic\"\nrate = 1\n"), "times, or the strain at which the test ends");
+  EXPECT_HAS(unread("kind = \"monotonic\"\nrate = 1\n"), "times, or the key strain, at which the test ends");
   EXPECT_HAS(unread("kind = \"monotonic\"\nrate = 1\nstrain = -0.1\n"), "a strain with the sign of the rate");
   EXPECT_HAS(unread("kind = \"monotonic\"\nrate = 1\nstrain = 0.1\ntimes = [1]\n"), "times with strain");
   EXPECT_HAS(unread("kind = \"monotonic\"\nrate = 1\ntimes = [1, 2]\npoints = 3\npoints_per_decade = 3\n"),
-             "points with points_per_decade");
+             "points together with points_per_decade");
   EXPECT_HAS(unread("kind = \"monotonic\"\nrate = 1\ntimes = [1, 2, 3]\npoints = 3\n"), "the two ends of a range");
   Scene spectral = scene("kind = \"relaxation\"\ntimes = [1e-3]\n", "", "fields = [\"particles\"]\n");
   spectral.solver.method = SolverMethod::harmonic;  // as the option --method does
@@ -327,7 +327,7 @@ TEST_F(SteppedLoad, AWarningOutlivesAnInterruption) {
   watcher.stop = [&] { return planned && ++looked >= 4; };
   watcher.warn = [&](const std::string& warning) { said = warning; };
   EXPECT_THROW(run(asked, out("out"), watcher, true), InterruptedError);
-  EXPECT_HAS(said, "had no frame from which it could continue");
+  EXPECT_HAS(said, "had no frame to continue from");
   const RunResult result = run(asked, out("out"), {}, true);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_EQ(result.warnings.front(), said);

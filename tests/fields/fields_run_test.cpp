@@ -131,7 +131,7 @@ TEST_F(RunFields, WithoutItsFileAResumedRunBeginsAnother) {
   fs::remove(out("out") / "fields/particles_20Hz.vtkhdf");
   const RunResult result = run(asked, out("out"), {}, true);
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_HAS(result.warnings[0], "particles_20Hz had no frame from which it could continue; it begins at t = 0.0");
+  EXPECT_HAS(result.warnings[0], "particles_20Hz had no frame to continue from; its first frame is at t = 0.0");
   const H5::H5File file = open_hdf5(out("out") / "fields/particles_20Hz.vtkhdf");
   EXPECT_GT(numbers(file, "VTKHDF/Steps/Values").front(), 0.01);
   EXPECT_EQ(numbers(file, "VTKHDF/Steps/Values").back(), 0.05);
@@ -182,8 +182,8 @@ TEST_F(RunFields, KeysOfASceneAreChecked) {
   EXPECT_HAS(refused("fields = [\"cells\", \"cells\"]\n"), "entry 2: found \"cells\" twice, expected each once");
   EXPECT_HAS(refused("fields = [\"cells\"]\nevery = 0\n"), "[output] every: found 0, expected an integer from 1");
   EXPECT_HAS(refused("fields = [\"cells\"]\nformat = \"vtk\"\n"), "expected one of \"vtkhdf\", \"vtp\"");
-  EXPECT_HAS(refused("every = 3\n"), "[output] every: found 3 without anything in fields");
-  EXPECT_HAS(refused("fields = []\nformat = \"vtp\"\n"), "format: found \"vtp\" without anything in fields");
+  EXPECT_HAS(refused("every = 3\n"), "[output] every: found 3 without the key fields");
+  EXPECT_HAS(refused("fields = []\nformat = \"vtp\"\n"), "format: found \"vtp\" without the key fields");
   EXPECT_HAS(refused("field = []\n"), "expected fields (the nearest of");
   EXPECT_TRUE(scene("fields = []\n").output.fields.any() == false);
 }

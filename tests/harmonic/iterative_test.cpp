@@ -330,7 +330,7 @@ TEST_P(Iterative, ManyFreeMotionsAreLeftToFactors) {
   const TestScene scene = make_scene(columns, spec);
   EXPECT_THROW(solve(scene, LinearMethod::iterative, {{2}}), RunError);
   EXPECT_HAS(message_of([&] { solve(scene, LinearMethod::iterative, {{2}}); }),
-             "found 9 motions of the whole that no wall resists");
+             "found 9 rigid motions of the whole specimen that no wall resists");
   const HarmonicResult r = solve(scene, LinearMethod::automatic, {{2}}).front();
   EXPECT_EQ(r.linear, LinearMethod::direct);
   EXPECT_NEAR(r.bottom.e_star_pa / r.top.e_star_pa, 1, 1e-8);

@@ -56,11 +56,10 @@ TEST(FrequencyDomain, TakesLawsThatHaveAStiffnessAndNamesOthers) {
     } catch (const InputError& error) { return error.what(); }
     return "taken";
   };
-  EXPECT_EQ(
-      message(Unknown{}),
-      "contacts of M-A: law: found unknown, which has no complex stiffness, expected a law that has one, as all that "
-      "is solved in the frequency domain asks for it; or method = \"explicit\" with kind = \"cyclic\", which steps "
-      "any law");
+  EXPECT_EQ(message(Unknown{}),
+            "contacts of M-A: law: found unknown, which has no complex stiffness, expected a law with a complex "
+            "stiffness, which every solution in the frequency domain needs; or method = \"explicit\" with kind = "
+            "\"cyclic\", which steps any law");
   EXPECT_NE(
       message(UnknownAndNotLinear{}).find("unknown_and_not_linear, which has no complex stiffness: it is not linear"),
       std::string::npos);

@@ -196,7 +196,7 @@ TEST(Recipe, IsFollowedByASpecimen) {
   EXPECT_EQ(spec.mastic->porosity, 0.05);
   ASSERT_EQ(spec.aggregate.size(), 4u);
   expect_hand(*spec.aggregate[0].volume_fraction, 0.1358262 / 0.95);
-  EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "none: they follow from the recipe");
+  EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "no classes, because they follow from the recipe");
   spec.aggregate.clear();
   EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "a porosity or count of the mastic together with it");
 }

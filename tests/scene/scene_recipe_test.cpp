@@ -108,7 +108,7 @@ TEST_F(SceneRecipe, DensitiesOfMaterialsAgreeOrAreRefused) {
   EXPECT_NEAR(s.materials.mastic, 2227.850, 1e-3);
   const std::string message = refused({}, aggregate + mastic + "2110\n");
   EXPECT_HAS(message, "scene.toml:26: [materials.mastic] density: found 2110 kg/m3, expected 2227.85 kg/m3");
-  EXPECT_HAS(message, "of 1 kg of mix 0.326667 kg in 146.629 cm3");  // 0.343/1.05 and 1.539601e-4/1.05
+  EXPECT_HAS(message, "1 kg of the mix has 0.326667 kg of mastic in 146.629 cm3");  // 0.343/1.05 and 1.539601e-4/1.05
   EXPECT_HAS(refused({}, "[materials.aggregate]\ndensity = 2500\n"), "found 2500 kg/m3, expected 2646.52 kg/m3");
 }
 
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
          {{16, "envelope = [[\"5 mm\", \"70 %\", \"50 %\"]]"}},
          16,
          "70 % to 50 % passing 5 mm",
-         "least and most"},
+         "the least before the most"},
         {"EnvelopeTwice",
          {{16, "envelope = [[\"5 mm\", 0.5, 0.7],"}, {17, "[\"5 mm\", 0.5, 0.7]]\n[specimen.mastic]"}},
          17,

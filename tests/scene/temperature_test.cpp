@@ -129,7 +129,8 @@ TEST_F(Temperature, WhatMeansNothingIsRefused) {
   EXPECT_HAS(said(wlf, "", "temperatures = [20, 20.0]\n"), "20 degrees C twice");
   const std::string table = "shift = \"table\"\ntemperatures = [0, 10, 20]\nlog10_a_T = [1.5, 0, -1]\n";
   EXPECT_EQ(said(table, "temperature = 15\n", ""), "nothing was thrown");
-  EXPECT_HAS(said(table, "temperature = 21\n", ""), "where the shift of M-M has no value, expected 0 to 20, as in its");
+  EXPECT_HAS(said(table, "temperature = 21\n", ""),
+             "where the shift of M-M has no value, expected a temperature from 0 to 20, the range of the");
   EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 0]\nlog10_a_T = [1, 0]\n", "", ""), "ascending temperatures");
   EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 1]\nlog10_a_T = [1]\n", "", ""), "1 numbers for 2");
   EXPECT_HAS(said("shift = \"wlf\"\nC1 = 14\nreference_temperature = 1\n", "", ""), "C2: found nothing");

@@ -151,7 +151,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"AggregatesLeaveNoMastic", {{6, "count = 200"}, {9, "porosity = 0.9"}},
      4, "aggregates of at least", "solid volume"},
     {"SpheresOfDust", {{8, "radius = [1e-9, 1e-9]"}}, 7, "particles", "at most 100000000"},
-    {"MasticFillsTheBoxTwice", {{9, "count = 90000"}}, 7, "spheres of at least", "twice the box"},
+    {"MasticFillsTheBoxTwice", {{9, "count = 90000"}}, 7, "spheres with a volume of at least", "twice the volume of the box"},
     {"NothingToGenerate", {{4, ""}, {5, ""}, {6, ""}, {7, ""}, {8, ""}, {9, ""}}, 1, "neither a file", "one of"},
     {"FrequencyTwice", {{31, "frequencies = [5, 2, \"5000 mHz\"]"}}, 31, "5 Hz twice", "once"},
     {"FrequenciesEmpty", {{31, "frequencies = []"}, {37, ""}}, 31, "none", "at least one"},

@@ -143,8 +143,8 @@ TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
     repair_surface(s);
     ADD_FAILURE() << "wrapped";
   } catch (const RunError& error) {
-    EXPECT_TRUE(
-        contains(error.what(), "box: the repair changes volume or area by more than 1 %, which only --wrap accepts: "))
+    EXPECT_TRUE(contains(error.what(),
+                         "box: the repair changes volume or area by more than 1 %; give --wrap to accept the repair: "))
         << error.what();
     EXPECT_TRUE(contains(error.what(), "wrapped")) << error.what();
     EXPECT_TRUE(contains(error.what(), "(before 2, -2")) << error.what();
@@ -227,7 +227,7 @@ TEST(RepairSurface, IsGoodInTheFilesOwnPrecision) {
   EXPECT_EQ(repair.what, "nothing to do");
   EXPECT_EQ(off.facets, s.facets);
   const Surface stl = repair_surface(s, &repair, "stone.stl");
-  EXPECT_TRUE(contains(repair.what, "good, but not as it would be read back: ")) << repair.what;
+  EXPECT_TRUE(contains(repair.what, "good, but the written file would be read back with faults: ")) << repair.what;
   EXPECT_EQ(stl.points.size(), 6u) << repair.what;
   EXPECT_TRUE(check_surface(stl).good());
   for (const Vec3d& p : stl.points) EXPECT_EQ(p.x, static_cast<float>(p.x));

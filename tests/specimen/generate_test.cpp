@@ -356,7 +356,7 @@ TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
   bad = spec;
   bad.attempts = 1;
   bad.aggregate[1].volume_fraction = 0.6;
-  expect(bad, "mix.toml:11: no room for aggregate ");
+  expect(bad, "mix.toml:11: no space for aggregate ");
   bad = spec;
   bad.aggregate.clear();
   bad.mastic.reset();

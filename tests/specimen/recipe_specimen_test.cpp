@@ -126,12 +126,14 @@ TEST_F(RecipeSpecimen, IsWrittenAndSaid) {
   const Outcome made = macadam(fmt::format("specimen {} --out {}", path("recipe.toml"), path("out")));
   ASSERT_EQ(made.code, 0) << made.err;
   const MixVolumes v = volumes_of(*read_scene(file).recipe);
-  EXPECT_HAS(made.out, "recipe: binder 6.00 % of the mix, 6.38 % of the aggregate; effective 5.53 % of the mix");
+  EXPECT_HAS(made.out,
+             "recipe: binder 6.00 % of the mix by mass, 6.38 % of the aggregate by mass; effective binder 5.53 % of "
+             "the mix by mass");
   EXPECT_HAS(made.out,
              fmt::format("maximum density {:.1f} kg/m3, bulk density {:.1f} kg/m3", v.maximum_density, v.bulk_density));
   EXPECT_HAS(made.out, fmt::format("VMA {:.2f} %, VFB {:.2f} %", 100 * v.vma, 100 * v.vfb));
   EXPECT_HAS(made.out, "0.5 mm        20.00%    20.00% (in the mastic)");
-  EXPECT_HAS(made.out, "outside of the envelope: 70 % passing 4 mm");
+  EXPECT_HAS(made.out, "outside of the envelope: 70 % passing the sieve of 4 mm");
 
   const nlohmann::json recipe = summary("out")["recipe"];
   EXPECT_EQ(recipe["maximum_density"], v.maximum_density);

@@ -281,7 +281,7 @@ TEST(ShapePlacement, FailedInsertionSaysHowFarItGot) {
   ShapePlacementSpec how;
   how.method = PlacementMethod::insertion, how.attempts = 3000;
   const std::string message = message_of([&] { place_shapes(spec.box, shapes, c, how); });
-  EXPECT_NE(message.find("no room for aggregate"), std::string::npos) << message;
+  EXPECT_NE(message.find("no space for aggregate"), std::string::npos) << message;
   EXPECT_NE(message.find("of class 4.75-8 mm"), std::string::npos) << message;
   EXPECT_NE(message.find("% of the class's volume"), std::string::npos) << message;
   double millimetres = 0;
@@ -377,11 +377,13 @@ TEST(ShapePlacement, JammedPackingSaysWhere) {
   spec.aggregate = {{0.005, 0.006, 0.85, {}}};
   const std::string message = message_of([&] { place_shapes(spec.box, shapes, compose_shapes(spec, shapes, {}), {}); });
   EXPECT_NE(message.find("jammed at"), std::string::npos) << message;
-  EXPECT_NE(message.find("85 % asked"), std::string::npos) << message;
+  EXPECT_NE(message.find("85 % is requested"), std::string::npos) << message;
   double size = 0, percent = 0;
   const std::size_t figures = message.find("jammed at");
   ASSERT_NE(figures, std::string::npos);
-  ASSERT_EQ(std::sscanf(message.c_str() + figures, "jammed at %lf of their size: %lf %%", &size, &percent), 2);
+  ASSERT_EQ(
+      std::sscanf(message.c_str() + figures, "jammed at %lf of their final size: they fill %lf %%", &size, &percent),
+      2);
   EXPECT_NEAR(percent, 85 * size * size * size, 0.1) << "three digits are written";
 }
 
@@ -418,7 +420,7 @@ TEST(ShapePlacement, SizesAndSettingsOutOfRangeAreRefused) {
   EXPECT_NE(message(vast, {}).find("jammed"), std::string::npos);
   ShapePlacementSpec one_by_one;
   one_by_one.method = PlacementMethod::insertion, one_by_one.attempts = 100;
-  EXPECT_NE(message(vast, one_by_one).find("no room"), std::string::npos);
+  EXPECT_NE(message(vast, one_by_one).find("no space"), std::string::npos);
   EXPECT_EQ(message({}, {}), "(accepted)");
   EXPECT_THROW(compose_shapes(small_mix(0.1), {}, {}), InputError);
 }

@@ -249,7 +249,7 @@ TEST(GeneratedVoids, AreRefusedWhereTheyAreImpossible) {
   spec = mix(0.9);
   EXPECT_HAS(message_of([&] { generate_specimen(spec); }), "void");
   spec = mix(0.55), spec.attempts = 2000;
-  EXPECT_HAS(message_of([&] { generate_specimen(spec); }), "no room for void");
+  EXPECT_HAS(message_of([&] { generate_specimen(spec); }), "no space for void");
 }
 
 class VoidScenes : public VoidFiles {

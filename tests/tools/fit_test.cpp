@@ -98,7 +98,7 @@ TEST(Fit, MoreUnitsAreWantedOnlyWhereTheCriterionChoseTheMost) {
   const auto warned = [&](const FitOptions& options) {
     const Fit fit = fit_modulus(data, options);
     return std::any_of(fit.warnings.begin(), fit.warnings.end(), [&](const std::string& warning) {
-      return warning.starts_with("AICc would take more than 1 Kelvin units");
+      return warning.starts_with("the criterion AICc would choose more than 1 Kelvin units");
     });
   };
   FitOptions options;

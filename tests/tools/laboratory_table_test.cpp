@@ -100,8 +100,9 @@ TEST_F(LaboratoryTable, UnitsThatCannotBeMeantAreAskedAbout) {
   EXPECT_HAS(refusal(header + "1,9000,15,20\n10,14000,9,20\n"), "is it in Pa? Moduli in MPa");
   EXPECT_HAS(refusal(header + "1,2e5,40,20\n"), "is it in Pa?");
   EXPECT_HAS(refusal(header + "1,9e9,15,283.15\n1,5e9,20,303.15\n"),
-             "are these kelvins? They have a column temperature_k");
-  EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg,temperature_k\n1,9000,15,20\n"), "are these degrees Celsius?");
+             "if these are kelvins, name the column temperature_k");
+  EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg,temperature_k\n1,9000,15,20\n"),
+             "if these are degrees Celsius");
   EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg\n1,9e9,15\n"), "another unit than the name of the column says");
   EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_deg\nHz,MPa,deg\n1,9000,15\n"),
              "unit of e_star_pa: found \"MPa\", expected Pa, which the name says");
@@ -121,13 +122,13 @@ TEST_F(LaboratoryTable, UnitsThatCannotBeMeantAreAskedAbout) {
 TEST_F(LaboratoryTable, RadiansInAColumnOfDegreesAreAskedAbout) {
   const std::string header = "frequency_hz,e_star_mpa,phase_deg\n";
   EXPECT_HAS(refusal(header + "1,1000,0.55\n10,2150,0.5\n"),
-             "column phase_deg: found phases of 0.5 to 0.55, expected larger ones in degrees for such a change of the "
-             "moduli: are these radians? They have a column phase_rad");
-  EXPECT_HAS(refusal(header + "1,1000,0.12\n10,1200,0.1\n"), "are these radians?") << "nearly glassy: 0.079 · 90 = 7";
+             "column phase_deg: found phases of 0.5 to 0.55, expected larger phases in degrees for such a change of "
+             "the moduli; if these are radians, name the column phase_rad");
+  EXPECT_HAS(refusal(header + "1,1000,0.12\n10,1200,0.1\n"), "if these are radians") << "nearly glassy: 0.079 · 90 = 7";
   EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg,temperature_c\n1,9000,0.2,0\n1,900,0.9,30\n"),
-             "are these radians?")
+             "if these are radians")
       << "one frequency, two temperatures";
-  EXPECT_HAS(refusal("frequency_hz,phase_deg\n1,0.5\n", {}, Measured::phase), "are these radians?");
+  EXPECT_HAS(refusal("frequency_hz,phase_deg\n1,0.5\n", {}, Measured::phase), "if these are radians");
   EXPECT_NO_THROW(read_text(header + "1,60000,0.5\n10,60500,0.4\n")) << "a rock, nearly elastic";
   EXPECT_NO_THROW(read_text("frequency_hz,e_star_mpa,phase_rad\n1,1000,0.55\n10,2150,0.5\n"));
 }
@@ -144,7 +145,7 @@ TEST_F(LaboratoryTable, OneMessageListsFaultsOfHeaderRowsAndUnits) {
   const std::string said = refusal(
       "frequency_hz,e_star_pa,phase_deg,temperature_c\n1,9000,0.3,293.15\n10,20000,0.2,293.15\nx,14000,0.2,293.15\n");
   for (const char* part :
-       {"lab.csv:4: column frequency_hz: found \"x\"", "is it in Pa?", "are these radians?", "are these kelvins?"})
+       {"lab.csv:4: column frequency_hz: found \"x\"", "is it in Pa?", "if these are radians", "if these are kelvins"})
     EXPECT_HAS(said, part);
   const std::string header = refusal("frequency_hz,e_star_pa,phase_dg\n1,-9e9,15\n");
   EXPECT_HAS(header, "found \"phase_dg\"");

@@ -112,7 +112,7 @@ TEST(CtFaults, ChordsOfABlockAreItsSidesAlsoWhereTheScanCutsIt) {
     std::vector<std::string> warnings;
     EXPECT_EQ(ct::trust_in_axes(phases, warnings), ct::doubtful);
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find("chords through the aggregate are 1, 2 and 4 mm long"), std::string::npos)
+    EXPECT_NE(warnings[0].find("chords through the aggregate differ: they are 1, 2 and 4 mm along"), std::string::npos)
         << warnings[0];
     phases.spacing = {4e-4, 2e-4, 1e-4};  // with these voxel sizes the block is a cube of 4 mm
     EXPECT_EQ(ct::trust_in_axes(phases, warnings), 1);
@@ -218,7 +218,7 @@ TEST(CtFaults, HalfAStackEndsWithTheScanAtOneEnd) {
   Image<float> half({whole.size[0], whole.size[1], whole.size[2] / 2}, whole.spacing);
   std::copy_n(whole.voxels.begin(), half.count(), half.voxels.begin());
   const Outcome o = outcome(half, ScanRegion::found);
-  EXPECT_TRUE(o.says("in air at one end along z, and with the scan at the upper one")) << o.error << o.warnings;
+  EXPECT_TRUE(o.says("along z the specimen ends in air at one end, but at its upper end")) << o.error << o.warnings;
 }
 
 /// No warning about missing air at the ends if the user gives the region.
@@ -259,8 +259,8 @@ TEST(CtFaults, APhaseThatIsMissingIsSaid) {
   EXPECT_GT(said.confidence, 0.9);
   EXPECT_EQ(said.warnings, "");
   const std::string too_few = outcome(balls(no_voids), ScanRegion::whole, 0.04).error;
-  EXPECT_NE(too_few.find("air voids are 4 %"), std::string::npos) << too_few;
-  EXPECT_NE(too_few.find("give --air-voids 0: they are then taken for mastic"), std::string::npos) << too_few;
+  EXPECT_NE(too_few.find("given air voids are 4 %"), std::string::npos) << too_few;
+  EXPECT_NE(too_few.find("give --air-voids 0, and they are taken for mastic"), std::string::npos) << too_few;
 }
 
 TEST(CtFaults, OneGrainThatIsMostOfTheSpecimenIsDoubted) {

@@ -273,7 +273,7 @@ TEST_F(CtPhantom, RefusesWhatItCannotScan) {
   EXPECT_HAS(message(spheres_scene(), spec), "noise");
   spec = clean(0.2e-3), spec.grey_mastic = 1;
   EXPECT_HAS(message(spheres_scene(), spec), "grey values");
-  EXPECT_HAS(message(cluster_scene(), clean(0.2e-3)), "another one of body 7");
+  EXPECT_HAS(message(cluster_scene(), clean(0.2e-3)), "a second sphere of body 7");
 }
 
 }  // namespace

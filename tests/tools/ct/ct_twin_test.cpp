@@ -130,7 +130,7 @@ TEST_F(CtTwin, WhatVoidsEncloseIsTakenOut) {
     if (stages.empty() || stages.back() != stage) stages.push_back(stage);
   });
   EXPECT_EQ(stages, (std::vector<std::string>{"reading the scan", "filling grains", "relaxing mastic", "tessellation",
-                                              "what hangs on nothing"}));
+                                              "removal of unconnected particles"}));
   EXPECT_GT(twin.enclosed_mastic, 5);  // its volume is that of about 14 spheres of 0.7 mm
   EXPECT_EQ(twin.enclosed_aggregate, 0);
   for (const Vec3d& p : twin.specimen.centre) EXPECT_GT(norm(p - Vec3d{6e-3, 6e-3, 7e-3}), 3e-3);
