@@ -170,7 +170,7 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
     warn_(fmt::format("the checkpoint at {} could not be written: {}", where, failure));
   if (!stopping) return;
   std::string resumable = file_.string() + " is written: the same command with --resume continues from it";
-  if (!kept) resumable = "the run cannot be resumed, because it has " + why_not;
+  if (!kept) resumable = "the run cannot be resumed, because " + why_not;
   if (!failure.empty()) {
     const bool older = own_ && std::filesystem::exists(file_);
     resumable = fmt::format("its checkpoint could not be written: {}; {}", failure,

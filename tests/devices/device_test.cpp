@@ -66,7 +66,7 @@ TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
   EXPECT_EQ(chosen(300'000, {}), (DeviceList{1, 2}));
   EXPECT_EQ(asked, std::vector{2});
   EXPECT_HAS(decision, "devices 1 and 2: several devices step 300000 contacts faster");
-  EXPECT_HAS(decision, "--devices 1 uses one");
+  EXPECT_HAS(decision, "--devices 1 uses only one");
   EXPECT_EQ(chosen(300'000, {2}), (DeviceList{1, 4}));
   EXPECT_EQ(chosen(1'000'000, {}), (DeviceList{1, 2, 4}));
   EXPECT_EQ(chosen(1'000'000, {2, 4}), DeviceList{1});

@@ -322,7 +322,7 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
     bool planned = false;
     watcher.planned = [&](const RunResult&) { planned = true; };
     watcher.stop = [&] { return planned && ++asked > 20; };
-    EXPECT_HAS(message_of([&] { run(scene, out("stopped"), watcher); }), "it cannot be resumed");
+    EXPECT_HAS(message_of([&] { run(scene, out("stopped"), watcher); }), "the run cannot be resumed");
     EXPECT_EQ(summary("stopped").at("status"), "interrupted");
     EXPECT_HAS(message_of([&] { run(scene, out("out"), watcher, true); }),
                "--resume continues from the previous checkpoint");

@@ -121,7 +121,7 @@ TEST_F(Temperature, WhatMeansNothingIsRefused) {
   EXPECT_HAS(said(wlf, "temperature = 20\n", "temperatures = [20]\n"), "one of the two");
   EXPECT_HAS(said(wlf, "temperature = -110\n", ""), "where the shift of M-M has no value");
   EXPECT_HAS(said(wlf, "temperature = -109.9\n", ""), "where the shift of M-M has no value");  // a_T overflows
-  EXPECT_HAS(said(wlf, "temperature = -110\n", ""), "expected one above -110, reference_temperature - C2");
+  EXPECT_HAS(said(wlf, "temperature = -110\n", ""), "expected a temperature above -110 (reference_temperature - C2)");
   EXPECT_HAS(said(wlf, "temperature = -300\n", ""), "a temperature above -273.15");
   EXPECT_HAS(said(wlf, "temperature = 293.15\n", ""), "not in kelvins");
   EXPECT_HAS(said(wlf, "temperature = nan\n", ""), "temperature");

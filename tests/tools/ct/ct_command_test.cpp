@@ -122,7 +122,7 @@ TEST_F(CtCommand, OneSliceIsNoScan) {
   const Outcome outcome =
       macadam("ct segment " + path("slice.mha") + " --smallest '1.8 mm' --region whole --out " + path("out"));
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_HAS(outcome.err, "the scan: slices: found 1, expected at least 4: grains are found in a volume");
+  EXPECT_HAS(outcome.err, "the scan: slices: found 1, expected at least 4, because grains are found in a volume");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
