@@ -31,9 +31,11 @@ std::vector<Key> Points::keys(const std::string& key, const Quantity& quantity, 
   const std::string ends = key + ": a list, or the two ends of a range if points_per_decade or points is given";
   return {{key, need, into(given, quantity, positive), ends, need == Need::required ? "" : "strain"},
           {"points_per_decade", Need::optional, into(per_decade, 1, most),
-           "least number of points per decade of a range, evenly spaced in the logarithm, with both ends", "a list"},
+           "smallest number of points per decade of a range; the points are evenly spaced in the logarithm and include "
+           "both ends",
+           "a list"},
           {"points", Need::optional, into(evenly, 2, most_evenly),
-           "number of points of a range, evenly spaced, with both ends",
+           "number of points of a range; the points are evenly spaced and include both ends",
            need == Need::required ? "a list" : "a list; 100 if strain is given"}};
 }
 

@@ -35,7 +35,7 @@ ReferenceLaws read_laws(const ContactNetwork& network, const LawTable& laws) {
 
 void require_count(const char* what, std::size_t found, std::size_t expected) {
   if (found != expected) {
-    throw InputError(source, 0, what, std::to_string(found), fmt::format("{}, one a particle", expected));
+    throw InputError(source, 0, what, std::to_string(found), fmt::format("{}, one per particle", expected));
   }
 }
 

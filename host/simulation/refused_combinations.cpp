@@ -48,7 +48,7 @@ void require_combination(const Scene& scene) {
   std::string why_not;
   if (scene.output.checkpoint.value_or(0) > 0 && !keeps_checkpoints(scene, scene.solver.backend, &why_not)) {
     throw InputError(scene.file.string(), 0, "checkpoint in [output]", fmt::format("{} s", *scene.output.checkpoint),
-                     "0: " + why_not);
+                     "0, because " + why_not);
   }
   if (scene.solver.backend != Backend::reference) return;
   const auto refuse = [&](const char* what, const char* found, const char* expected) {

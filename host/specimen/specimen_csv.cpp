@@ -82,7 +82,7 @@ class Lines {
     const std::string reason = gzerror(in_.get(), &code);
     if (code == Z_MEM_ERROR) throw std::bad_alloc();
     if (code != Z_OK && code != Z_STREAM_END)
-      fail(code == Z_ERRNO ? std::strerror(errno) : reason, "a whole readable file");
+      fail(code == Z_ERRNO ? std::strerror(errno) : reason, "a complete readable file");
     // gzread() silently ignores data that follow the end of a gzip stream.
     if (!gzdirect(in_.get()) && gzoffset(in_.get()) != static_cast<z_off_t>(std::filesystem::file_size(name_)))
       fail("bytes behind the end of the gzip data", "none");

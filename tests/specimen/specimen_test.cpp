@@ -186,7 +186,7 @@ TEST_F(SpecimenCsv, UnreadableFilesAreNamed) {
   std::ifstream whole(std::filesystem::path(MACADAM_TEST_DATA) / "ss_full.csv.gz", std::ios::binary);
   std::string bytes(100'000, '\0');
   whole.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  EXPECT_NE(message_for(written(bytes)).find("whole readable file"), std::string::npos);
+  EXPECT_NE(message_for(written(bytes)).find("complete readable file"), std::string::npos);
 }
 
 /// A compressed file may unpack to any size; the reader never keeps all of it in memory and stops at the first faulty

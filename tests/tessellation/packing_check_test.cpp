@@ -51,8 +51,8 @@ TEST(PackingCheck, ABoxTwiceAsHighNamesTheTopWall) {
   s.box.size.z *= 2;
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
-  EXPECT_HAS(found[0], "the packing does not fill its box: the facet of particle 1");
-  EXPECT_HAS(found[0], "with the +z wall reaches 6");  // 6 m above the spheres, measured to a corner of the facet
+  EXPECT_HAS(found[0], "the packing does not fill its box: the facet between particle 1");
+  EXPECT_HAS(found[0], "and the +z wall extends to 6");  // 6 m above the spheres, measured to a corner of the facet
   EXPECT_HAS(found[0], "spheres fill 26.2 % of the box of 5 x 5 x 12 m");  // half of π/6
 }
 

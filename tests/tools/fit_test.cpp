@@ -300,7 +300,7 @@ TEST(Fit, WhatCannotBeFittedIsRefused) {
   ModulusData data = measured(mastic_am1(), frequencies(0.1, 10, 6));
   FitOptions options;
   options.units = 8;
-  EXPECT_HAS(message_of([&] { fit_modulus(data, options); }), "found 6, expected more, for 8 Kelvin units");
+  EXPECT_HAS(message_of([&] { fit_modulus(data, options); }), "found 6, expected more measurements for 8 Kelvin units");
   options.units = 17;
   EXPECT_HAS(message_of([&] { fit_modulus(data, options); }), "units: found 17, expected 0 to 16");
   options = {};

@@ -105,7 +105,7 @@ TEST_F(LaboratoryTable, UnitsThatCannotBeMeantAreAskedAbout) {
              "if these are degrees Celsius");
   EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg\n1,9e9,15\n"), "another unit than the name of the column says");
   EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_deg\nHz,MPa,deg\n1,9000,15\n"),
-             "unit of e_star_pa: found \"MPa\", expected Pa, which the name says");
+             "unit of e_star_pa: found \"MPa\", expected Pa, as the name of the column says");
   // Shear moduli of a binder in kPa: at 46 degrees 5 MPa, at 68 degrees 0.6 MPa, at 82 degrees 40 kPa, at 88 degrees 2
   // kPa.
   for (const char* row : {"10,5000,46", "10,600,68", "10,40,82", "10,2,88"}) {

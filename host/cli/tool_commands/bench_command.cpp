@@ -171,7 +171,7 @@ void add_bench_command(CLI::App& app) {
                   "scenes (TOML); SCENE.toml=specimen.csv for a specimen from a file; lattice:PARTICLES for a lattice "
                   "of spheres; default: lattice:1e4 lattice:1e5")
       ->type_name("FILE");
-  add_choice(command, "--backend", axes.backend, "what computes",
+  add_choice(command, "--backend", axes.backend, "backend that computes",
              {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}});
   add_devices(command, axes.devices);
   add_ranks(command, arguments->ranks);

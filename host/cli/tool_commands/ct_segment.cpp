@@ -54,7 +54,7 @@ void segment(CtSegmentArguments arguments) {
   const ScanCorrections& c = out.corrections;
   say("corrections of grey values, in % of the contrast: slices {:.1f} %, rings {:.1f} %, hardening {:.1f} %\n",
       100 * c.slices, 100 * c.rings, 100 * c.hardening);
-  say("air voids {:.2f} %, mastic {:.2f} %, aggregate {:.2f} % of the specimen; confidence {:.3f}\n",
+  say("air voids {:.2f} %, mastic {:.2f} %, aggregate {:.2f} % of the specimen; mean confidence {:.3f}\n",
       100 * out.air_voids, 100 * out.mastic, 100 * out.aggregate, out.confidence_mean);
   if (out.block > 1) {
     say("the scan does not fit in memory: a voxel of the written images is the mean of {0} x {0} x {0} voxels of the "

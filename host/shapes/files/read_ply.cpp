@@ -117,7 +117,7 @@ void read_points(const SurfaceFile& file, const PlyElement& element, PlyNumbers&
         continue;
       }
       x[k] = numbers.next(*element.properties[p].type, what);
-      if (!std::isfinite(x[k])) numbers.fail(what, fmt::format("coordinate {}", x[k]), "a finite one");
+      if (!std::isfinite(x[k])) numbers.fail(what, fmt::format("coordinate {}", x[k]), "a finite coordinate");
     }
     soup.points.push_back({x[0], x[1], x[2]});
   }

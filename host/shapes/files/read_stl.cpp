@@ -31,7 +31,7 @@ SurfaceSoup read_binary(const SurfaceFile& file, std::size_t facets) {
     std::array<float, 9> x;
     std::memcpy(x.data(), &file.bytes[header_bytes + record_bytes * f + normal_bytes], sizeof x);
     for (const float c : x) {
-      if (!std::isfinite(c)) file.fail(0, facet_name(f), fmt::format("coordinate {}", c), "a finite one");
+      if (!std::isfinite(c)) file.fail(0, facet_name(f), fmt::format("coordinate {}", c), "a finite coordinate");
     }
     for (int k = 0; k < 3; ++k) soup.points.push_back({x[3 * k], x[3 * k + 1], x[3 * k + 2]});
     add_triangle(soup);

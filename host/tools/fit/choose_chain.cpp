@@ -149,8 +149,9 @@ Chain choose_chain(const Problem& problem, const ModulusData& data, Fit& fit) {
   if (asked.empty() && !series.failure().empty()) throw RunError(series.failure());
   if (asked.empty()) {
     throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
-                     options.units ? fmt::format("more, for {} Kelvin units and their shift", *options.units)
-                                   : "more: not even a chain without units is determined");
+                     options.units
+                         ? fmt::format("more measurements for {} Kelvin units and their shift", *options.units)
+                         : "more measurements, because they do not determine even a chain without units");
   }
   for (std::size_t i = 1; i < asked.size(); ++i) {
     const FitCandidate &at = fit.candidates[i], &taken = fit.candidates[fit.chosen];

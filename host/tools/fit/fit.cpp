@@ -22,7 +22,7 @@ Chain fit_any(const Problem& problem, const ModulusData& data, Fit& fit) {
   const Unknowns& u = problem.unknowns;
   if (!enough(2 * problem.targets.size(), u.count(), Criterion::bic)) {
     throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
-                     fmt::format("more, for the {} parameters of {}", u.count(), to_string(u.model)));
+                     fmt::format("more measurements for the {} parameters of {}", u.count(), to_string(u.model)));
   }
   return {u, fit_analogue(problem)};
 }

@@ -83,7 +83,7 @@ class DataReader {
     if (is_blank(at)) return;
     if (!unit.empty() && unit != "-" && !column->name.ends_with("_" + unit) && !column->unit.empty()) {
       complaints_.add(table_.units->line, "unit of " + column->name, in_quotes(table_.units->cells[at]),
-                      column->unit + ", which the name says");
+                      column->unit + ", as the name of the column says");
     }
     if (!used_.emplace(column->quantity, Used{*column, at}).second)
       complain_of_header(in_quotes(name) + (used_.at(column->quantity).column.name == column->name

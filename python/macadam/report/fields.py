@@ -69,8 +69,8 @@ def cannot_draw() -> str:
     try:
         done = subprocess.run([sys.executable, "-c", line], capture_output=True, stdin=subprocess.DEVNULL, timeout=120)
     except (OSError, subprocess.TimeoutExpired):
-        return "PyVista does not draw here"
-    return "" if done.returncode == 0 else "PyVista does not draw here: a library of OpenGL without a screen (EGL) is needed"
+        return "PyVista cannot draw here"
+    return "" if done.returncode == 0 else "PyVista cannot draw here: it needs a library of OpenGL without a screen (EGL)"
 
 
 def _files(folder: Folder) -> dict[str, Path]:

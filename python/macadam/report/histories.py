@@ -28,7 +28,7 @@ def add(page: Page, folders: list[Folder]) -> None:
         page.figure(figure, words + _error_note(found), f"curves of {title.lower()}")
     series = [f for f in folders if f.kind == "run" and f.in_time and (f.in_time.get("prony") or {}).get("units")]
     if series:
-        page.section("The mixture's own material")
+        page.section("Viscoelastic constants of the mixture")
         page.figure(_spectrum(series), _spectrum_caption(series), "Prony series")
 
 

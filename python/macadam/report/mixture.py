@@ -107,7 +107,7 @@ def _composition(page: Page, folders: list[Folder]) -> None:
                 for p in folder.summary["composition"]
             ]
             page.table(
-                ["class", "number asked", "number reached", "of the box asked", "of the box reached"],
+                ["class", "number requested", "number reached", "fraction of box requested", "fraction of box reached"],
                 rows,
                 f"{folder.label}: numbers and volumes requested by the mix and reached in the specimen.",
             )

@@ -139,5 +139,5 @@ def _gpus(run: dict[str, Any]) -> int:
     try:
         listed = subprocess.run(["nvidia-smi", "--list-gpus"], capture_output=True, text=True, check=True).stdout
     except (OSError, subprocess.CalledProcessError):
-        raise StudyError('run.gpus: "all" asks nvidia-smi, which found none here; give their number') from None
+        raise StudyError('run.gpus: "all" asks nvidia-smi, which found no GPU on this machine; give the number of GPUs') from None
     return len(listed.splitlines())

@@ -62,7 +62,8 @@ std::vector<SievePassing> read_gradation(const std::filesystem::path& path) {
   if (out.size() < 2) throw InputError(file, 0, "sieves", std::to_string(out.size()), "at least two");
   for (std::size_t i = 1; i < out.size(); ++i) {
     const std::string sieve = fmt::format("passing the sieve of {:.6g} mm", 1e3 * out[i].size);
-    if (!(out[i].size > out[i - 1].size)) throw InputError(file, out[i].line, sieve, "said twice", "once");
+    if (!(out[i].size > out[i - 1].size))
+      throw InputError(file, out[i].line, sieve, "a second row for this sieve", "one row per sieve");
     if (out[i].passing < out[i - 1].passing) {
       throw InputError(file, out[i].line, sieve, fmt::format("{:.6g} %", 100 * out[i].passing),
                        fmt::format("at least the {:.6g} % that pass the next smaller sieve", 100 * out[i - 1].passing));

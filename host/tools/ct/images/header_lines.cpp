@@ -61,7 +61,7 @@ std::filesystem::path HeaderLines::beside(std::string_view key, std::string_view
 }
 
 void HeaderLines::refuse_voxels(std::string_view key, std::string_view value) const {
-  refuse(key, value, "one file that is there; slices in files of their own are read from a folder of .tif");
+  refuse(key, value, "one existing file; slices in separate files are read from a folder of .tif files");
 }
 
 }  // namespace macadam::ct

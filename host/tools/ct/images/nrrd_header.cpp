@@ -82,7 +82,8 @@ HeaderFacts check_nrrd_header(const std::filesystem::path& file) {
     facts.voxels = lines.beside(field, value);
   }
   if (skips_to_end && !raw)  // ITK would decompress everything to find the end
-    throw InputError(file.string(), 0, "byte skip", "below 0 beside an encoding that is not raw", "encoding: raw");
+    throw InputError(file.string(), 0, "byte skip", "a negative value with an encoding that is not raw",
+                     "encoding: raw");
   return facts;
 }
 
