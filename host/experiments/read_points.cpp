@@ -44,7 +44,8 @@ std::vector<double> Points::all(const Section& section, const std::string& key, 
   require_once(section, key, given, unit, what);
   std::vector<double> out = given;
   std::sort(out.begin(), out.end());
-  if (per_decade && evenly) section.refuse("points", "points together with points_per_decade", "one of them");
+  if (per_decade && evenly)
+    section.refuse("points", "points together with points_per_decade", "only one of the two keys");
   if (!per_decade && !evenly) return out;
   if (out.size() != 2) {
     section.refuse(key, fmt::format("{} entries with {}", out.size(), evenly ? "points" : "points_per_decade"),

@@ -87,11 +87,11 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   }
   if (const auto n = prepared.network.dropped_area; n > 0) {
     out.push_back(
-        {"tiny facets", fmt::format("{} below area_min", n),
+        {"tiny facets", fmt::format("{} facets with an area below area_min are not contacts", n),
          fmt::format("about {:.0e} of |E*|, their fraction of the facets' area", prepared.network.dropped_share)});
   }
   if (const auto n = prepared.network.dropped_gap; n > 0) {
-    out.push_back({"open facets", fmt::format("{} wider than gap_max", n),
+    out.push_back({"open facets", fmt::format("{} facets with a gap above gap_max are not contacts", n),
                    "the model changes: compare with a run without gap_max"});
   }
   append(asked_skips(scene));

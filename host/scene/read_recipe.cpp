@@ -62,7 +62,7 @@ MixDesign read_recipe(const Section& section) {
        {read_densities, {"number or list of numbers", &density}},
        "particle density including pores: one number, or one per interval between two sieves, coarsest first"},
       {"filler_density", Need::optional, into(out.filler_density, density, any),
-       "density of the aggregate that passes the finest sieve", "the last of aggregate_density"},
+       "density of the aggregate that passes the finest sieve", "the last value of aggregate_density"},
       {"binder_density", Need::required, into(out.binder_density, density, any), "density of the binder"},
       {"absorbed_binder", Need::optional, into(out.absorbed_binder, ratio, any),
        "binder in the pores of the aggregate, as a fraction of the aggregate's mass", "0"},

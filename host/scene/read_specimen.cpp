@@ -157,7 +157,7 @@ void require_possible(const Section& section, const SpecimenSpec& spec) {
 /// Takes aggregate classes and porosity from the recipe. `section` is `[specimen]`.
 void follow_recipe(const Section& section, const MixDesign& recipe, SpecimenSpec& spec) {
   if (section.has("aggregate"))
-    section.refuse("aggregate", "classes of aggregate with [specimen.recipe]", "one of the two");
+    section.refuse("aggregate", "classes of aggregate with [specimen.recipe]", "only one of the two");
   if (!spec.mastic)
     section.refuse("recipe", "[specimen.recipe] without [specimen.mastic]", "[specimen.mastic] with its radius");
   follow(recipe, spec);
@@ -233,7 +233,7 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
   if (spec.file) {
     for (const char* key : {"recipe", "aggregate", "shapes", "mastic", "voids", "seed", "size_law", "spacing",
                             "fix_aggregates", "attempts"}) {
-      if (section.has(key)) section.refuse(key, "this key of the generator with file", "one of the two");
+      if (section.has(key)) section.refuse(key, "this key of the generator with file", "only one of the two");
     }
   } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
     section.refuse("file", "neither a file nor aggregate or mastic to generate", "one of the two");

@@ -67,7 +67,7 @@ void apply_temperature(Scene& scene, const Section& root) {
   if (!several.empty()) {
     const Section loading = root.find("loading")->section();
     if (scene.materials.temperature) {
-      loading.refuse("temperatures", "this key with temperature in [materials]", "one of the two");
+      loading.refuse("temperatures", "this key with temperature in [materials]", "only one of the two");
     }
     for (const double temperature : several) check("loading", "temperatures", temperature);
   }

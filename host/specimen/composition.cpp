@@ -51,7 +51,7 @@ ClassRequest request_of(const AggregateClass& c, const SpecimenSpec& spec) {
   check_range(origin, "aggregate class " + name, c.sieve_min, c.sieve_max);
   if (c.volume_fraction.has_value() == c.count.has_value())
     refuse(origin, "aggregate class " + name,
-           c.count ? "both volume_fraction and count" : "neither volume_fraction nor count", "one of them");
+           c.count ? "both volume_fraction and count" : "neither volume_fraction nor count", "exactly one of the two");
   if (c.count) check_count(origin, "aggregate class " + name, *c.count);
   if (c.volume_fraction && !(*c.volume_fraction >= 0 && *c.volume_fraction <= 1))
     refuse(origin, "aggregate class " + name + ": volume_fraction", shown(*c.volume_fraction), "0 to 1");
@@ -62,7 +62,8 @@ ClassRequest request_of(const MasticSpec& m, const SpecimenSpec& spec) {
   const Origin origin(spec, m.line);
   check_range(origin, "mastic", m.radius_min, m.radius_max);
   if (m.porosity.has_value() == m.count.has_value())
-    refuse(origin, "mastic", m.count ? "both porosity and count" : "neither porosity nor count", "one of them");
+    refuse(origin, "mastic", m.count ? "both porosity and count" : "neither porosity nor count",
+           "exactly one of the two");
   if (m.count) check_count(origin, "mastic", *m.count);
   if (m.porosity && !(std::isfinite(*m.porosity) && *m.porosity < 1))
     refuse(origin, "mastic: porosity", shown(*m.porosity), "a number below 1");
@@ -73,7 +74,8 @@ ClassRequest request_of(const VoidSpec& v, const SpecimenSpec& spec) {
   const Origin origin(spec, v.line);
   check_range(origin, "voids", v.radius_min, v.radius_max);
   if (v.fraction.has_value() == v.count.has_value())
-    refuse(origin, "voids", v.count ? "both fraction and count" : "neither fraction nor count", "one of them");
+    refuse(origin, "voids", v.count ? "both fraction and count" : "neither fraction nor count",
+           "exactly one of the two");
   if (v.count) check_count(origin, "voids", *v.count);
   if (v.fraction && !(*v.fraction >= 0 && *v.fraction < 1))
     refuse(origin, "voids: fraction", shown(*v.fraction), "0 to below 1");

@@ -110,7 +110,7 @@ void add_calibrate_command(CLI::App& app) {
       ->required();
   command
       .add_option("--free", arguments->free,
-                  "parameters to find, separated by commas: M-A.delta,M-M.E_1,inner.E,A-A.alpha")
+                  "parameters to find, separated by commas, such as M-A.delta,M-M.E_1,inner.E,A-A.alpha")
       ->delimiter(',')
       ->required()
       ->type_name("NAME");

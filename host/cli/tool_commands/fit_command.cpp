@@ -45,9 +45,9 @@ void require_uses(const CLI::App& command, const FitArguments& arguments) {
     refuse(std::string("this option with model ") + (model == FitModel::two_s2p1d ? "2s2p1d" : "huet-sayegh"),
            "this option only with --model kelvin", {"--units", "--most-units", "--criterion", "--flow", "--no-flow"});
   if (arguments.fit.units) {
-    refuse("this option beside --units", "one of the two", {"--most-units"});
+    refuse("this option together with --units", "only one of the two options", {"--most-units"});
     if (arguments.flow || arguments.no_flow)
-      refuse("this option beside --units and --flow or --no-flow",
+      refuse("this option together with --units and --flow or --no-flow",
              "a command without this option: nothing is left to choose", {"--criterion"});
   }
 }

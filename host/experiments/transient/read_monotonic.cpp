@@ -35,7 +35,7 @@ Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
     return out;
   }
   for (const char* key : {"times", "points_per_decade"}) {
-    if (section.has(key)) section.refuse(key, std::string(key) + " with strain", "one of them");
+    if (section.has(key)) section.refuse(key, std::string(key) + " with strain", "only one of the two keys");
   }
   const double end = *strain / out.rate;
   if (!(end > 0))

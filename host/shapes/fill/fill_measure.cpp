@@ -27,7 +27,7 @@ void check(const Surface& surface, const MultiSphere& cluster) {
   };
   if (cluster.size() == 0) refuse("spheres", "0", "at least 1");
   if (cluster.radius.size() != cluster.size())
-    refuse("radii", std::to_string(cluster.radius.size()), "one for each centre");
+    refuse("radii", std::to_string(cluster.radius.size()), "one radius for each centre");
   for (std::size_t i = 0; i < cluster.size(); ++i) {
     const Vec3d& c = cluster.centre[i];
     const std::string sphere = "sphere " + std::to_string(i) + ": ";

@@ -116,7 +116,7 @@ class DataReader {
     if (table_.names.empty()) return;
     const bool shear = has(g_star) || has(g_prime) || has(g_double_prime);
     if (shear && (has(e_star) || has(e_prime) || has(e_double_prime))) {
-      complain_of_header("columns of E* and of G*", "one of the two");
+      complain_of_header("columns of E* and of G*", "only one of the two");
       return;
     }
     star_ = shear ? g_star : e_star, real_ = shear ? g_prime : e_prime,

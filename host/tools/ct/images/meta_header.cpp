@@ -79,7 +79,8 @@ HeaderFacts check_meta_header(const std::filesystem::path& file) {
                        fmt::format("at most the {} bytes of {}", there, facts.voxels.filename().string()));
     return facts;
   }
-  throw InputError(file.string(), 0, "header of a MetaImage", "no line ElementDataFile", "one, at its end");
+  throw InputError(file.string(), 0, "header of a MetaImage", "no line ElementDataFile",
+                   "this line at the end of the header");
 }
 
 }  // namespace macadam::ct
