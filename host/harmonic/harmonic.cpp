@@ -221,9 +221,9 @@ class Harmonic::Implementation {
             ? fmt::format("; the direct solver is not tried for more than {} particles", largest_direct)
             : "";
     return fmt::format(
-        "residual {:.1e}, {:.1e} of it beyond rounding (expected at most {:.1e}), and error in the energy norm {:.1e} "
-        "(at most {:.1e}) after {} iterations at {:g} Hz{}, {} solver: the frequency is near a resonance, or the "
-        "stiffness is nearly singular{}",
+        "the residual is {:.1e}, of which {:.1e} is beyond rounding (expected at most {:.1e}), and the error in the "
+        "energy norm is {:.1e} (expected at most {:.1e}) after {} iterations at {:g} Hz{}, {} solver: the frequency is "
+        "near a resonance, or the stiffness is nearly singular{}",
         w.residual, w.beyond_rounding, options_.tolerance, w.energy_error, energy_tolerance(), w.task.iterations,
         load.frequency_hz,
         load.growth == 0 ? "" : fmt::format(" with a load whose amplitude grows as exp(t * {:g} 1/s)", load.growth),

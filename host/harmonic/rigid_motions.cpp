@@ -223,8 +223,9 @@ FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& ne
   FreeMotions out;
   for (const Cluster& cluster : find_clusters(network, specimen.size())) {
     if (!cluster.spans()) {
-      throw InputError("harmonic: the stiffness is singular: found " + describe(cluster) +
-                       ", expected every particle to be joined to both walls (check gap_max and area_min)");
+      throw InputError(
+          "harmonic: the stiffness is singular: found " + describe(cluster) +
+          ", expected every particle to have paths of contacts to both walls (check gap_max and area_min)");
     }
     const auto parts = sliding_parts(cluster, network, stiffness);
     for (const auto& part : parts) Part(specimen, network, stiffness, part, parts.size() == 1).add_to(out, inertia);

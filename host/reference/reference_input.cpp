@@ -46,7 +46,7 @@ void require_network(const ContactNetwork& network, std::size_t particles) {
     const Contact& contact = network.contacts[c];
     const std::string which = fmt::format("contact {} ({} – {})", c, contact.a, contact.b);
     if (contact.a < 0 || contact.a >= n || contact.b >= n || contact.b < wall_z_hi || contact.a == contact.b) {
-      throw InputError(source, 0, which, "such particle numbers",
+      throw InputError(source, 0, which, "particle numbers that are out of range",
                        fmt::format("two of the particles 0…{}, or one and a wall −1…−6", n - 1));
     }
     if (!positive(contact.distance)) {

@@ -130,7 +130,7 @@ std::vector<std::string> packing_warnings(const Specimen& specimen, const Tessel
   }
   if (fill > most_fill)
     out.push_back(
-        fmt::format("{}, expected at most {:g} %: does the column radius hold diameters?", filled, 100 * most_fill));
+        fmt::format("{}, expected at most {:g} %; the column radius may hold diameters", filled, 100 * most_fill));
   return out;
 }
 

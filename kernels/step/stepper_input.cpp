@@ -74,7 +74,8 @@ void require_boundary(std::size_t particles, const StepperOptions& options) {
                shown(options.dt) + " s, the stepper's");
       }
       if (a.by == DrivenBy::displacement && !options.start && a.drive->value(0) != 0) {
-        refuse(which + ": displacement at the start", shown(a.drive->value(0)) + " m", "0: nothing is deformed then");
+        refuse(which + ": displacement at the start", shown(a.drive->value(0)) + " m",
+               "0, because nothing is deformed at the start");
       }
       if (a.by == DrivenBy::force && !(boundary.wall[w].mass > 0)) {
         refuse(which + ": mass of a wall under a force", shown(boundary.wall[w].mass) + " kg", "above 0");

@@ -152,8 +152,8 @@ TEST_F(SurfaceReading, CornersThatDifferByRoundingAreJoined) {
     EXPECT_EQ(r.points.size(), s.points.size());
     EXPECT_EQ(r.facets.size(), s.facets.size());
     expect_closed(r, volume, area, fmt::format("noise {}", noise), 1e-7);  // points are moved by at most 1e-7 of a side
-    EXPECT_TRUE(r.reading.starts_with("joined ") && r.reading.ends_with(" points at open edges with others less than "
-                                                                        "7.6e-06 m away"))
+    EXPECT_TRUE(r.reading.starts_with("joined ") &&
+                r.reading.ends_with(" points at open edges with points less than 7.6e-06 m away"))
         << r.reading;
   }
 }

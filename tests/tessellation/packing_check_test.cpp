@@ -81,9 +81,9 @@ TEST(PackingCheck, DiametersForRadiiFillTooMuch) {
   Specimen s = touching(3, 3, 3, 1.0);
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
-  EXPECT_EQ(found[0],
-            "spheres fill 419 % of the box of 3 x 3 x 3 m, expected at most 150 %: does the column radius hold "
-            "diameters?");
+  EXPECT_EQ(
+      found[0],
+      "spheres fill 419 % of the box of 3 x 3 x 3 m, expected at most 150 %; the column radius may hold diameters");
 }
 
 // Spheres of one aggregate overlap; they count at most the volume of their cells.

@@ -40,8 +40,8 @@ void print_report(const Surface& surface, const MultiSphere& cluster, const Fill
   row("D^L (mm)", 1e3 * m.d_long, 1e3 * r.d_long);
   row("D^I (mm)", 1e3 * m.d_intermediate, 1e3 * r.d_intermediate);
   row("D^S (mm)", 1e3 * m.d_short, 1e3 * r.d_short);
-  say("the spheres cover {:.2f} % of the shape's volume; {:.2f} % of it lies outside the shape; the largest overlap of "
-      "two spheres is {:.1f} % of the sum of their radii\n",
+  say("the spheres cover {:.2f} % of the shape's volume; their volume outside the shape is {:.2f} % of the shape's "
+      "volume; the largest overlap of two spheres is {:.1f} % of the sum of their radii\n",
       100 * r.covered, 100 * r.outside, 100 * r.largest_overlap);
   say("surface deviation {:.4g} mm on average, {:.4g} mm at most\n", 1e3 * r.deviation_mean, 1e3 * r.deviation_largest);
 }

@@ -96,7 +96,7 @@ PlyHeader read_ply_header(const SurfaceFile& file) {
       const std::string name(words.in_line());
       header.elements.push_back({name, words.count(words.in_line(), "element " + in_quotes(name)), {}, words.line()});
     } else if (keyword == "property") {
-      if (header.elements.empty()) words.fail("header", "a property before any element", "a whole .ply file");
+      if (header.elements.empty()) words.fail("header", "a property before any element", "a complete .ply file");
       PlyProperty property = property_line(words);
       if (header.elements.back().find(property.name))
         words.fail("property", in_quotes(property.name) + " again", "each property once");

@@ -63,7 +63,7 @@ class PlyNumbers {
   }
 
  private:
-  [[noreturn]] void ends(const std::string& what) const { fail(what, "the end of the file", "a whole .ply file"); }
+  [[noreturn]] void ends(const std::string& what) const { fail(what, "the end of the file", "a complete .ply file"); }
 
   double in_text(const PlyType& type, const std::string& what) {
     const std::string_view word = words_.next(what);

@@ -146,7 +146,7 @@ Surface surface_in(const SurfaceFile& file, SurfaceFormat format, double scale) 
   if (seams.points > 0)
     add_note(surface,
              fmt::format(
-                 "joined {} at open edges with others less than {:.2g} m away{}", counted(seams.points, "point"), width,
+                 "joined {} at open edges with points less than {:.2g} m away{}", counted(seams.points, "point"), width,
                  seams.facets > 0 ? fmt::format(", which left {} without area", counted(seams.facets, "facet")) : ""));
   return surface;
 }

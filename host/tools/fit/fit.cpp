@@ -191,8 +191,8 @@ void warn_of_shift(Fit& fit, const std::vector<double>& temperatures) {
   for (std::size_t i = 1; i < temperatures.size(); ++i) {
     if (laws::log10_shift(fit.shift, temperatures[i]) <= laws::log10_shift(fit.shift, temperatures[i - 1])) continue;
     fit.warnings.push_back(
-        fmt::format("a_T rises from {} to {} degrees C, as if the material were stiffer when warm: "
-                    "are the temperatures in the right rows?",
+        fmt::format("a_T rises from {} to {} degrees C, as if the material were stiffer when warm; the temperatures "
+                    "may be in the wrong rows",
                     temperatures[i - 1], temperatures[i]));
     return;
   }

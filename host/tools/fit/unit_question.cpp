@@ -39,7 +39,7 @@ void ask_about_moduli(const ModulusData& data, const ColumnsRead& columns, Compl
   const double low = softest->e_star_pa / columns.modulus_factor, high = stiffest->e_star_pa / columns.modulus_factor;
   if (stiffest->e_star_pa > stiffest_solid) {
     complaints.add(0, "column " + column, fmt::format("moduli of up to {:.3g} Pa", high),
-                   "less than 2e12 Pa: are they in another unit than the name of the column says?");
+                   "less than 2e12 Pa; the moduli may be in another unit than the name of the column says");
   }
   const double phase = data.phases ? stiffest->phase_deg : 44;  // without phases the material is taken for a solid
   const double smallest = smallest_modulus(phase);

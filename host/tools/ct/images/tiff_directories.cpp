@@ -123,7 +123,7 @@ struct Directory {
   void check_voxels(const Page& page) const {
     if (page.at(tags::values, 1) != 1)
       refuse(tags::values, fmt::format("{} values per voxel", page.at(tags::values)),
-             std::string("one grey value a voxel") + to_grey);
+             std::string("one grey value per voxel") + to_grey);
     constexpr std::uint64_t palette = 3;
     if (const std::uint64_t meaning = page.at(tags::meaning, 1); meaning > 1 && meaning != palette)
       refuse(tags::meaning, fmt::format("PhotometricInterpretation {}", meaning),
