@@ -59,7 +59,7 @@ void make_contacts(const Scene& scene, const Progress& progress, Preparation& ou
   });
   if (out.spanning_clusters == 0) {
     throw InputError(scene.file.string(), 0, "contact network", "no path of contacts from the bottom to the top wall",
-                     "one (check gap_max and area_min)");
+                     "at least one such path (check gap_max and area_min)");
   }
 }
 

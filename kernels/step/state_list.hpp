@@ -70,7 +70,7 @@ class StateList {
       const auto array = std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == e.name; });
       if (array == arrays.end()) throw RunError("state: array " + e.name + ": found none");
       if (const std::size_t expected = e.missing(array->values); expected > 0) {
-        throw RunError("state: array " + e.name + ": found one of another length or precision, expected " +
+        throw RunError("state: array " + e.name + ": found an array of another length or precision, expected " +
                        std::to_string(expected) + " numbers");
       }
       found.push_back(&*array);

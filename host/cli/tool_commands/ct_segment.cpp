@@ -52,7 +52,7 @@ void segment(CtSegmentArguments arguments) {
       std::count_if(out.grains.begin(), out.grains.end(), [](const auto& grain) { return grain.border; });
   line.clear();
   const ScanCorrections& c = out.corrections;
-  say("corrections of grey values, in % of the contrast: slices {:.1f} %, rings {:.1f} %, hardening {:.1f} %\n",
+  say("corrections of grey values, in % of the contrast: slices {:.1f} %, rings {:.1f} %, beam hardening {:.1f} %\n",
       100 * c.slices, 100 * c.rings, 100 * c.hardening);
   say("air voids {:.2f} %, mastic {:.2f} %, aggregate {:.2f} % of the specimen; mean confidence {:.3f}\n",
       100 * out.air_voids, 100 * out.mastic, 100 * out.aggregate, out.confidence_mean);

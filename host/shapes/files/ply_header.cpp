@@ -38,7 +38,7 @@ PlyProperty property_line(Words& words) {
   }
   property.type = type_of(property.count ? words.in_line() : first, words);
   property.name = words.in_line();
-  if (property.name.empty()) words.fail("property", "no name", "one");
+  if (property.name.empty()) words.fail("property", "no name", "a name");
   return property;
 }
 

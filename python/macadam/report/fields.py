@@ -57,7 +57,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             )
             page.figure(made, words, f"{kind} of {file.name}", third=True, raster=True)
     for f, _ in found[MOST:]:
-        page.leave_out(f.label, "pictures of the fields", f"those of {MOST} folders are shown")
+        page.leave_out(f.label, "pictures of the fields", f"only the pictures of {MOST} folders are shown")
 
 
 def cannot_draw() -> str:

@@ -33,7 +33,7 @@ def add(page: Page, folders: list[Folder]) -> None:
         if folder.specimen is None:
             page.leave_out(folder.label, "pictures of the specimen", "no specimen.csv in the folder")
         elif len(drawn) == MOST:
-            page.leave_out(folder.label, "pictures of the specimen", f"those of {MOST} folders are shown")
+            page.leave_out(folder.label, "pictures of the specimen", f"only the pictures of {MOST} folders are shown")
         else:
             drawn.append(folder)
     if not drawn:

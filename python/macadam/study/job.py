@@ -115,7 +115,8 @@ def message_of(code: int, said: str) -> str:
     text = "\n".join([error] * (error not in kept) + kept)
     if code < 0:
         text = (
-            f"macadam: killed by signal {-code} ({signal.Signals(-code).name}) {KILLS + 1} times; memory may have ended\n{text}"
+            f"macadam: killed by signal {-code} ({signal.Signals(-code).name}) {KILLS + 1} times; the machine may have run "
+            f"out of memory\n{text}"
         )
     return text.strip() or f"exit code {code} without a message"
 

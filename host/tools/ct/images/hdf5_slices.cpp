@@ -26,7 +26,8 @@ VoxelType type_of(const H5::DataSet& set, const std::string& file) {
   const std::size_t bytes = set.getDataType().getSize();
   if (set.getTypeClass() == H5T_FLOAT) return bytes > 4 ? VoxelType::f64 : VoxelType::f32;
   if (set.getTypeClass() != H5T_INTEGER || bytes > 8)
-    throw InputError(file, 0, "type of the voxels", "a type that is not a number", "8, 16 or 32 bits, or float");
+    throw InputError(file, 0, "type of the voxels", "a type that is not a number",
+                     "integers of 8, 16 or 32 bits, or floats");
   const bool sign = set.getIntType().getSign() != H5T_SGN_NONE;
   const int power = bytes == 1 ? 0 : bytes == 2 ? 1 : bytes <= 4 ? 2 : 3;
   return static_cast<VoxelType>(2 * power + sign);

@@ -36,7 +36,7 @@ std::optional<std::string> HeaderLines::next() {
   in_.getline(buffer_.data(), static_cast<std::streamsize>(longest));
   const auto read = static_cast<std::size_t>(in_.gcount());
   ++number_;
-  if (!in_ && read + 1 == longest) refuse(fmt::format("a line of {} bytes or more", longest - 1), "a shorter one");
+  if (!in_ && read + 1 == longest) refuse(fmt::format("a line of {} bytes or more", longest - 1), "a shorter line");
   if (!in_) return {};
   std::string line(buffer_.data(), read - (in_.eof() ? 0 : 1));
   if (line.ends_with('\r')) line.pop_back();

@@ -192,7 +192,8 @@ VoxelType type_of(const itk::ImageIOBase& io) {
     case Type::DOUBLE:
       return VoxelType::f64;
     default:
-      throw InputError(io.GetFileName(), 0, "type of the voxels", "an unknown type", "8, 16 or 32 bits, or float");
+      throw InputError(io.GetFileName(), 0, "type of the voxels", "an unknown type",
+                       "integers of 8, 16 or 32 bits, or floats");
   }
 }
 
