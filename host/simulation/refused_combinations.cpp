@@ -27,7 +27,7 @@ void require_combination(const Scene& scene) {
   }
   if (scene.solver.method == SolverMethod::explicit_ && !temperatures_of(scene.experiment).empty()) {
     throw InputError(scene.file.string(), 0, "temperatures in [loading]",
-                     fmt::format("{} temperatures with method \"explicit\"", temperatures_of(scene.experiment).size()),
+                     fmt::format("{} temperature(s) with method \"explicit\"", temperatures_of(scene.experiment).size()),
                      "method \"harmonic\", or a single temperature as temperature in [materials]");
   }
   if (scene.output.fields.any() && !has_fields(scene)) {

@@ -142,7 +142,7 @@ TEST_F(Temperature, WhatMeansNothingIsRefused) {
   scene(wlf, "", "temperatures = [20]\n", "20", "explicit");
   const Outcome stepped = run_quick("stepped");
   EXPECT_EQ(stepped.code, 2);
-  EXPECT_HAS(stepped.err, "temperatures in [loading]: found 1 temperatures with method \"explicit\"");
+  EXPECT_HAS(stepped.err, "temperatures in [loading]: found 1 temperature(s) with method \"explicit\"");
 }
 
 }  // namespace
