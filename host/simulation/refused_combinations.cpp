@@ -26,9 +26,10 @@ void require_combination(const Scene& scene) {
                      "false, or method \"harmonic\"");
   }
   if (scene.solver.method == SolverMethod::explicit_ && !temperatures_of(scene.experiment).empty()) {
-    throw InputError(scene.file.string(), 0, "temperatures in [loading]",
-                     fmt::format("{} temperature(s) with method \"explicit\"", temperatures_of(scene.experiment).size()),
-                     "method \"harmonic\", or a single temperature as temperature in [materials]");
+    throw InputError(
+        scene.file.string(), 0, "temperatures in [loading]",
+        fmt::format("{} temperature(s) with method \"explicit\"", temperatures_of(scene.experiment).size()),
+        "method \"harmonic\", or a single temperature as temperature in [materials]");
   }
   if (scene.output.fields.any() && !has_fields(scene)) {
     throw InputError(scene.file.string(), 0, "fields in [output]",
