@@ -10,7 +10,7 @@
 
 namespace macadam::scene {
 
-/// A unit: `factor` times 10^`exponent` of the SI unit.
+/// A unit that equals `factor`·10^`exponent` SI units.
 struct Unit {
   std::string_view name;
   int exponent, factor = 1;
@@ -33,7 +33,7 @@ extern const Quantity rate;                    ///< [1/s]
 extern const Quantity temperature;             ///< [°C]
 extern const Quantity temperature_difference;  ///< [K]
 extern const Quantity molar_energy;            ///< [J/mol]
-extern const Quantity ratio;                   ///< [1]; a text is a percentage
+extern const Quantity ratio;                   ///< [1]; text must be a percentage
 
 /// Describes, for messages, how a value of this quantity may be written: `a number in Pa, or text with one of: Pa, kPa,
 /// …`.

@@ -24,7 +24,7 @@ void remove_empty(const std::vector<fs::path>& folders) {
   }
 }
 
-/// Whether an open folder is still the one at this path.
+/// Returns whether an open folder is still the folder at this path.
 bool is_same(int file, const fs::path& path) {
   struct stat open {
   }, named{};

@@ -61,7 +61,7 @@ std::vector<Key> keys_of(L& law) {
   return out;
 }
 
-/// \throws InputError if the values of a law, each valid by itself, do not fit together.
+/// Checks that the values of a law, each of which is valid by itself, fit together. \throws InputError if they do not.
 template <class L>
 void check(const L& law, const Section& section) {
   if constexpr (requires { law.fault(); }) {
@@ -94,7 +94,7 @@ Law law_named_in(const Section& section) {
 
 /// Returns the keys that decide which facets between two particles become contacts.
 std::vector<Key> keys_of(FacetLimits& limits) {
-  // The gap d − R_a − R_b in units of the mean radius is d/mean − 2.
+  // The gap is d − R_a − R_b. Divided by the mean radius it is d/mean − 2, and d is positive.
   constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, where centres coincide"};
   return {{"gap_max", Need::optional, into(limits.gap_max, ratio, gap),
            "largest gap between two particles in contact, in units of their mean radius", "every facet is a contact"},

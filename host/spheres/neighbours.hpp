@@ -35,9 +35,9 @@ class Neighbours {
 
   /// Makes all lists for the present centres.
   void rebuild();
-  /// Updates the lists after some spheres have moved by more than half of the skin; `strayed` has
-  /// their indices in ascending order. If these are many, makes all lists again. Other spheres may have moved too,
-  /// but by less than half of the skin.
+  /// Updates the lists after some spheres have moved by more than half of the skin; `strayed` has their indices in
+  /// ascending order. If many spheres have strayed, makes all lists again. Other spheres may have moved too, but by
+  /// less than half of the skin.
   void relist(std::span<const std::int32_t> strayed);
 
   /// Returns the indices of the neighbours of a sphere.
@@ -47,7 +47,8 @@ class Neighbours {
   }
 
  private:
-  /// The list of one sphere: a range in the memory of a block of spheres.
+  /// Where the list of neighbours of one sphere is stored: a range of list_[block], the array that holds the lists of a
+  /// block of consecutive spheres.
   struct Row {
     std::uint32_t block, begin, size, room;  ///< `room` is the capacity
   };
@@ -69,9 +70,10 @@ class Neighbours {
   std::span<const Ball> spheres_;
   double skin_, far2_;  ///< [m], [m²]
   std::size_t first_;
-  SphereGrid still_;  ///< spheres that do not move, in cells that list those near enough to a moving sphere
+  SphereGrid
+      still_;  ///< spheres that do not move; a cell lists those that may be neighbours of a moving sphere in the cell
   std::vector<SphereBins> moving_;            ///< moving spheres, in groups of similar size, at their listed positions
-  std::vector<std::int32_t> number_, place_;  ///< number of each index, and index of each number
+  std::vector<std::int32_t> number_, place_;  ///< number of the sphere at each index, and its inverse
   std::vector<std::uint8_t> bins_of_;         ///< for each sphere with a list: its group in moving_
   /// Centre of each sphere when it was listed last.
   std::vector<Vec3d> listed_at_;

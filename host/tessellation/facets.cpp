@@ -56,8 +56,8 @@ class FacetMaker {
       for (const std::int32_t b : diagram_.tetrahedra[*t].site)
         if (b >= 0 && b != a) neighbours_.push_back({b, *t});
     }
-    // Keeps one tetrahedron per neighbour, the one with the lowest number, so that the result does not depend on their
-    // order.
+    // Keeps one tetrahedron per neighbour, the one with the lowest number, so that the result does not depend on the
+    // order of the tetrahedra.
     std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& p, const Neighbour& q) {
       return p.particle != q.particle ? p.particle < q.particle : p.tetrahedron < q.tetrahedron;
     });
@@ -84,13 +84,14 @@ class FacetMaker {
         fmt::format("{}", distance), fmt::format("more than {} of the smaller radius", smallest_distance));
   }
 
-  /// Sets polygon_ to the dual points of the tetrahedra around the edge (a, b), in cyclic order. Returns the walls (as
-  /// bits) that some of these points are beyond.
+  /// Sets polygon_ to the dual points of the tetrahedra around the edge (a, b), in cyclic order. Returns, as bits, the
+  /// walls beyond which at least one of these points lies.
   unsigned circulate(std::int32_t a, const Neighbour& b) {
     polygon_.clear();
     unsigned some = 0;
     std::int32_t t = b.tetrahedron;
-    // The next tetrahedron is across the face opposite to site `leave`; site `keep` stays.
+    // Indices of the two corners that are not on the edge. The next tetrahedron is across the face opposite to corner
+    // `leave`; corner `keep` also belongs to the next tetrahedron.
     std::int32_t leave = -1, keep = -1;
     for (int k = 0; k < 4; ++k) {
       const std::int32_t site = diagram_.tetrahedra[t].site[k];
@@ -180,7 +181,7 @@ class FacetMaker {
   std::vector<Neighbour> neighbours_;
 };
 
-/// Returns, for each dual point, the walls (bits 0…5) that it is on or beyond, within rounding.
+/// Returns, for each dual point, the walls (as bits 0…5) on which or beyond which it lies, up to rounding.
 std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d& box) {
   const double rounding = rounding_bound(box);
   std::vector<std::uint8_t> beyond(diagram.dual.size(), 0);

@@ -19,7 +19,7 @@ class Words {
   /// skipped; 0 means that the text has no comments.
   explicit Words(const SurfaceFile& file, char comment = 0, std::size_t from = 0, int line = 1);
 
-  /// From now on in_line() continues with the next line after a line whose last character is `sign`.
+  /// Makes in_line() continue with the next line after a line whose last character is `sign`.
   void continue_lines_after(char sign) { continuation_ = sign; }
 
   /// Goes to the next line with words. Returns false at the end of the text.

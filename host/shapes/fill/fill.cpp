@@ -18,10 +18,11 @@ namespace macadam {
 namespace {
 
 constexpr std::uint64_t radius_stream = 0, position_stream = 1;
-constexpr int attempts = 200;            // random points per sphere
-constexpr int most_rounds = 10;          // relaxations, each after spheres without a cell got new positions
-constexpr double most_spheres = 1e5;     // more is taken for an input error: all aggregates of a specimen have fewer
-constexpr double least_porosity = -0.5;  // below, spheres would overlap too much to have cells
+constexpr int attempts = 200;    // random points per sphere
+constexpr int most_rounds = 10;  // relaxations; before each further one, the spheres without a cell get new positions
+constexpr double most_spheres =
+    1e5;  // more is reported as an input error, because even all aggregates of a specimen together have fewer
+constexpr double least_porosity = -0.5;  // below this value, spheres would overlap too much to have cells
 
 void require(bool good, const std::string& name, const char* what, double found, const char* expected) {
   if (!good) throw InputError(name, 0, std::string("fill: ") + what, shown(found), expected);

@@ -50,10 +50,10 @@ class Pairs {
   }
 
   /// Returns the longest segment between two points of the spheres' surfaces whose direction lies in a subspace. For
-  /// spheres a and b, with d = b − a = p + q, p in the subspace and q perpendicular to it, its length is |p| + √((Ra +
-  /// Rb)² − q²): the end points are displaced from their centres by q, divided in the ratio Ra : Rb, so that both
-  /// circles have the same slope there. If the subspace is the whole space, the length is |d| + Ra + Rb. `project`
-  /// returns p for d; `along` receives p of the longest segment.
+  /// spheres with centres a and b, d = b − a is the sum of p in the subspace and q perpendicular to the subspace. The
+  /// segment has the length |p| + √((Ra + Rb)² − q²). Its end points are displaced from the two centres along q, and
+  /// the ratio of the displacements is Ra : Rb, because this ratio makes the segment longest. If the subspace is the
+  /// whole space, the length is |d| + Ra + Rb. `project` returns p for d; `along` receives p of the longest segment.
   template <class Project>
   double longest(const Project& project, Vec3d& along) const {
     double best = 0;
@@ -112,8 +112,8 @@ double largest_overlap(const MultiSphere& cluster) {
   return largest;
 }
 
-/// Measures distances from the surface to the nearest sphere, at the points of the surface and at the centroids of the
-/// k² equal parts of each facet.
+/// Measures distances from the surface to the nearest sphere, at the points of the surface and at the centroids of
+/// equal parts into which each facet is divided. A facet has the more parts the larger it is.
 void measure_deviation(const Surface& surface, const MultiSphere& cluster, FillReport& report) {
   const auto deviation = [&](const Vec3d& point) {
     double nearest = std::numeric_limits<double>::infinity();

@@ -30,7 +30,7 @@ class EdgeGap {
  public:
   explicit EdgeGap(double rounding) : rounding_(rounding) {}
 
-  /// Considers one pair of edges: their crossing, and the ends of each on the other.
+  /// Compares the heights of two edges where they cross, and where an end of one edge lies on the other edge.
   void offer(const Segment& a, const Segment& b) {
     if (a.y_low() > b.y_high() + rounding_ || b.y_low() > a.y_high() + rounding_) return;
     if (std::max(a.z_high() - b.z_low(), b.z_high() - a.z_low()) <= largest_) return;
@@ -102,7 +102,8 @@ double largest_gap_over_facets(const std::vector<Vec3d>& points, const std::vect
     const double both = turn(e1, e2), s = turn(r, e2) / both, t = turn(e1, r) / both;
     if (!(s >= 0 && t >= 0 && s + t <= 1)) return;
     const Vec3d apart =
-        s * e1 + t * e2 - r;  // in a facet that is vertical, s and t are noise, but its edges were compared before
+        s * e1 + t * e2 -
+        r;  // in a vertical facet, s and t are meaningless; its edges are compared by largest_gap_of_edges()
     if (flat_dot(apart, apart) <= rounding * rounding) largest = std::max(largest, std::abs(apart.z));
   });
   return largest;
