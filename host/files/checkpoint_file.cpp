@@ -48,8 +48,8 @@ std::string file_of(const Checkpoint& checkpoint) {
   for (const StateArray& array : checkpoint.arrays) {
     bytes_of_state += std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, array.values);
   }
-  require_memory_for_hdf5(3 * bytes_of_state +
-                          growth);  // the file, the memory for its growth, and the copy that is returned
+  // The memory is for the file, for its growth, and for the copy that is returned.
+  require_memory_for_hdf5(3 * bytes_of_state + growth);
   H5::H5File out("in memory", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory());
   const H5::Group texts = out.createGroup("texts"), arrays = out.createGroup("arrays");
   for (const auto& [name, text] : checkpoint.texts) {

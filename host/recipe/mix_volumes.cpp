@@ -100,8 +100,9 @@ MixVolumes volumes_of(const MixDesign& design) {
       fine += p;
       continue;
     }
-    coarse +=
-        p;  // volumes of classes are [m³] per 1 kg of mix here; further down they are converted to fractions of the box
+    coarse += p;
+    // The volumes of the classes are in m³ per 1 kg of mix here. Further down they are converted to fractions of the
+    // box.
     out.classes.push_back({curve[k + 1].size, curve[k].size, p.mass, p.volume, p.mass / p.volume, curve[k + 1].line});
   }
   const Portion filler =
@@ -154,7 +155,8 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
         fmt::format("voids of {} of the box, and {} of air voids in the mix", in_percent(of_voids),
                     in_percent(volumes.air_voids)),
         "at most this fraction in [specimen.voids]");
-  // The air that is not in voids with their own cells, as a fraction of the volume outside of these voids.
+  // The mastic's porosity is the air that is not in voids with their own cells. It is given as a fraction of the volume
+  // outside of these voids.
   spec.mastic->porosity = (volumes.air_voids - of_voids) / (1 - of_voids);
   for (const MixClass& c : volumes.classes) {
     AggregateClass& out = spec.aggregate.emplace_back();

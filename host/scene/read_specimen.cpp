@@ -96,8 +96,8 @@ VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
 /// Refuses mixtures that cannot be made, whichever sizes are sampled. The bounds assume the smallest aggregates for
 /// volumes and the largest particles for numbers of particles.
 void require_possible(const Section& section, const SpecimenSpec& spec) {
-  double fractions = 0, counted = 0,
-         counted_most = 0;  // `counted`, `counted_most`: least and greatest volume of the classes given by count
+  // `counted` and `counted_most` are the least and the greatest volume of the classes given by count.
+  double fractions = 0, counted = 0, counted_most = 0;
   std::int64_t count = 0;
   for (const AggregateClass& c : spec.aggregate) {
     fractions += c.volume_fraction.value_or(0);

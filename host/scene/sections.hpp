@@ -45,7 +45,9 @@ std::vector<Key> keys_of(FacetLimits& limits);
 /// facets of a pair in `network`. \throws InputError
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network);
 
-/// Return the keys of `[output]` that ask for fields, and check that their values fit together. \throws InputError @{
+/// Return the keys of `[output]` that ask for fields, and check that their values fit together.
+/// \throws InputError
+/// @{
 std::vector<Key> keys_of(FieldSpec& spec);
 void check_fields(const Section& section, const FieldSpec& spec);
 /// @}

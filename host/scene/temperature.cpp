@@ -73,7 +73,7 @@ void apply_temperature(Scene& scene, const Section& root) {
   }
   if (const std::optional<double> temperature = scene.materials.temperature) {
     // laws_at() assumes that the laws are at the scene's temperature, but they are still at their reference
-    // temperatures. So the scene has no temperature during the call.
+    // temperatures. So the scene's temperature is removed for the call.
     scene.materials.temperature.reset();
     scene.laws = check("materials", "temperature", *temperature);
     scene.materials.temperature = temperature;

@@ -17,14 +17,15 @@ namespace {
 constexpr std::int32_t part = 1 << 28;
 // Largest number of size groups. The radii in a group differ by at most a factor of two.
 constexpr int most_levels = 40;
-constexpr std::size_t block =
-    64;  // number of consecutive spheres whose lists are in one array and are made by one thread
+// Number of consecutive spheres whose lists are in one array and are made by one thread.
+constexpr std::size_t block = 64;
 // Lists up to this length are sorted by counting the smaller keys, which is faster.
 constexpr std::size_t ranked_up_to = 64;
-constexpr std::size_t few = 24;  // all lists are made again when more than the fraction 1/few of the spheres have moved
-                                 // by more than half of the skin
-constexpr std::size_t worth_waking = 16;  // number of strayed spheres from which several threads are faster than one
-constexpr std::uint32_t spare = 2;        // capacity in a list for spheres that come near later
+// All lists are made again when more than the fraction 1/few of the spheres have moved by more than half of the skin.
+constexpr std::size_t few = 24;
+// Number of strayed spheres (which have moved by more than half of the skin) from which several threads are faster.
+constexpr std::size_t worth_waking = 16;
+constexpr std::uint32_t spare = 2;  // capacity in a list for spheres that come near later
 
 double largest(std::span<const Ball> spheres) {
   double r = 0;
@@ -118,8 +119,8 @@ void Neighbours::find(std::int32_t i, const SphereBins& bins, Buffer& buffer) co
             [&, centre = centre, radius = radius](std::uint32_t first, std::uint32_t last) {
               if (buffer.slot.size() < found + (last - first)) buffer.slot.resize(2 * (found + (last - first)));
               std::uint32_t* next = buffer.slot.data() + found;
-              for (std::uint32_t k = first; k < last;
-                   ++k) {  // has no branch, because the processor could not predict it
+              // The loop has no branch, because the processor could not predict it.
+              for (std::uint32_t k = first; k < last; ++k) {
                 const Ball& other = bins.ball(k);
                 const Vec3d d = other.centre - centre;
                 const double range = radius + other.radius + skin_;

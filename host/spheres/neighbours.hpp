@@ -47,7 +47,7 @@ class Neighbours {
   }
 
  private:
-  /// Where the list of neighbours of one sphere is stored: a range of list_[block], the array that holds the lists of a
+  /// Location of the list of neighbours of one sphere: a range of list_[block], the array that holds the lists of a
   /// block of consecutive spheres.
   struct Row {
     std::uint32_t block, begin, size, room;  ///< `room` is the capacity
@@ -70,11 +70,12 @@ class Neighbours {
   std::span<const Ball> spheres_;
   double skin_, far2_;  ///< [m], [m²]
   std::size_t first_;
-  SphereGrid
-      still_;  ///< spheres that do not move; a cell lists those that may be neighbours of a moving sphere in the cell
-  std::vector<SphereBins> moving_;            ///< moving spheres, in groups of similar size, at their listed positions
-  std::vector<std::int32_t> number_, place_;  ///< number of the sphere at each index, and its inverse
-  std::vector<std::uint8_t> bins_of_;         ///< for each sphere with a list: its group in moving_
+  /// Spheres that do not move. Each cell lists those that may be neighbours of a moving sphere in the cell.
+  SphereGrid still_;
+  std::vector<SphereBins> moving_;  ///< moving spheres, in groups of similar size, at their listed positions
+  /// Number of the sphere at each index, and index of the sphere with each number.
+  std::vector<std::int32_t> number_, place_;
+  std::vector<std::uint8_t> bins_of_;  ///< for each sphere with a list: its group in moving_
   /// Centre of each sphere when it was listed last.
   std::vector<Vec3d> listed_at_;
   /// Memory of the lists; each entry belongs to a block of consecutive spheres.

@@ -182,7 +182,8 @@ class Relaxation {
     // Pairs with spheres below this index have the stiffness of aggregates.
     const auto stiff = static_cast<std::int32_t>(is_aggregate(i) ? first_mastic_ : 0);
     std::size_t n = 0;
-    for (const std::int32_t j : near) {  // has no branch, because the processor could not predict it
+    // The loop has no branch, because the processor could not predict it.
+    for (const std::int32_t j : near) {
       const Vec3d d = c - ball_[j].centre;
       const double d2 = dot(d, d), touch = r + ball_[j].radius;
       number[n] = j;

@@ -53,7 +53,7 @@ void SphereBins::sort(std::span<const Ball> spheres) {
     ++start_[cell_[k]];
   }
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];  // start_[c] is now the end of cell c
-  for (std::size_t k = given_.size(); k-- > 0;) {  // filling backwards turns start_[c] into the beginning
+  for (std::size_t k = given_.size(); k-- > 0;) {  // filling backwards turns start_[c] into the beginning of cell c
     const std::uint32_t slot = slot_of_[k] = --start_[cell_[k]];
     id_[slot] = given_[k];
     ball_[slot] = spheres[given_[k]];

@@ -181,7 +181,7 @@ class FacetMaker {
   std::vector<Neighbour> neighbours_;
 };
 
-/// Returns, for each dual point, the walls (as bits 0…5) on which or beyond which it lies, up to rounding.
+/// Returns, for each dual point, the walls (as bits 0…5) that the point touches or lies beyond, up to rounding.
 std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d& box) {
   const double rounding = rounding_bound(box);
   std::vector<std::uint8_t> beyond(diagram.dual.size(), 0);

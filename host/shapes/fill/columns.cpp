@@ -9,8 +9,8 @@
 namespace macadam {
 namespace {
 
-constexpr double columns_along =
-    400;  // columns along the longer side; the volumes of a cube and a sphere are then accurate to about 1e-5
+/// Number of columns along the longer side. The volumes of a cube and a sphere are then accurate to about 1e-5.
+constexpr double columns_along = 400;
 
 /// Returns the length of the part of the column that lies in at least one body.
 double length(Column& column) {

@@ -18,10 +18,11 @@ namespace macadam {
 namespace {
 
 constexpr std::uint64_t radius_stream = 0, position_stream = 1;
-constexpr int attempts = 200;    // random points per sphere
-constexpr int most_rounds = 10;  // relaxations; before each further one, the spheres without a cell get new positions
-constexpr double most_spheres =
-    1e5;  // more is reported as an input error, because even all aggregates of a specimen together have fewer
+constexpr int attempts = 200;  // random points per sphere
+// Largest number of relaxations. Before each further relaxation, the spheres without a cell get new positions.
+constexpr int most_rounds = 10;
+// More spheres are reported as an input error. Even all aggregates of a specimen together have fewer.
+constexpr double most_spheres = 1e5;
 constexpr double least_porosity = -0.5;  // below this value, spheres would overlap too much to have cells
 
 void require(bool good, const std::string& name, const char* what, double found, const char* expected) {

@@ -113,7 +113,7 @@ double largest_overlap(const MultiSphere& cluster) {
 }
 
 /// Measures distances from the surface to the nearest sphere, at the points of the surface and at the centroids of
-/// equal parts into which each facet is divided. A facet has the more parts the larger it is.
+/// equal parts into which each facet is divided. Larger facets have more parts.
 void measure_deviation(const Surface& surface, const MultiSphere& cluster, FillReport& report) {
   const auto deviation = [&](const Vec3d& point) {
     double nearest = std::numeric_limits<double>::infinity();

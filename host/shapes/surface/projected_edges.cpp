@@ -101,9 +101,8 @@ double largest_gap_over_facets(const std::vector<Vec3d>& points, const std::vect
     const Vec3d &o = points[a], e1 = points[b] - o, e2 = points[c] - o, r = points[point] - o;
     const double both = turn(e1, e2), s = turn(r, e2) / both, t = turn(e1, r) / both;
     if (!(s >= 0 && t >= 0 && s + t <= 1)) return;
-    const Vec3d apart =
-        s * e1 + t * e2 -
-        r;  // in a vertical facet, s and t are meaningless; its edges are compared by largest_gap_of_edges()
+    // In a vertical facet s and t are meaningless. The edges of such a facet are compared by largest_gap_of_edges().
+    const Vec3d apart = s * e1 + t * e2 - r;
     if (flat_dot(apart, apart) <= rounding * rounding) largest = std::max(largest, std::abs(apart.z));
   });
   return largest;

@@ -210,8 +210,8 @@ class Repair {
     return solid;
   }
 
-  /// Drops specks, which are pieces with a small area beside the largest piece. If there are two or more larger pieces,
-  /// keeps everything, because the program cannot choose between them.
+  /// Drops specks, which are pieces whose area is small compared with the area of the largest piece. If there are two
+  /// or more larger pieces, keeps everything, because the program cannot choose between them.
   Surface without_specks(const Surface& surface) {
     const SurfacePieces pieces(surface);
     constexpr double speck = 0.05;  // fraction of the area of the largest piece
