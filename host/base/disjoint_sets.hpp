@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file disjoint_sets.hpp  Groups numbered things into connected sets (union–find).
+/// \file disjoint_sets.hpp  Groups numbered items into connected sets (union–find).
 #pragma once
 
 #include <cstddef>

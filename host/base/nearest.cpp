@@ -45,7 +45,8 @@ std::string_view bare(std::string_view word) {
   return word;
 }
 
-/// Returns the known word that begins with `word`, ignoring the hyphens of options, if there is exactly one.
+/// Returns the known word that begins with `word` if there is exactly one, otherwise nothing. The leading hyphens of
+/// options are ignored.
 std::optional<std::string> only_with_beginning(std::string_view word, const std::vector<std::string>& known) {
   const auto begins = [word = bare(word)](const std::string& k) { return !word.empty() && bare(k).starts_with(word); };
   if (std::count_if(known.begin(), known.end(), begins) != 1) return {};

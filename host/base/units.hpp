@@ -39,8 +39,8 @@ extern const Quantity ratio;                   ///< [1]; text must be a percenta
 /// …`.
 std::string accepted(const Quantity& quantity);
 
-/// Returns the SI value of `text`, a decimal number followed by a unit of the quantity; empty if it is anything else.
-/// The power of ten is applied to the decimal text, so that "9.5 mm" is the same double as 0.0095.
+/// Returns the SI value of `text`, a decimal number followed by a unit of the quantity; empty if the text is anything
+/// else. The power of ten is applied to the decimal text, so that "9.5 mm" is the same double as 0.0095.
 std::optional<double> parse(std::string_view text, const Quantity& quantity);
 
 }  // namespace macadam::scene

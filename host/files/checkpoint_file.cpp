@@ -34,8 +34,8 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-/// Returns settings for HDF5's "core" driver, which keeps one file in memory. HDF5 then never meets a full disk, an
-/// error that it does not survive.
+/// Returns settings for HDF5's "core" driver, which keeps one file in memory. HDF5 itself then never writes to a disk
+/// that may be full. It does not survive that error.
 H5::FileAccPropList in_memory() {
   H5::FileAccPropList access;
   access.setCore(growth, false);

@@ -67,7 +67,7 @@ ResultFolder::ResultFolder(const fs::path& folder) {
 }
 
 ResultFolder::~ResultFolder() {
-  remove_empty(made_);  // while the lock still keeps other commands out
+  remove_empty(made_);  // before the lock is released, so that no other command uses the folders
   ::close(file_);
 }
 

@@ -29,7 +29,7 @@ std::vector<KnownKey> known_keys();
 /// values.
 class Collector {
  public:
-  /// Thrown to leave the reader of a section once its keys are known, before it looks at their values.
+  /// Thrown to leave the reader of a section once its keys are known, before the reader looks at their values.
   struct Done {};
 
   /// Adds one key. If the key is a section, calls `enter`, which reads the keys of the section, once for every value

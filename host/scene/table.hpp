@@ -90,8 +90,8 @@ enum class Need : std::uint8_t { optional, required };
 /// Description of a value, for people. A member that does not apply is empty.
 struct Words {
   std::string type = {};                  ///< "number", "list of numbers", "text", "section", …
-  const Quantity* quantity = nullptr;     ///< of a number: its units
-  std::string rule = {};                  ///< condition that it must satisfy
+  const Quantity* quantity = nullptr;     ///< units of a number; null for other values
+  std::string rule = {};                  ///< condition that the value must satisfy
   std::string usual = {};                 ///< default, as a scene would write it
   std::vector<std::string> choices = {};  ///< allowed texts
   bool operator==(const Words&) const = default;

@@ -13,13 +13,14 @@
 namespace macadam {
 namespace {
 
-// Sort keys are sphere number + part of the list · 2^28; sphere numbers are below most_particles and fit in 28 bits.
+// A sort key is the sphere number plus 2^28 times the number of the part of the list (0, 1 or 2). Sphere numbers are
+// below most_particles and fit in 28 bits.
 constexpr std::int32_t part = 1 << 28;
 // Largest number of size groups. The radii in a group differ by at most a factor of two.
 constexpr int most_levels = 40;
 // Number of consecutive spheres whose lists are in one array and are made by one thread.
 constexpr std::size_t block = 64;
-// Lists up to this length are sorted by counting the smaller keys, which is faster.
+// Lists up to this length are sorted by counting the smaller keys for each key, which is faster.
 constexpr std::size_t ranked_up_to = 64;
 // All lists are made again when more than the fraction 1/few of the spheres have moved by more than half of the skin.
 constexpr std::size_t few = 24;

@@ -17,7 +17,7 @@ struct Ball {
   double radius;
 };
 
-/// Returns the spheres of a specimen in its order.
+/// Returns the spheres of a specimen in the order of the specimen.
 std::vector<Ball> balls_of(const Specimen& specimen);
 
 /// A grid over the box in which each sphere belongs to the cell of its centre. The spheres of a row of cells along x

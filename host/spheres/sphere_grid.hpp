@@ -28,7 +28,8 @@ class SphereGrid {
 
   std::size_t cells() const { return list_.size(); }
 
-  /// Number of layers (cells with equal z), and the number of the first cell of a layer.
+  /// layers() returns the number of layers (cells with equal z). layer_begin() returns the number of the first cell of
+  /// a layer.
   std::size_t layers() const { return static_cast<std::size_t>(nz_); }
   std::size_t layer_begin(std::size_t layer) const { return layer * static_cast<std::size_t>(nx_ * ny_); }
 

@@ -66,7 +66,7 @@ class Cutter {
     std::sort(sides.begin(), sides.end(), [this](const Side& p, const Side& q) { return tilt(p) > tilt(q); });
     for (const Side& side : sides) {
       if (contains_polygon(side)) {
-        // a facet in the section plane is given to the cell above it
+        // If a facet lies in the section plane, only the cell above the facet gets a polygon.
         if (side.sign * side.normal.*plane_.coordinate > 0) polygon_.clear();
       } else {
         clip(

@@ -73,7 +73,7 @@ class FacetMaker {
   }
 
  private:
-  /// \throws InputError if the centres of two particles nearly coincide.
+  /// Checks that the centres of two particles are far enough apart. \throws InputError if they nearly coincide.
   void require_apart(std::int32_t a, std::int32_t b) const {
     const double distance = norm(specimen_.centre[b] - specimen_.centre[a]);
     const double least = smallest_distance * std::min(specimen_.radius[a], specimen_.radius[b]);
@@ -151,9 +151,9 @@ class FacetMaker {
   }
 
   /// Simplifies polygon_ and stores it as one facet. Returns false if it has no area. Lengths below 1e-10 of `scale`,
-  /// the distance of the centres, count as rounding of the input. Lattices written in decimals have such short edges,
-  /// slivers, split facets, and vertices in the middle of an edge; the contact points of a facet must not depend on
-  /// them.
+  /// the distance of the centres, count as rounding of the input. If the coordinates of a lattice are written as
+  /// decimals, its diagram has such short edges, slivers, split facets, and vertices in the middle of an edge. The
+  /// contact points of a facet must not depend on these.
   bool add(std::int32_t a, std::int32_t b, const Vec3d& normal, double scale) {
     const double tolerance = 1e-10 * scale + rounding_;
     merge_vertices(polygon_, tolerance);

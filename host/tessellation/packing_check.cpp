@@ -46,12 +46,12 @@ double filled_fraction(const Specimen& all, const Tessellation& tessellation) {
 /// The point of a cell that is farthest from the surface of the cell's sphere.
 struct Reach {
   double radii = 0;         ///< distance, divided by the largest radius of the particle and its neighbours
-  double distance = 0;      ///< from the sphere's surface [m]
+  double distance = 0;      ///< distance from the sphere's surface [m]
   std::int32_t cell = -1;   ///< particle or void; −1 if no cell exceeds both bounds
   std::int32_t other = -1;  ///< other side of the facet: a particle, a void or a Wall
   Vec3d point{};            ///< [m]
   Reach& operator+=(const Reach& o) {
-    if (o.radii > radii) *this = o;  // the first of equal ones
+    if (o.radii > radii) *this = o;  // if several are equal, the first is kept
     return *this;
   }
 };

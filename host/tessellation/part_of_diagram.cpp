@@ -13,7 +13,7 @@ namespace macadam {
 namespace {
 
 /// Particles within this many mean spacings around a part are inserted at the start. With a smaller margin more
-/// particles are missing at first; with a larger one more are inserted in vain.
+/// particles are missing at first; with a larger margin more particles are inserted needlessly.
 constexpr double first_margin = 2.5;
 
 /// The dual point of a tetrahedron, and an upper bound of its power with respect to the corners. The bound allows for
@@ -35,7 +35,8 @@ struct DualSphere {
   }
 };
 
-/// Returns the mean spacing of the particles' centres. Also works if they lie in one layer or one row.
+/// Returns the mean spacing of the particles' centres. The result is also correct if the particles lie in one layer or
+/// one row.
 double spacing_of(const SiteTree& tree) {
   const Vec3d edge = tree.bounds().high - tree.bounds().low;
   const auto n = static_cast<double>(tree.numbers().size());

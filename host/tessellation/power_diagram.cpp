@@ -105,8 +105,9 @@ class Joined {
 
   const WeightedSites& sites_;
   const Parts& parts_;
-  const std::vector<std::int32_t>& part_of_;  ///< for each particle
-  /// For each particle: range of the tetrahedra that belong to it, and next free index in it.
+  const std::vector<std::int32_t>& part_of_;  ///< part of each particle
+  /// For each particle: beginning of the range of tetrahedra that belong to the particle, and next free index in the
+  /// range.
   std::vector<std::int64_t> begin_, next_;
   PowerDiagram out_;
 };

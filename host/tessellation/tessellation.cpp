@@ -46,8 +46,9 @@ std::vector<double> measure_cells(const Specimen& specimen, Tessellation& out) {
   return surface;
 }
 
-/// Removes particles whose cells have no volume from `active`. Returns whether any of them had facets. Such a cell is a
-/// sheet between two other cells, or on a wall, that exists due to rounding only; 1e-10 is the tolerance of the facets.
+/// Removes particles whose cells have no volume from `active`. Returns whether any of them had facets. A cell with
+/// facets but without volume is a sheet between two other cells, or on a wall, which exists due to rounding only. The
+/// tolerance 1e-10 is the tolerance of the facets.
 bool retire_empty_cells(const Tessellation& tessellation, const std::vector<double>& surface,
                         std::vector<std::uint8_t>& active) {
   bool again = false;

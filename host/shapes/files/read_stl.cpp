@@ -41,7 +41,7 @@ SurfaceSoup read_binary(const SurfaceFile& file, std::size_t facets) {
   return soup;
 }
 
-/// Returns whether a word is `keyword` (given in lower case), whatever its case.
+/// Returns whether a word equals `keyword`, regardless of case. `keyword` is given in lower case.
 bool is_keyword(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
@@ -122,7 +122,7 @@ class AsciiStl {
   std::size_t corners_ = 0;
 };
 
-/// Returns whether the first word of the file is one that begins an ASCII file.
+/// Returns whether the file begins with a word with which ASCII files begin.
 bool begins_as_ascii(const SurfaceFile& file) {
   Words words(file);
   if (!words.next_line()) return false;

@@ -11,8 +11,9 @@
 
 namespace macadam {
 
-/// Walks through the text of a file by lines or by words. All lines are taken to end as the first line does: with a
-/// line feed, with carriage return and line feed, or with a carriage return alone. A UTF-8 byte order mark is skipped.
+/// Walks through the text of a file by lines or by words. The class assumes that all lines end as the first line does:
+/// with a line feed, with carriage return and line feed, or with a carriage return alone. A UTF-8 byte order mark is
+/// skipped.
 class Words {
  public:
   /// Starts at byte `from`, which is on line number `line`. The rest of a line after the character `comment` is
@@ -24,7 +25,7 @@ class Words {
 
   /// Goes to the next line with words. Returns false at the end of the text.
   bool next_line();
-  /// Returns the next word of this line, or an empty word at its end.
+  /// Returns the next word of this line, or an empty word at the end of the line.
   std::string_view in_line();
   /// Returns the next word of the text, on any line. \throws InputError at the end of the text, saying that `what` was
   /// expected.

@@ -105,7 +105,8 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
   const std::int64_t count = spheres(scale, spec);
   if (count < spec.least) return {{scale * measure_.centroid}, {scale * single_radius(spec.single)}};
 
-  // All lengths from here on are in the scale of the unscaled shape, whose distances are precomputed.
+  // All lengths from here on are in the scale of the unscaled shape, because the distances from its surface are
+  // precomputed.
   RandomStream radii(spec.seed, radius_stream), positions(spec.seed, position_stream);
   const double volume = (1 - spec.porosity) * measure_.volume * scale * scale * scale;
   const std::vector<double> diameter = draw_diameters(diameters(spec), count, volume, radii);
@@ -114,7 +115,7 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
     cluster.radius.push_back(d / (2 * scale));
     cluster.centre.push_back(position(cluster.radius.back(), positions));
   }
-  const double r = cluster.radius.front();  // the largest radius; with this margin no sphere is near a side of the box
+  const double r = cluster.radius.front();  // largest radius; with this margin no sphere is near a side of the box
   const Vec3d low = distance_.low() - Vec3d{r, r, r}, high = distance_.high() + Vec3d{r, r, r};
   Specimen boxed = in_box(cluster, low, high);
   const Enclosure wall{[&](const Vec3d& point, double reach) { return distance_.below(low + point, reach); }};

@@ -21,12 +21,12 @@ class ShapeFiller {
   /// sphere. \throws InputError for an invalid spec or scale.
   std::int64_t spheres(double scale, const FillSpec& spec) const;
 
-  /// Returns the radius of the single sphere that represents the unscaled shape by this rule [m].
+  /// Returns the radius of the single sphere by which this rule represents the unscaled shape [m].
   double single_radius(SingleSphere rule) const;
 
   const ShapeMeasure& measure() const { return measure_; }
 
-  /// Returns whether a point, in the frame and scale of the surface, lies inside it.
+  /// Returns whether a point, in the frame and scale of the surface, lies inside the surface.
   bool contains(const Vec3d& point) const {
     return distance_.may_contain(point) && distance_.below(point, 0).depth > 0;
   }

@@ -37,8 +37,8 @@ void check(const Surface& surface, const MultiSphere& cluster) {
   }
 }
 
-/// All pairs of spheres of a cluster, including each sphere with itself. Spheres are sorted by the distance that they
-/// reach from the middle, farthest first.
+/// All pairs of spheres of a cluster, including each sphere with itself. Spheres are sorted by the distance between the
+/// middle of the cluster and their farthest point, in descending order.
 class Pairs {
  public:
   explicit Pairs(const MultiSphere& cluster) : cluster_(cluster), reach_(cluster.size()), order_(cluster.size()) {
@@ -77,8 +77,8 @@ class Pairs {
   std::vector<std::size_t> order_;
 };
 
-/// Returns `v` as a unit vector. If `v` is zero (a single sphere, for which any direction will do), returns a unit
-/// vector perpendicular to `other`.
+/// Returns `v` as a unit vector. If `v` is zero, which happens for a single sphere, any direction is valid; then
+/// returns a unit vector perpendicular to `other`.
 Vec3d direction(const Vec3d& v, const Vec3d& other) {
   if (const double length = norm(v); length > 0) return (1 / length) * v;
   const Vec3d least = std::abs(other.x) <= std::min(std::abs(other.y), std::abs(other.z)) ? Vec3d{1, 0, 0}

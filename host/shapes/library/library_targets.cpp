@@ -41,7 +41,7 @@ const Quantiles sphericities{{0, 0.718}, {8, 0.79}, {41, 0.865}, {74, 0.92}, {82
 /// than 100 facets.
 const Quantiles points{{0, 24.5}, {9, 51}, {41, 145}, {70, 270}, {82, 411.5}};
 
-/// Returns the value below which this number of shapes (out of 82) lies.
+/// Returns the value below which `shapes` of the 82 shapes lie.
 double quantile(const Quantiles& knots, double shapes) {
   auto upper = std::next(knots.begin());
   while (std::next(upper) != knots.end() && upper->shapes <= shapes) ++upper;
@@ -85,8 +85,8 @@ constexpr Correlation correlations[] = {{"SI", "D^L", -0.24},    {"SI", "D^I", -
                                         {"psi^A", "D^L", -0.07}, {"psi^A", "D^I", -0.03}, {"psi^A", "D^S", 0.24},
                                         {"psi^A", "F", 0.76},    {"psi^A", "E", 0.33},    {"points", "D^I", 0.6}};
 
-/// Returns the statistics of Tables 1 and 2 of [1] that depend on the combination. The targets for the extremes lie 2 %
-/// outside the range of [1], so that the library covers that range.
+/// Returns the statistics of Tables 1 and 2 of [1] that depend on which values are combined in one shape. The targets
+/// for the extremes lie 2 % outside the range of [1], so that the library covers that range.
 std::vector<Wish> published_targets() {
   using enum Statistic;
   std::vector<Wish> wishes;

@@ -15,7 +15,8 @@
 namespace macadam {
 namespace {
 
-constexpr double grid = 1e9;  // coordinates are multiples of 1 nm: short in a file, and read back to the same bits
+// Coordinates are multiples of 1 nm, so that they are short in a file and are read back to the same bits.
+constexpr double grid = 1e9;
 
 Surface rounded(Surface s) {
   for (Vec3d& p : s.points)

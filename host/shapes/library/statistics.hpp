@@ -12,7 +12,7 @@ namespace macadam {
 
 /// A geometrical property, which is a column of every table.
 struct ShapeProperty {
-  const char* name;    ///< the symbol of [1]
+  const char* name;    ///< symbol that [1] uses
   const char* column;  ///< heading in CSV files, with the SI unit
   const char* unit;    ///< unit in the printed table, e.g. `"mm"`
   double per_unit;     ///< factor from SI to `unit`

@@ -33,7 +33,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-/// Points and polygons as CGAL's functions on polygon soups take them.
+/// Points and polygons in the form that CGAL's functions for polygon soups take.
 struct Soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> polygons;
@@ -194,7 +194,8 @@ class Repair {
     return surface;
   }
 
-  /// Drops closed pores, because a particle is solid. Surfaces made from voxels have such inner shells.
+  /// Drops closed pores, because a particle is solid. In surfaces made from voxels, closed pores appear as inner
+  /// shells.
   Surface without_pores(Surface surface) {
     const SurfacePieces pieces(surface);
     const std::vector<bool> inner = pieces.find_inner(check_surface(surface));
