@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file disjoint_sets.hpp  Groups numbered things into connected sets (union–find).
+/// \file disjoint_sets.hpp  Groups numbered items into connected sets (union–find).
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace macadam {
 
-/// Disjoint sets of the numbers 0 … n − 1, which are joined pair by pair. The root of a set is its smallest member.
+/// Disjoint sets of the numbers 0 … n − 1. At first each number is a set of its own; join() merges two sets. The root
+/// of a set is its smallest member.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }

@@ -20,8 +20,8 @@ bool same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-/// Returns the number of edits from a to b (optimal string alignment): letters inserted, removed or replaced, and
-/// neighbours exchanged.
+/// Returns the smallest number of edits that turn a into b (optimal string alignment). An edit inserts, removes or
+/// replaces one letter, or exchanges two neighbouring letters.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t{0});
@@ -45,7 +45,8 @@ std::string_view bare(std::string_view word) {
   return word;
 }
 
-/// Returns the known word that begins with `word`, ignoring the hyphens of options, if there is exactly one.
+/// Returns the known word that begins with `word` if there is exactly one, otherwise nothing. The leading hyphens of
+/// options are ignored.
 std::optional<std::string> only_with_beginning(std::string_view word, const std::vector<std::string>& known) {
   const auto begins = [word = bare(word)](const std::string& k) { return !word.empty() && bare(k).starts_with(word); };
   if (std::count_if(known.begin(), known.end(), begins) != 1) return {};

@@ -15,7 +15,8 @@ Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& matrix, const 
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   std::vector<bool> free(static_cast<std::size_t>(n), false);
   const double rounding = 1e-13 * b.norm();
-  // about three times n are usual; the limit is for ties, which could repeat forever
+  // Usually about 3·n iterations are needed. The limit ends cycles between equally good unknowns, which would repeat
+  // forever.
   for (Eigen::Index round = 0; round < 10 * n; ++round) {
     const Eigen::VectorXd rest = b - A * x, gradient = A.transpose() * rest;
     if (rest.cwiseAbs().maxCoeff() <= enough) break;
@@ -31,7 +32,7 @@ Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& matrix, const 
         if (free[static_cast<std::size_t>(i)]) columns.push_back(i);
       if (columns.empty()) break;
       const Eigen::VectorXd z = A(Eigen::all, columns).colPivHouseholderQr().solve(b);
-      double step = 1;  // fraction of the way to z at which the first unknown becomes 0
+      double step = 1;  // fraction of the way from x to z at which the first unknown becomes 0
       for (std::size_t c = 0; c < columns.size(); ++c) {
         const auto at = static_cast<Eigen::Index>(c);
         if (z[at] <= 0) step = std::min(step, x[columns[c]] / std::max(x[columns[c]] - z[at], 1e-300));

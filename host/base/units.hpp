@@ -10,7 +10,7 @@
 
 namespace macadam::scene {
 
-/// A unit: `factor` times 10^`exponent` of the SI unit.
+/// A unit that equals `factor`·10^`exponent` SI units.
 struct Unit {
   std::string_view name;
   int exponent, factor = 1;
@@ -33,14 +33,14 @@ extern const Quantity rate;                    ///< [1/s]
 extern const Quantity temperature;             ///< [°C]
 extern const Quantity temperature_difference;  ///< [K]
 extern const Quantity molar_energy;            ///< [J/mol]
-extern const Quantity ratio;                   ///< [1]; a text is a percentage
+extern const Quantity ratio;                   ///< [1]; text must be a percentage
 
 /// Describes, for messages, how a value of this quantity may be written: `a number in Pa, or text with one of: Pa, kPa,
 /// …`.
 std::string accepted(const Quantity& quantity);
 
-/// Returns the SI value of `text`, a decimal number followed by a unit of the quantity; empty if it is anything else.
-/// The power of ten is applied to the decimal text, so that "9.5 mm" is the same double as 0.0095.
+/// Returns the SI value of `text`, a decimal number followed by a unit of the quantity; empty if the text is anything
+/// else. The power of ten is applied to the decimal text, so that "9.5 mm" is the same double as 0.0095.
 std::optional<double> parse(std::string_view text, const Quantity& quantity);
 
 }  // namespace macadam::scene

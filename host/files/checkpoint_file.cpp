@@ -22,7 +22,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t user_block = 512;  ///< the smallest size that HDF5 allows
+constexpr std::size_t user_block = 512;  ///< size of HDF5's user block [bytes], the smallest that HDF5 allows
 constexpr std::size_t growth = 1 << 24;  ///< bytes by which HDF5 enlarges one file in memory
 
 template <class T>
@@ -34,8 +34,8 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-/// Returns settings for HDF5's "core" driver, which keeps one file in memory. HDF5 then never meets a full disk, an
-/// error that it does not survive.
+/// Returns settings for HDF5's "core" driver, which keeps one file in memory. HDF5 itself then never writes to a disk
+/// that may be full. It does not survive that error.
 H5::FileAccPropList in_memory() {
   H5::FileAccPropList access;
   access.setCore(growth, false);
@@ -48,7 +48,8 @@ std::string file_of(const Checkpoint& checkpoint) {
   for (const StateArray& array : checkpoint.arrays) {
     bytes_of_state += std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, array.values);
   }
-  require_memory_for_hdf5(3 * bytes_of_state + growth);  // the file, the room for its growth, and its copy
+  // The memory is for the file, for its growth, and for the copy that is returned.
+  require_memory_for_hdf5(3 * bytes_of_state + growth);
   H5::H5File out("in memory", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory());
   const H5::Group texts = out.createGroup("texts"), arrays = out.createGroup("arrays");
   for (const auto& [name, text] : checkpoint.texts) {
@@ -77,8 +78,8 @@ std::string file_of(const Checkpoint& checkpoint) {
   return all;
 }
 
-/// Counts the bytes that the datasets of an image claim to hold, which cannot be more than the image has. A damaged
-/// file is refused before memory is allocated for it.
+/// Counts the bytes that the datasets of an HDF5 image claim to hold. Their sum cannot be larger than the image, so a
+/// damaged file is refused before memory is allocated for its data.
 class Room {
  public:
   explicit Room(std::size_t bytes) : left_(static_cast<double>(bytes)) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file checkpoint_file.hpp  Reads and writes checkpoint files: named texts and arrays in HDF5. A checkpoint file is either
-/// complete or absent.
+/// \file checkpoint_file.hpp  Reads and writes checkpoint files: named texts and arrays in HDF5. A checkpoint file is
+/// either complete or absent.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +20,9 @@ struct Checkpoint {
 };
 
 /// Writes a checkpoint. The new file is written to the disk first and then renamed to replace the older one. So if the
-/// program is killed, or the disk is full, either the old or the new file is complete. HDF5's user block, the first 512
-/// bytes of the file, holds the length and a checksum as text. The file is made in memory first, which takes twice its
-/// size. \throws RunError.
+/// program is killed, or the disk is full, a complete file remains, which is either the old or the new one. HDF5's user
+/// block, the first 512 bytes of the file, holds the length of the file and a checksum as text. The file is made in
+/// memory first, which takes twice its size. \throws RunError.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 /// Returns the user block for the bytes of an HDF5 file. The reader checks it before it passes the bytes to HDF5,

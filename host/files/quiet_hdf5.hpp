@@ -30,7 +30,8 @@ class QuietHdf5 {
     H5::Exception::setAutoPrint(print_, data_);
   }
 
-  /// Returns whether a call of HDF5 failed. Destructors of HDF5's classes may write, but they throw nothing.
+  /// Returns whether a call of HDF5 has failed since this object was made. This includes calls in the destructors of
+  /// HDF5's classes, which may write to a file but throw nothing.
   bool failed() const { return why_[0] != '\0'; }
   /// Returns the text of the first error, from the function in which it arose. For an error of the operating system
   /// this is the system's message.
@@ -68,8 +69,8 @@ class QuietHdf5 {
   std::array<char, 512> why_{};
 };
 
-/// Checks that memory for `bytes`, the data that HDF5 will hold, and 8 MiB for HDF5 itself can be allocated. If an
-/// allocation fails within HDF5, it may crash or end the program. \throws std::bad_alloc.
+/// Checks that memory for `bytes`, the data that HDF5 will hold, and 8 MiB for HDF5 itself can be allocated. HDF5 may
+/// crash or end the program if one of its own allocations fails. \throws std::bad_alloc.
 inline void require_memory_for_hdf5(std::size_t bytes) {
   constexpr std::size_t its_own = 8 << 20;
   ::operator delete(::operator new(bytes + its_own));

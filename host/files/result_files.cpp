@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// files.cpp  Writes result files. fmt's "{}" prints the shortest digits that round-trip a double.
+// result_files.cpp  Writes result files. fmt's "{}" prints the shortest digits that round-trip a double.
 #include "host/files/result_files.hpp"
 
 #include <fcntl.h>
@@ -23,8 +23,8 @@ namespace {
 
 std::string reason(int error = errno) { return std::generic_category().message(error); }
 
-/// Waits until the entries of a folder are on the disk. Returns false if the disk fails or is full. Some file systems
-/// cannot do this for folders, which is not an error of the file.
+/// Waits until the entries of a folder are on the disk. Returns false if the disk fails or is full. Other errors are
+/// ignored, because some file systems cannot do this for folders.
 bool sync_folder(const std::filesystem::path& folder) {
   const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return true;

@@ -12,18 +12,18 @@
 namespace macadam {
 
 /// Writes one file under another name and renames it, so that a reader finds either the old bytes or the new ones. A
-/// file that could not be written completely is removed. `to_disk`: waits until the file is on the disk, so that a
-/// power failure, too, leaves either the old or the new file. \throws RunError.
+/// file that could not be written completely is removed. If `to_disk` is true, also waits until the file is on the
+/// disk; then even a power failure leaves either the old or the new file. \throws RunError.
 void write_whole(const std::filesystem::path& file, std::string_view bytes, bool to_disk = false);
 
-/// Returns all bytes of a file. \throws RunError if it cannot be read, std::bad_alloc if memory is the reason.
+/// Returns all bytes of a file. \throws RunError if it cannot be read, std::bad_alloc if there is too little memory.
 std::string read_whole(const std::filesystem::path& file);
 
 /// Returns a name as a field of a CSV file: quoted where RFC 4180 requires it.
 std::string csv_field(const std::string& name);
 
-/// A file that is open for writing, through system calls: a stream reports neither why a write fails nor whether the
-/// data are on the disk. A function that fails returns `false`, with the reason in errno.
+/// A file that is open for writing. It uses system calls, because a C++ stream reports neither why a write fails nor
+/// whether the data are on the disk. A function that fails returns `false`, with the reason in errno.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& file);
@@ -39,7 +39,7 @@ class OutputFile {
   int file_;
 };
 
-/// A table that grows during a run. Every line is written at once.
+/// A table that grows during a run. Each line is written to the file as soon as it is added.
 class LineWriter {
  public:
   /// Starts a new file with `head`, its first lines. \throws RunError if the file cannot be opened.
@@ -58,19 +58,19 @@ class LineWriter {
   off_t length_ = 0;
 };
 
-/// Files of one folder that get their names together. Older files of these names stay as they are until all new files
-/// are written.
+/// Replaces several files of one folder together. The new files are written to a subfolder first. Older files with the
+/// same names stay as they are until give_names() renames the new files.
 class FilesTogether {
  public:
   /// Makes the subfolder `.part` for the new files. \throws RunError.
   explicit FilesTogether(const std::filesystem::path& folder);
   FilesTogether(const FilesTogether&) = delete;
   FilesTogether& operator=(const FilesTogether&) = delete;
-  /// Removes the files that did not get their names.
+  /// Removes the new files that were not renamed.
   ~FilesTogether();
   /// Returns the path to which the file of this name must be written. \throws RunError.
   std::filesystem::path place_of(const std::string& name);
-  /// Renames the files in the order in which their paths were asked for. \throws RunError.
+  /// Moves the new files to their final names, in the order of the calls of place_of(). \throws RunError.
   void give_names();
 
  private:

@@ -24,7 +24,7 @@ void remove_empty(const std::vector<fs::path>& folders) {
   }
 }
 
-/// Whether an open folder is still the one at this path.
+/// Returns whether an open folder is still the folder at this path.
 bool is_same(int file, const fs::path& path) {
   struct stat open {
   }, named{};
@@ -67,7 +67,7 @@ ResultFolder::ResultFolder(const fs::path& folder) {
 }
 
 ResultFolder::~ResultFolder() {
-  remove_empty(made_);  // while the lock still keeps other commands out
+  remove_empty(made_);  // before the lock is released, so that no other command uses the folders
   ::close(file_);
 }
 

@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// Makes the folder if it does not exist, and locks it as long as the object exists. The lock is the operating
-/// system's, on the folder itself: it ends with the process, however the process ends, and leaves no file. Some file
+/// Makes the folder if it does not exist, and locks it as long as the object exists. The operating system locks the
+/// folder itself. The lock therefore ends with the process, however the process ends, and leaves no file. Some file
 /// systems mounted from other machines have no locks; there the folder is not locked.
 class ResultFolder {
  public:

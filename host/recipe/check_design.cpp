@@ -13,11 +13,11 @@
 namespace macadam {
 namespace {
 
-// Accepted densities. The range is wider than that of any road stone, slag, filler or binder; values outside of it are
-// errors of units, such as 2.65 for 2650.
+// Range of accepted densities. It contains the densities of every road stone, slag, filler and binder. A value outside
+// of it has the wrong unit, such as 2.65 in place of 2650.
 constexpr double lightest = 200, heaviest = 10'000;  // [kg/m³]
-// Largest binder content, relative to the mass of the aggregate; a thin mastic has 3. The limit detects 5.2 in place of
-// 5.2 %.
+// Largest accepted mass of binder per mass of aggregate. Even a thin mastic has only 3. A larger value is probably a
+// percentage without its sign, such as 5.2 in place of 5.2 %.
 constexpr double most_binder = 3;
 
 bool is_share(double v) { return v >= 0 && v <= 1; }  // false for NaN

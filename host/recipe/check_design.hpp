@@ -8,14 +8,14 @@
 
 namespace macadam {
 
-/// `12.5 mm`, for messages.
+/// Formats a length for messages, for example `12.5 mm`.
 std::string in_millimetres(double metres);
-/// `5.2 %`, for messages.
+/// Formats a fraction as a percentage for messages, for example `5.2 %`.
 std::string in_percent(double share);
-/// `2433.4 kg/m3`, for messages.
+/// Formats a density for messages, for example `2433.4 kg/m3`.
 std::string in_kg_m3(double density);
 
-/// \throws InputError at the line of `key` in the scene, or at `line` if it is not 0.
+/// Always throws an InputError about `key`. The error names `line` or, if that is 0, the line of `key` in the scene.
 [[noreturn]] void refuse(const MixDesign& design, const std::string& key, const std::string& found,
                          const std::string& expected, int line = 0);
 

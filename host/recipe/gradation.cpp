@@ -16,11 +16,12 @@ std::vector<GradationRow> gradation_of(const MixDesign& design, const std::vecto
   if (composition.size() < volumes.classes.size() + 1)
     throw InputError(design.source, design.line, "composition", fmt::format("{} classes", composition.size()),
                      fmt::format("the {} classes of the recipe and the mastic", volumes.classes.size()));
-  // Dry fine aggregate and filler per 1 m³ of the box [kg]: the mastic contains them in the proportions of the design.
+  // Mass of the dry fine aggregate and the filler per 1 m³ of the box [kg]. The mastic contains them in the proportions
+  // of the design.
   const double fines = (volumes.mastic_fine_mass + volumes.mastic_filler_mass) * volumes.bulk_density /
                        volumes.mastic_volume * composition[volumes.classes.size()].fraction;
   double all = fines;
-  // Now all dry aggregate per 1 m³ of the box [kg].
+  // After this loop, `all` is the mass of all dry aggregate per 1 m³ of the box [kg].
   for (std::size_t k = 0; k < volumes.classes.size(); ++k) all += composition[k].fraction * volumes.classes[k].density;
 
   std::vector<GradationRow> rows;

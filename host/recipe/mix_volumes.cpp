@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mix_volumes.cpp  Converts the masses of a mix design to volumes, by EN 12697-5 and EN 12697-8, for 1 kg of mix:
-// model, section 22.
+// mix_volumes.cpp  Converts the masses of a mix design to volumes for 1 kg of mix, according to EN 12697-5 and EN
+// 12697-8 (model, section 22).
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-/// Measured densities are rounded to 1 kg/m³, so they may be wrong by half of it [kg/m³].
+/// Measured densities are rounded to 1 kg/m³, so their rounding error is at most 0.5 kg/m³.
 constexpr double rounding = 0.5;
 
 /// Dry mass [kg], and volume including pores [m³], of an aggregate fraction in 1 kg of mix.
@@ -33,8 +33,8 @@ Portion fraction(const MixDesign& design, std::size_t k, double aggregate) {
   return portion(aggregate * (design.gradation[k].passing - design.gradation[k + 1].passing), density);
 }
 
-/// Returns the sum of EN 12697-5 for messages, for example `1 kg / (0.948 kg / 2630 kg/m3 + 0.052 kg / 1030 kg/m3)`.
-/// For several aggregates their mean density is shown.
+/// Writes out how EN 12697-5 computes the maximum density, for messages, for example `1 kg / (0.948 kg / 2630 kg/m3 +
+/// 0.052 kg / 1030 kg/m3)`. If there are several aggregates, their mean density is shown.
 std::string sum_of(const Portion& all, double binder, double binder_density) {
   return fmt::format("1 kg / ({:.6g} kg / {:.6g} kg/m3 + {:.6g} kg / {:.6g} kg/m3)", all.mass, all.mass / all.volume,
                      binder, binder_density);
@@ -71,7 +71,8 @@ double absorbed_of(const MixDesign& design, const Portion& all, double binder) {
   return absorbed;
 }
 
-/// Returns the air voids as a fraction of the bulk volume, given or from the measured bulk density.
+/// Returns the air voids as a fraction of the bulk volume: the given value or, if none is given, the value that follows
+/// from the measured bulk density.
 double air_voids_of(const MixDesign& design, double maximum_density) {
   if (design.air_voids) return *design.air_voids;
   const double bulk = *design.bulk_density, voids = 1 - bulk / maximum_density;  // EN 12697-8
@@ -100,7 +101,9 @@ MixVolumes volumes_of(const MixDesign& design) {
       fine += p;
       continue;
     }
-    coarse += p;  // p.volume is that of 1 kg of mix here; further down it is converted to a fraction of the box
+    coarse += p;
+    // The volumes of the classes are in m³ per 1 kg of mix here. Further down they are converted to fractions of the
+    // box.
     out.classes.push_back({curve[k + 1].size, curve[k].size, p.mass, p.volume, p.mass / p.volume, curve[k + 1].line});
   }
   const Portion filler =
@@ -155,7 +158,8 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
         fmt::format("voids of {} of the box, and {} of air voids in the mix", in_percent(of_voids),
                     in_percent(volumes.air_voids)),
         "at most this fraction in [specimen.voids]");
-  // Air that is not in voids with cells of their own.
+  // The mastic's porosity is the air that is not in voids with their own cells. It is given as a fraction of the volume
+  // outside of these voids.
   spec.mastic->porosity = (volumes.air_voids - of_voids) / (1 - of_voids);
   for (const MixClass& c : volumes.classes) {
     AggregateClass& out = spec.aggregate.emplace_back();

@@ -22,7 +22,7 @@ std::string title_of(const KnownKey& key) {
   return key.words.type == "sections" ? "[[" + outer + key.name + "]]" : "[" + outer + key.name + "]";
 }
 
-/// Returns the unit of a bare number; empty if it has none.
+/// Returns the unit in which a number without a unit is read for this key; empty if the key has no unit.
 std::string unit_of(const KnownKey& key) {
   if (!key.words.quantity || key.words.quantity == &ratio) return "";
   return std::string(key.words.quantity->units.front().name);

@@ -25,14 +25,15 @@ struct KnownKey {
 /// Returns all keys, section by section, in the order in which they are read.
 std::vector<KnownKey> known_keys();
 
-/// Collects keys: while it is in use, Section::read passes its keys to it instead of reading their values.
+/// Collects keys. While a collector is in use, Section::read passes its keys to the collector instead of reading their
+/// values.
 class Collector {
  public:
-  /// Thrown to leave the reader of a section once its keys are known, before it looks at their values.
+  /// Thrown to leave the reader of a section once its keys are known, before the reader looks at their values.
   struct Done {};
 
-  /// Adds one key. If it is a section, calls `enter`, which reads the keys of the section, once for every value that
-  /// choose() can take there.
+  /// Adds one key. If the key is a section, calls `enter`, which reads the keys of the section, once for every value
+  /// that choose() can return there.
   void add(const std::string& section, const std::string& named, const Key& key, const std::function<void()>& enter);
   /// The reader calls this function for a key, such as "kind", whose value decides which other keys its section has.
   /// `among` lists the possible values. Returns the index of the value to assume in the present pass through the
@@ -43,14 +44,14 @@ class Collector {
   std::vector<KnownKey> keys() const;
 
  private:
-  /// A text that decides which keys its section has.
+  /// A key whose value decides which other keys its section has.
   struct Choice {
     std::string named;
-    std::vector<std::string> among;  ///< its possible values
+    std::vector<std::string> among;  ///< possible values of the key
     std::size_t taken = 0;           ///< index of the value in the present pass
   };
   std::vector<KnownKey> keys_;
-  Choice choice_;  ///< of the section that is being read
+  Choice choice_;  ///< choice of the section that is being read
 };
 
 }  // namespace macadam::scene

@@ -39,14 +39,16 @@ std::string wrapped(const std::string& text, const std::string& before) {
   return out + line + '\n';
 }
 
-/// Returns one line of the scene with its comment: behind it if both fit into the width, otherwise above it.
+/// Returns one line of the scene with its comment. The comment is on the same line if both fit into the width,
+/// otherwise it is above the line.
 std::string line_of(const std::string& line, const std::string& comment) {
   const std::size_t column = std::max(comment_column, line.size() + 2);
   if (column + 2 + comment.size() > width) return wrapped(comment, "# ") + line + '\n';
   return fmt::format("{:<{}}# {}\n", line, column, comment);
 }
 
-/// Returns the explanation of a key with its choices and unit; `with_usual`: also what happens without the key.
+/// Returns the explanation of a key with its choices and unit. If `with_usual` is true, adds what happens without the
+/// key.
 std::string comment_of(const KnownKey& key, bool with_usual) {
   std::string text = key.text;
   if (!key.words.choices.empty()) {
@@ -184,7 +186,7 @@ Part loading_of(const std::string& test) {
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
   if (test == "monotonic") give("rate", "1e-4"), give("strain", "1e-3"), give("points", "100");
-  // keys that exclude those above, and keys that only method "explicit" has
+  // Leaves out keys that exclude the keys above, and keys that only method "explicit" has.
   out.not_these = {"temperatures", "points", "platen_mass"};
   if (test == "monotonic") out.not_these = {"times", "points_per_decade"};
   return out;

@@ -13,7 +13,7 @@ void apply(const Overrides& asked, Scene& scene) {
     throw InputError("--seed: has no effect, because the scene takes its specimen from a file");
   if (asked.seed) {
     scene.specimen.seed = *asked.seed;
-    // a checkpoint is valid for one text only, so the seed must be in it
+    // A checkpoint is valid for one text of the scene only, so the text must contain the seed.
     scene.text += fmt::format("\n# --seed {}\n", *asked.seed);
   }
   SolverSpec& solver = scene.solver;

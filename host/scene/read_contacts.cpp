@@ -61,7 +61,7 @@ std::vector<Key> keys_of(L& law) {
   return out;
 }
 
-/// \throws InputError if the values of a law, each valid by itself, do not fit together.
+/// Checks that the values of a law, each of which is valid by itself, fit together. \throws InputError if they do not.
 template <class L>
 void check(const L& law, const Section& section) {
   if constexpr (requires { law.fault(); }) {

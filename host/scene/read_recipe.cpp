@@ -10,7 +10,8 @@
 namespace macadam::scene {
 namespace {
 
-// Values with the rule `any` are checked together with the design, whose error shows the sum that a wrong value spoils.
+// Values with the rule `any` are checked later, when the volumes of the design are computed. The error of that check
+// shows the calculation to which the wrong value belongs.
 constexpr Rule share{[](double v) { return v >= 0 && v <= 1; },
                      "a fraction from 0 to 1, or text from \"0 %\" to \"100 %\""};
 
@@ -85,8 +86,9 @@ MixDesign read_recipe(const Section& section) {
 }
 
 void take_densities(const MixDesign& recipe, const Section& root, Materials& materials) {
-  // Densities are given with at least three digits. Half a unit of the third digit is this fraction of 1.00, and less
-  // of any other number.
+  // Largest relative difference between a density in the scene and the density that follows from the recipe. Densities
+  // are given with at least three digits, so half a unit of the last digit is at most this fraction of the density
+  // (0.005 of 1.00).
   constexpr double rounding = 5e-3;
   const MixVolumes volumes = volumes_of(recipe);
   const auto take = [&](const std::string& phase, double& given, double derived, const std::string& sum) {

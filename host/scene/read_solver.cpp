@@ -9,7 +9,8 @@
 namespace macadam::scene {
 namespace {
 
-/// Reads the damping. `damping` is the coefficient of the kind in `damping_kind`; without a kind it is local damping.
+/// Reads the damping. `damping` is the coefficient of the kind in `damping_kind`; if no kind is given, the damping is
+/// local.
 void read_damping(const Section& section, SolverSpec& spec) {
   constexpr Rule chi{[](double v) { return v >= 0 && v < 1; }, "a local damping from 0 to below 1"};
   const auto value = section.find("damping");

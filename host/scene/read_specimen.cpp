@@ -97,7 +97,8 @@ VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
 /// Refuses mixtures that cannot be made, whichever sizes are sampled. The bounds assume the smallest aggregates for
 /// volumes and the largest particles for numbers of particles.
 void require_possible(const Section& section, const SpecimenSpec& spec) {
-  double fractions = 0, counted = 0, counted_most = 0;  // least and greatest volume of the classes given by count
+  // `counted` and `counted_most` are the least and the greatest volume of the classes given by count.
+  double fractions = 0, counted = 0, counted_most = 0;
   std::int64_t count = 0;
   for (const AggregateClass& c : spec.aggregate) {
     fractions += c.volume_fraction.value_or(0);
@@ -118,8 +119,9 @@ void require_possible(const Section& section, const SpecimenSpec& spec) {
     section.refuse("aggregate", fmt::format("volume fractions with the sum {}", fractions),
                    "a sum below 1, because the mastic fills the rest of the solid volume");
   }
-  // If the mastic is given by count, mastic and aggregates given by count fill the part 1 − Σ fractions of the solid
-  // volume, which gives the solid volume. Their smallest radii are used, so `solid` is a lower bound.
+  // If the mastic is given by count, the mastic and the aggregates given by count together fill the fraction 1 −
+  // `fractions` of the solid volume. The solid volume is therefore their volume divided by this fraction. Their
+  // smallest radii are used, so `solid` is a lower bound.
   double solid = counted;
   double number = static_cast<double>(count);
   if (spec.mastic && spec.mastic->porosity) {

@@ -96,7 +96,7 @@ void SceneText::move(const std::filesystem::path& from, const std::filesystem::p
     if (!name || (shapes && shipped_library(*name)) || fs::path(*name).is_absolute()) continue;
     const fs::path moved =
         fs::weakly_canonical(fs::absolute(from) / *name).lexically_relative(fs::weakly_canonical(fs::absolute(to)));
-    // "./" marks the name as that of a folder, even if a built-in library has the same name
+    // "./" marks the name as the name of a folder, even if a built-in library has the same name
     const Change change = replaced(text_, *view.node(), quoted((shapes ? "./" : "") + moved.string()));
     replace(change.begin, change.end, change.by);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_text.hpp  Changes single values in the text of a scene. Comments, order and everything else stay.
+/// \file scene_text.hpp  Changes single values in the text of a scene. Comments, order and everything else stay as they
+/// are.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +15,8 @@ class SceneText {
  public:
   explicit SceneText(std::string text) : text_(std::move(text)) {}
 
-  /// Sets a value in the `[[contacts]]` of a pair. `name`: `delta`, `alpha`, a modulus or a viscosity; `E_2` is the
-  /// second entry of `E`.
+  /// Sets a value in the `[[contacts]]` of a pair. `name` is `delta`, `alpha`, or the key of a modulus or a viscosity;
+  /// `E_2` is the second entry of `E`.
   void set_contact(PairType pair, const std::string& name, double value);
   void set_seed(std::uint64_t seed);
   /// Changes the paths in the text, which are relative to the folder `from`, so that they are relative to the folder

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sections.hpp  Declares the readers of sections of a scene that have a file of their own.
+/// \file sections.hpp  Declares the readers of the sections of a scene, each of which is defined in a source file of
+/// its own.
 #pragma once
 
 #include "host/scene/table.hpp"
@@ -26,7 +27,7 @@ MixDesign read_recipe(const Section& section);
 /// \throws InputError if the scene gives other densities.
 void take_densities(const MixDesign& recipe, const Section& root, Materials& materials);
 
-/// Returns the library of shapes that is shipped under a name; nothing if the name is a folder's.
+/// Returns the library of shapes that is shipped under a name; nothing if the name belongs to a folder.
 std::optional<ShapeSpec::Library> shipped_library(const std::string& name);
 
 /// Reads `[specimen.shapes]`. Relative paths start from `folder`.
@@ -36,23 +37,23 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
 /// Returns a reader of `[min, max]` [m] with 0 < min ≤ max.
 Reader range_into(double& low, double& high);
 
-/// Returns the keys of the limits on facets, in `[network]` or of one pair.
+/// Returns the keys of the limits that decide which facets are contacts, for `[network]` or for one pair.
 std::vector<Key> keys_of(FacetLimits& limits);
 
-/// Reads every `[[contacts]]` and returns the laws at their reference temperatures. Stores how the laws shift in
-/// `shifts`, the factors that were multiplied into them in `deltas`, and limits on a pair's facets in `network`.
-/// \throws InputError
+/// Reads every `[[contacts]]` and returns the laws at their reference temperatures. Stores the temperature shifts of
+/// the laws in `shifts`, the factors `delta` that were multiplied into the laws in `deltas`, and the limits on the
+/// facets of a pair in `network`. \throws InputError
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network);
 
-/// The keys of fields in `[output]`, and the check that they fit together. \throws InputError
+/// Return the keys of `[output]` that ask for fields, and check that their values fit together.
+/// \throws InputError
 /// @{
 std::vector<Key> keys_of(FieldSpec& spec);
 void check_fields(const Section& section, const FieldSpec& spec);
 /// @}
 
-/// Brings the laws to the scene's temperature. Checks for every temperature in the scene that it changes a law and that
-/// all shifts have a value there.
-/// \throws InputError
+/// Brings the laws to the scene's temperature. Checks that every temperature in the scene changes at least one law and
+/// that all shifts have a value at this temperature. \throws InputError
 void apply_temperature(Scene& scene, const Section& root);
 
 /// Reads `[loading]`, whose `kind` decides the other keys.

@@ -8,7 +8,7 @@
 
 namespace macadam::scene {
 
-/// Condition on a temperature in °C. No test is as warm as the upper limit; a temperature in kelvins is mostly above
+/// Condition on a temperature in °C. No test is as warm as the upper limit, and most temperatures in kelvins are above
 /// it.
 inline constexpr Rule celsius{[](double v) { return v > -laws::zero_celsius && v < 250; },
                               "a temperature above -273.15 and below 250 degrees C, not in kelvins"};
@@ -16,8 +16,8 @@ inline constexpr Rule celsius{[](double v) { return v > -laws::zero_celsius && v
 /// Describes, for messages, the temperatures at which a shift has a value.
 std::string range_of(const laws::Shift& shift);
 
-/// The keys of a shift law. keys() are read together with other keys of a section; they store their values in this
-/// object, which must outlive Section::read. Then shift() returns the law.
+/// The keys of a shift law. keys() returns the keys, which are read together with other keys of a section.
+/// Section::read stores their values in this object, which must outlive the call. After that, shift() returns the law.
 class ShiftKeys {
  public:
   std::vector<Key> keys();

@@ -21,7 +21,7 @@
 
 namespace macadam::scene {
 
-/// A condition on a number, besides being finite, and its description.
+/// A condition that a finite number must satisfy, and its description for messages.
 struct Rule {
   bool (*holds)(double);
   const char* words;
@@ -48,7 +48,7 @@ class Value {
 
   /// Returns a finite number that satisfies the rule, in SI units. Text must have a unit of the quantity.
   double number(const Quantity& quantity, const Rule& rule) const;
-  /// Returns an array of such numbers.
+  /// Returns an array of numbers, each checked as by number().
   std::vector<double> numbers(const Quantity& quantity, const Rule& rule) const;
   /// Returns a whole number in [min, max]; 2e6 counts as whole, 5.5 does not.
   std::int64_t integer(std::int64_t min, std::int64_t max) const;
@@ -66,13 +66,13 @@ class Value {
 
   int line() const { return line_; }
   bool is_array() const { return node_->is_array(); }
-  /// Whether the value is text, as numbers with a unit are.
+  /// Returns whether the value is text, as numbers with a unit are.
   bool is_text() const { return node_->is_string(); }
-  /// Whether the value is written `inf`.
+  /// Returns whether the value is written `inf`.
   bool is_infinite() const;
   /// Returns the value as messages show it.
   std::string shown() const;
-  /// \throws InputError for this value.
+  /// Always throws an InputError about this value.
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const;
 
  private:
@@ -90,8 +90,8 @@ enum class Need : std::uint8_t { optional, required };
 /// Description of a value, for people. A member that does not apply is empty.
 struct Words {
   std::string type = {};                  ///< "number", "list of numbers", "text", "section", …
-  const Quantity* quantity = nullptr;     ///< of a number: its units
-  std::string rule = {};                  ///< condition that it must satisfy
+  const Quantity* quantity = nullptr;     ///< units of a number; null for other values
+  std::string rule = {};                  ///< condition that the value must satisfy
   std::string usual = {};                 ///< default, as a scene would write it
   std::vector<std::string> choices = {};  ///< allowed texts
   bool operator==(const Words&) const = default;
@@ -120,7 +120,7 @@ struct Key {
 class Section {
  public:
   /// `title` is what messages call the table (empty for the whole file), `path` is its dotted key, and `line` is 0 if
-  /// it has none.
+  /// the table has no line.
   Section(std::string file, int line, std::string title, std::string path, const toml::table& table,
           Collector* collector = nullptr)
       : file_(std::move(file)),
@@ -131,8 +131,8 @@ class Section {
         collector_(collector) {}
 
   /// Refuses unknown keys, naming the nearest known one, then reads the given keys in this order. With a collector it
-  /// reads no values: it passes the collector these keys and those of their sections, and throws Collector::Done.
-  /// \throws InputError for an unknown, missing or wrong key.
+  /// reads no values. Instead it passes these keys, and the keys of the sections among them, to the collector and
+  /// throws Collector::Done. \throws InputError for an unknown, missing or wrong key.
   void read(const std::vector<Key>& keys) const;
 
   /// Returns the value of a key, if the key is there.
@@ -140,7 +140,7 @@ class Section {
   const std::string& file() const { return file_; }
   int line() const { return line_; }
   bool has(const std::string& key) const { return table_->contains(key); }
-  /// \throws InputError at the line of the key, or at the line of the section if the key is absent.
+  /// Always throws an InputError, which names the line of the key or, if the key is absent, the line of the section.
   [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected) const;
 
  private:
@@ -175,8 +175,8 @@ inline Reader into(std::vector<double>& target, const Quantity& quantity, const 
   return {[&target, &quantity, rule](const Value& value) { target = value.numbers(quantity, rule); },
           {"list of numbers", &quantity, rule.words}};
 }
-/// Returns a reader of a positive number whose unit is easily forgotten. A number with a unit only has to be positive;
-/// one without must satisfy `bare`, which tells values in SI units from others.
+/// Returns a reader of a positive number whose unit is easily forgotten. A number with a unit only has to be positive.
+/// A number without a unit must satisfy `bare`, a rule that is true only for plausible values in SI units.
 inline Reader positive_into(double& target, const Quantity& quantity, const Rule& bare) {
   return {[&target, &quantity, bare](const Value& value) {
             target = value.number(quantity, value.is_text() ? positive : bare);

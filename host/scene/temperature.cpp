@@ -72,7 +72,8 @@ void apply_temperature(Scene& scene, const Section& root) {
     for (const double temperature : several) check("loading", "temperatures", temperature);
   }
   if (const std::optional<double> temperature = scene.materials.temperature) {
-    // laws_at() takes the scene's laws to be at this temperature, but they are still at their reference temperatures
+    // laws_at() assumes that the laws are at the scene's temperature, but they are still at their reference
+    // temperatures. So the scene's temperature is removed for the call.
     scene.materials.temperature.reset();
     scene.laws = check("materials", "temperature", *temperature);
     scene.materials.temperature = temperature;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file toml.hpp  Includes toml++ with its assertions turned off in every build type. Some assertions hold only for
-/// valid TOML (`[=` breaks one). In a debug build they would end the program; and a compiler that takes them as
-/// assumptions may drop the checks behind them, which report the error with its line.
+/// valid TOML; the text `[=` violates one. In a debug build they would end the program. A compiler that takes them as
+/// assumptions may remove the checks that follow them, which report the error with its line.
 #pragma once
 
 #pragma push_macro("NDEBUG")

@@ -15,7 +15,7 @@
 
 namespace macadam {
 
-/// The random numbers of one trial, which were drawn in advance. Has the same functions as RandomStream.
+/// The random numbers of one trial, which were drawn in advance. The class has the same functions as RandomStream.
 class Draws {
  public:
   explicit Draws(const double* next) : next_(next) {}
@@ -29,8 +29,8 @@ class Draws {
 };
 
 /// A random stream whose numbers can be drawn in advance. Trials run on all threads, and more trials run than are
-/// needed. Which trials succeed, and which numbers the stream returns next, is as if the trials had been made in order
-/// on one thread.
+/// needed. The trials that succeed, and the numbers that the stream returns next, are the same as if the trials had
+/// been made in order on one thread.
 class DrawsAhead {
  public:
   explicit DrawsAhead(RandomStream random) : random_(random) {}
@@ -65,9 +65,9 @@ class DrawsAhead {
     return std::nullopt;
   }
 
-  /// Makes trials for which attempt(Draws) is tested, and calls take(Draws) for the successful ones, in order, until
-  /// take() returns false. The numbers of that trial and of all earlier ones are consumed. Returns false if `most`
-  /// consecutive trials failed. The test must not depend on what take() did.
+  /// Makes trials, which succeed if attempt(Draws) returns true. Calls take(Draws) for the successful trials, in order,
+  /// until take() returns false; then returns true. Returns false as soon as `most` consecutive trials have failed. The
+  /// numbers of the last trial and of all earlier ones are consumed. attempt() must not depend on what take() did.
   template <class Attempt, class Take>
   bool each_good(std::int64_t most, std::size_t size, std::int64_t chunk, const Attempt& attempt, const Take& take) {
     std::vector<std::uint8_t> good;
@@ -91,7 +91,7 @@ class DrawsAhead {
   }
 
  private:
-  /// Chunks that one thread tries alone, because waking other threads takes longer.
+  /// Up to this many chunks, the calling thread makes all trials alone, because waking other threads would take longer.
   static constexpr std::int64_t alone = 4;
 
   /// Returns the numbers of a trial.

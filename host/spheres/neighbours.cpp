@@ -13,17 +13,20 @@
 namespace macadam {
 namespace {
 
-// Sort keys are sphere number + part of the list · 2^28; sphere numbers are below most_particles and fit in 28 bits.
+// A sort key is the sphere number plus 2^28 times the number of the part of the list (0, 1 or 2). Sphere numbers are
+// below most_particles and fit in 28 bits.
 constexpr std::int32_t part = 1 << 28;
-// Largest number of size groups; the radii in a group differ by at most a factor of two.
+// Largest number of size groups. The radii in a group differ by at most a factor of two.
 constexpr int most_levels = 40;
-constexpr std::size_t block = 64;  // consecutive spheres whose lists share memory and are made by one thread
-// Lists up to this length are sorted by counting the smaller keys, which is faster.
+// Number of consecutive spheres whose lists are in one array and are made by one thread.
+constexpr std::size_t block = 64;
+// Lists up to this length are sorted by counting the smaller keys for each key, which is faster.
 constexpr std::size_t ranked_up_to = 64;
-constexpr std::size_t few =
-    24;  // all lists are made again when more than one sphere in `few` has moved by more than half of the skin
-constexpr std::size_t worth_waking = 16;  // strayed spheres; with fewer, one thread is faster
-constexpr std::uint32_t spare = 2;        // capacity in a list for spheres that come near later
+// All lists are made again when more than the fraction 1/few of the spheres have moved by more than half of the skin.
+constexpr std::size_t few = 24;
+// Number of strayed spheres (which have moved by more than half of the skin) from which several threads are faster.
+constexpr std::size_t worth_waking = 16;
+constexpr std::uint32_t spare = 2;  // capacity in a list for spheres that come near later
 
 double largest(std::span<const Ball> spheres) {
   double r = 0;
@@ -31,7 +34,8 @@ double largest(std::span<const Ball> spheres) {
   return r;
 }
 
-/// Divides the spheres from index `first` on into bins such that the radii in each differ by at most a factor of two.
+/// Divides the spheres from index `first` on into groups of similar size and sorts each group into bins. The radii in a
+/// group differ by at most a factor of two.
 std::vector<SphereBins> by_size(const Box& box, std::span<const Ball> spheres, std::size_t first, double skin) {
   double smallest = largest(spheres);
   for (const Ball& b : spheres.subspan(first)) smallest = std::min(smallest, b.radius);
@@ -116,7 +120,8 @@ void Neighbours::find(std::int32_t i, const SphereBins& bins, Buffer& buffer) co
             [&, centre = centre, radius = radius](std::uint32_t first, std::uint32_t last) {
               if (buffer.slot.size() < found + (last - first)) buffer.slot.resize(2 * (found + (last - first)));
               std::uint32_t* next = buffer.slot.data() + found;
-              for (std::uint32_t k = first; k < last; ++k) {  // without a branch, because it could not be predicted
+              // The loop has no branch, because the processor could not predict it.
+              for (std::uint32_t k = first; k < last; ++k) {
                 const Ball& other = bins.ball(k);
                 const Vec3d d = other.centre - centre;
                 const double range = radius + other.radius + skin_;
@@ -177,7 +182,7 @@ void Neighbours::set(std::int32_t i, Buffer& buffer) {
   write_sorted(buffer.key, list_[row.block].data() + row.begin);
 }
 
-/// Inserts a neighbour into a list at its sorted position, unless it is there already.
+/// Inserts a neighbour into the list of a sphere at its sorted position, unless the list contains it already.
 void Neighbours::add(std::int32_t i, std::int32_t neighbour) {
   const std::int32_t wanted = key(i, neighbour);
   Row& row = row_[i - first_];
@@ -205,7 +210,8 @@ void Neighbours::relist(std::span<const std::int32_t> strayed) {
     moving_[bins_of_[i - first_]].move(i, spheres_[i].centre);
   }
   const auto block_of = [&](std::int32_t i) { return (static_cast<std::size_t>(i) - first_) / block; };
-  // First entry of each block; the lists of a block share memory, so one thread updates all of them.
+  // Index of the first strayed sphere of each block, then the number of strayed spheres. The lists of a block are in
+  // one array, so one thread updates all of them.
   std::vector<std::size_t> begin;
   for (std::size_t k = 0; k < strayed.size(); ++k)
     if (k == 0 || block_of(strayed[k]) != block_of(strayed[k - 1])) begin.push_back(k);
@@ -223,7 +229,7 @@ void Neighbours::relist(std::span<const std::int32_t> strayed) {
   for (const std::int32_t i : strayed) {
     const Row& row = row_[i - first_];
     for (std::uint32_t k = 0; k < row.size; ++k) {
-      // Read again each time, because add() may move the memory of the block.
+      // The index is read from list_ each time, because add() may reallocate the array of the block.
       const std::int32_t j = list_[row.block][row.begin + k];
       if (static_cast<std::size_t>(j) >= first_) add(j, i);
     }

@@ -15,15 +15,15 @@ namespace macadam {
 /// Loops over fewer spheres than this run on one thread.
 inline constexpr std::size_t parallel_from = 1000;
 
-/// Neighbour lists. The list of a sphere contains at least all spheres whose surfaces are closer to its own than
-/// `skin`. The order of a list depends on radii and sphere numbers only: first the smaller spheres with a lower number
-/// than its own, then the larger spheres, then the smaller spheres with a higher number, each part sorted by number. If
-/// two spheres are equal, the one with the higher number counts as the larger. Spheres that do not touch add nothing to
-/// a sum over the list. Such sums therefore have the same bits for any number of threads and any skin.
+/// Neighbour lists. The list of a sphere contains at least all spheres whose surfaces are closer than `skin` to its
+/// surface. The order of a list depends on radii and sphere numbers only: first the smaller spheres with a lower number
+/// than the sphere itself, then the larger spheres, then the smaller spheres with a higher number, each part sorted by
+/// number. If two spheres are equal, the one with the higher number counts as the larger. Spheres that do not touch add
+/// nothing to a sum over the list. Such sums therefore have the same bits for any number of threads and any skin.
 class Neighbours {
  public:
   /// Makes the lists of `spheres`, which must outlive this object; `skin` is in metres. Spheres with an index below
-  /// `first` do not move and have no list. `number` gives the number of each sphere if it differs from its index.
+  /// `first` do not move and have no list. `number` gives the number of each sphere if numbers differ from indices.
   Neighbours(const Box& box, std::span<const Ball> spheres, double skin, std::size_t first = 0,
              std::vector<std::int32_t> number = {});
 
@@ -35,9 +35,9 @@ class Neighbours {
 
   /// Makes all lists for the present centres.
   void rebuild();
-  /// Updates the lists after some spheres have moved by more than half of the skin; `strayed` has
-  /// their indices in ascending order. If these are many, makes all lists again. Other spheres may have moved too,
-  /// but by less than half of the skin.
+  /// Updates the lists after some spheres have moved by more than half of the skin; `strayed` has their indices in
+  /// ascending order. If many spheres have strayed, makes all lists again. Other spheres may have moved too, but by
+  /// less than half of the skin.
   void relist(std::span<const std::int32_t> strayed);
 
   /// Returns the indices of the neighbours of a sphere.
@@ -47,7 +47,8 @@ class Neighbours {
   }
 
  private:
-  /// The list of one sphere: a range in the memory of a block of spheres.
+  /// Location of the list of neighbours of one sphere: a range of list_[block], the array that holds the lists of a
+  /// block of consecutive spheres.
   struct Row {
     std::uint32_t block, begin, size, room;  ///< `room` is the capacity
   };
@@ -69,10 +70,12 @@ class Neighbours {
   std::span<const Ball> spheres_;
   double skin_, far2_;  ///< [m], [m²]
   std::size_t first_;
-  SphereGrid still_;  ///< spheres that do not move, in cells that list those near enough to a moving sphere
-  std::vector<SphereBins> moving_;            ///< moving spheres, in groups of similar size, at their listed positions
-  std::vector<std::int32_t> number_, place_;  ///< number of each index, and index of each number
-  std::vector<std::uint8_t> bins_of_;         ///< for each sphere with a list: its group in moving_
+  /// Spheres that do not move. Each cell lists those that may be neighbours of a moving sphere in the cell.
+  SphereGrid still_;
+  std::vector<SphereBins> moving_;  ///< moving spheres, in groups of similar size, at their listed positions
+  /// Number of the sphere at each index, and index of the sphere with each number.
+  std::vector<std::int32_t> number_, place_;
+  std::vector<std::uint8_t> bins_of_;  ///< for each sphere with a list: its group in moving_
   /// Centre of each sphere when it was listed last.
   std::vector<Vec3d> listed_at_;
   /// Memory of the lists; each entry belongs to a block of consecutive spheres.

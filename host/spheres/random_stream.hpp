@@ -23,7 +23,7 @@ class RandomStream {
   std::size_t index(std::size_t n) { return static_cast<std::size_t>(uniform() * static_cast<double>(n)); }
 
  private:
-  /// The finaliser of SplitMix64. It gives unrelated engine states for consecutive seeds and streams.
+  /// Applies the finaliser of SplitMix64, which gives unrelated engine states for consecutive seeds and streams.
   static std::uint64_t mixed(std::uint64_t x) {
     x += 0x9E3779B97F4A7C15u;
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;

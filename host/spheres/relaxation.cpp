@@ -18,9 +18,9 @@ namespace {
 // is √(m/k) of one pair. About twelve pairs act on a sphere, so an explicit step is stable up to about 2/√(2·12) = 0.4
 // of this unit.
 constexpr double first_step = 0.1, longest_step = 0.3;
-constexpr double longest_move = 0.1;  // per iteration, in mean mastic radii
-// Skin of the neighbour lists in mean mastic radii. With a smaller one lists are made too often, with a larger one they
-// are too long.
+constexpr double longest_move = 0.1;  // of a sphere per iteration, in mean mastic radii
+// Skin of the neighbour lists in mean mastic radii. With a smaller skin the lists are made too often; with a larger
+// skin they are too long.
 constexpr double skin_share = 1.15;
 // Stiffness of a contact between two aggregates, or between an aggregate and a box wall, divided by the stiffness of a
 // mastic contact. It is larger so that aggregates overlap less than mastic.
@@ -28,7 +28,7 @@ constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // the energy has stalled if it falls by less than this fraction in one window
 
-/// Sums over all spheres that FIRE needs, weighted by mass: a·v, v·v and a·a.
+/// The three sums over all spheres that the FIRE method needs, weighted by mass: a·v, v·v and a·a.
 struct Dots {
   double power = 0, v2 = 0, a2 = 0;
 };
@@ -113,7 +113,7 @@ class Relaxation {
     return balls;
   }
 
-  /// Returns the mean radius of the mastic, or of the aggregates without mastic.
+  /// Returns the mean radius of the mastic spheres or, if there is no mastic, of the aggregate spheres.
   double mean_radius() const {
     const std::size_t from = first_mastic_ < s_.size() ? first_mastic_ : 0;
     double sum = 0;
@@ -182,7 +182,8 @@ class Relaxation {
     // Pairs with spheres below this index have the stiffness of aggregates.
     const auto stiff = static_cast<std::int32_t>(is_aggregate(i) ? first_mastic_ : 0);
     std::size_t n = 0;
-    for (const std::int32_t j : near) {  // without a branch, because it could not be predicted
+    // The loop has no branch, because the processor could not predict it.
+    for (const std::int32_t j : near) {
       const Vec3d d = c - ball_[j].centre;
       const double d2 = dot(d, d), touch = r + ball_[j].radius;
       number[n] = j;
@@ -205,9 +206,9 @@ class Relaxation {
     }
   }
 
-  // Sums run over the particles in the order of their numbers, on one thread, so that they have the same bits for any
-  // number of threads. Each thread wrote its terms by place; in the order of numbers, several threads would write to
-  // the same cache line.
+  // One thread adds the terms in the order of the spheres' numbers, so that the sums have the same bits for any number
+  // of threads. accelerate() stores the terms by place: if it stored them by number, several threads would write to the
+  // same cache line.
   double total_energy() const {
     double sum = 0;
     for (const std::int32_t i : place_) sum += energy_[i];
@@ -260,7 +261,7 @@ class Relaxation {
   const Enclosure& wall_;
   std::size_t first_mastic_, first_;  ///< index of the first mastic sphere, and of the first sphere that moves
   double unit_;                       ///< mean radius of the mastic [m]
-  std::vector<std::int32_t> number_;  ///< number of each place
+  std::vector<std::int32_t> number_;  ///< number of the sphere at each place
   std::vector<Ball> ball_;
   Neighbours neighbours_;
   std::vector<Vec3d> velocity_, acceleration_;

@@ -17,10 +17,10 @@ struct WallDepth {
 
 /// A wall of any shape, given by its depth function.
 struct Enclosure {
-  /// Returns the depth of a point; if it is more than `reach` [m], any value above `reach` may be returned.
+  /// Returns the depth of a point; if the depth is more than `reach` [m], any value above `reach` may be returned.
   std::function<WallDepth(const Vec3d& point, double reach)> depth;
-  /// Stiffness of the wall, divided by the stiffness of a pair of mastic spheres, at most 10. Spheres may be pressed
-  /// hard against the wall.
+  /// Stiffness of the wall, divided by the stiffness of a pair of mastic spheres, at most 10. The wall is stiffer than
+  /// the spheres because they may be pressed hard against it.
   double stiffness = 10;
 };
 

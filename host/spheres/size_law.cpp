@@ -63,8 +63,8 @@ std::vector<double> draw_sizes(const SizeRange& range, std::int64_t count, doubl
     }
     return sum;
   };
-  // The sum decreases with t. Bisection in log t; at the ends of the interval all probabilities are 1 or 0 up to
-  // rounding.
+  // The sum decreases with t, so t is found by bisection of log t. At the ends of the interval all probabilities are 1
+  // or 0 up to rounding.
   double low = -40, high = 40;
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;

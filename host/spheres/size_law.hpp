@@ -14,7 +14,7 @@ namespace macadam {
 /// Returns the volume of a sphere [m³].
 double sphere_volume(double diameter);
 
-/// A size law between two diameters [m] with 0 < min ≤ max: model, section 19.
+/// A size law between two diameters [m], with 0 < min ≤ max (model, section 19).
 struct SizeRange {
   SizeLaw law;
   double min, max;
@@ -29,12 +29,13 @@ struct SizeRange {
 
 /// Returns `count` diameters, largest first, whose volumes sum to `volume` up to rounding. If `volume` is outside
 /// count·V(min)…count·V(max), the sum comes as close as possible. One sample is drawn from each of `count` equal strata
-/// of the law, so that the sample is close to the law. The remaining error of the sum is removed by the map u → u^t of
-/// the probabilities, with t near 1, which keeps the range.
+/// of the law, so that the sample is close to the law. The remaining error of the sum is removed by replacing the
+/// probability u of every sample by u^t, with t near 1. This keeps all diameters within the range.
 std::vector<double> draw_diameters(const SizeRange& range, std::int64_t count, double volume, RandomStream& random);
 
-/// Does the same for bodies of any form. `volume_of(i, d)` [m³] is the volume of entry i of the result with size d; it
-/// must not decrease with d. If it jumps, the sum may differ from `volume` by one jump.
+/// Draws sizes as draw_diameters() does, but for particles of any form. `volume_of(i, d)` [m³] is the volume of entry i
+/// of the result with size d; it must not decrease with d. If this volume jumps at some d, the sum may differ from
+/// `volume` by one jump.
 std::vector<double> draw_sizes(const SizeRange& range, std::int64_t count, double volume, RandomStream& random,
                                const std::function<double(std::size_t i, double d)>& volume_of);
 

@@ -9,7 +9,7 @@
 namespace macadam {
 
 std::string sparse_box(const Specimen& specimen) {
-  constexpr double least = 0.1;  // touching spheres fill at least half of a box, those of porous asphalt a third
+  constexpr double least = 0.1;  // touching spheres fill at least half of a box, spheres of porous asphalt a third
   double filled = 0;
   for (const double r : specimen.radius) filled += 4 * std::numbers::pi / 3 * r * r * r / specimen.box.volume();
   if (filled >= least) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sparse_box.hpp  Detects a specimen whose spheres fill almost none of its box, because the lengths of one of
-/// the two are in a wrong unit.
+/// \file sparse_box.hpp  Detects a specimen whose spheres fill only a small part of its box. The lengths of the spheres
+/// or of the box are then probably in a wrong unit.
 #pragma once
 
 #include <string>

@@ -55,13 +55,13 @@ std::optional<SpecimenFault> fault_of_arrays(const Specimen& s) {
   return std::nullopt;
 }
 
-/// Checks one sphere. `is_void`: whether it is one of the voids, which follow the particles.
+/// Checks one sphere. `is_void` tells whether the sphere is one of the voids, which follow the particles.
 std::optional<SpecimenFault> fault_of_sphere(const Specimen& s, std::size_t i, bool is_void) {
   const Vec3d c = s.centre[i], l = s.box.size;
   const auto fault = [&](const char* what, std::string found, std::string expected) {
     return SpecimenFault{static_cast<std::int64_t>(i), what, std::move(found), std::move(expected)};
   };
-  // Written such that NaN fails too.
+  // The conditions are written such that NaN fails too.
   if (!(c.x >= 0 && c.x <= l.x && c.y >= 0 && c.y <= l.y && c.z >= 0 && c.z <= l.z))
     return fault("centre", point(c), "a point of the box (0, 0, 0) to " + point(l));
   if (!(std::isfinite(s.radius[i]) && s.radius[i] > 0))
@@ -82,7 +82,7 @@ std::optional<SpecimenFault> coincident_centres(const Specimen& s) {
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return key(a) < key(b) || (key(a) == key(b) && a < b); });
-  // Among all coincident pairs, the one whose second particle has the lowest number.
+  // Selects, among all coincident pairs, the pair whose second particle has the lowest number.
   std::pair<std::int32_t, std::int32_t> first{-1, -1};
   for (std::size_t k = 1; k < order.size(); ++k)
     if (key(order[k - 1]) == key(order[k]) && (first.second < 0 || order[k] < first.second))

@@ -29,8 +29,8 @@ std::int64_t SphereBins::Axis::cell(double x) const {
 SphereBins::SphereBins(const Box& box, std::span<const Ball> spheres, std::vector<std::int32_t> ids, double skin)
     : given_(std::move(ids)) {
   for (std::int32_t i : given_) largest_ = std::max(largest_, spheres[i].radius);
-  // The edge of a cell is half of a query's range, which is two radii and the skin; it is larger if there would be too
-  // many cells.
+  // The edge of a cell is half of a query's range, which is two radii and the skin. The edge is larger if there would
+  // otherwise be too many cells.
   const auto n = static_cast<double>(given_.size());
   const double least = std::cbrt(box.volume() / (most_cells_a_sphere * n));
   const double edge = std::max((2 * largest_ + skin) / 2, least);
@@ -53,7 +53,7 @@ void SphereBins::sort(std::span<const Ball> spheres) {
     ++start_[cell_[k]];
   }
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];  // start_[c] is now the end of cell c
-  for (std::size_t k = given_.size(); k-- > 0;) {  // filling backwards turns it into the beginning
+  for (std::size_t k = given_.size(); k-- > 0;) {  // filling backwards turns start_[c] into the beginning of cell c
     const std::uint32_t slot = slot_of_[k] = --start_[cell_[k]];
     id_[slot] = given_[k];
     ball_[slot] = spheres[given_[k]];

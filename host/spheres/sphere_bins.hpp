@@ -17,7 +17,7 @@ struct Ball {
   double radius;
 };
 
-/// Returns the spheres of a specimen in its order.
+/// Returns the spheres of a specimen in the order of the specimen.
 std::vector<Ball> balls_of(const Specimen& specimen);
 
 /// A grid over the box in which each sphere belongs to the cell of its centre. The spheres of a row of cells along x
@@ -39,12 +39,12 @@ class SphereBins {
   std::size_t moved() const { return ball_.size() - given_.size(); }
 
   double largest() const { return largest_; }
-  /// Sphere and index at a slot; slots are numbered cell by cell.
+  /// ball() returns the sphere at a slot, and id() returns its index. Slots are numbered cell by cell.
   const Ball& ball(std::size_t slot) const { return ball_[slot]; }
   std::int32_t id(std::size_t slot) const { return id_[slot]; }
 
-  /// `ids` returns the indices given to the constructor; `in_order` returns them sorted by cell, if no sphere was
-  /// moved.
+  /// ids() returns the indices given to the constructor. in_order() returns them sorted by cell, provided that no
+  /// sphere was moved.
   std::span<const std::int32_t> ids() const { return given_; }
   std::span<const std::int32_t> in_order() const { return id_; }
 
@@ -73,10 +73,10 @@ class SphereBins {
   };
 
   std::vector<std::int32_t> given_;
-  double largest_ = 0;  ///< radius [m]
+  double largest_ = 0;  ///< largest radius of a sphere [m]
   Axis x_, y_, z_;
   std::vector<std::uint32_t> start_;           ///< first slot of each cell, and the end
-  std::vector<std::uint32_t> cell_, slot_of_;  ///< for each index in given_
+  std::vector<std::uint32_t> cell_, slot_of_;  ///< cell and slot of each sphere in given_
   std::vector<Ball> ball_;  ///< sorted by cell, then by index; spheres that were moved follow at the end
   std::vector<std::int32_t> id_;
 };

@@ -12,8 +12,9 @@
 
 namespace macadam {
 
-/// A grid of nearly cubic cells over a box. Each cell lists all spheres whose reach touches the cell. A query therefore
-/// looks into one cell only, and a few large spheres among many small ones do not slow it down.
+/// A grid of nearly cubic cells over a box. Each sphere is inserted with a reach, a distance from its centre. Each cell
+/// lists all spheres whose reach touches the cell. A query therefore looks into one cell only, and a few large spheres
+/// among many small ones do not slow it down.
 class SphereGrid {
  public:
   /// Makes cells with edges of about `cell` [m]; they are larger if there would be more than two million cells.
@@ -27,7 +28,8 @@ class SphereGrid {
 
   std::size_t cells() const { return list_.size(); }
 
-  /// Number of layers (cells with equal z), and the number of the first cell of a layer.
+  /// layers() returns the number of layers (cells with equal z). layer_begin() returns the number of the first cell of
+  /// a layer.
   std::size_t layers() const { return static_cast<std::size_t>(nz_); }
   std::size_t layer_begin(std::size_t layer) const { return layer * static_cast<std::size_t>(nx_ * ny_); }
 
@@ -63,7 +65,7 @@ class SphereGrid {
   const std::vector<std::int32_t>& near(std::size_t cell) const { return list_[cell]; }
 
  private:
-  /// Returns the first and the last cell along an axis.
+  /// Returns the first and the last cell along an axis that are within `reach` of `position`.
   static std::pair<std::int64_t, std::int64_t> range(double position, double reach, double edge, std::int64_t n);
 
   Vec3d edge_;

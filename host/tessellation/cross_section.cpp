@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cross_section.cpp  Clips the rectangle of the section plane, cell by cell, by the planes of equal power between
-// neighbouring cells.
+// cross_section.cpp  Computes the polygon in which the section plane cuts each cell: the plane's rectangle in the box,
+// clipped by the planes of equal power with the neighbouring cells.
 #include "macadam/cross_section.hpp"
 
 #include <fmt/format.h>
@@ -34,20 +34,20 @@ WallPlane plane_in_box(const SectionPlane& plane, const Box& box) {
   return out;
 }
 
-/// A plane of equal power as a side of one of its two cells. `height` has the same bits for both cells, except for the
-/// sign.
+/// A plane of equal power, seen as a side of one of the two cells that it separates. `height` has the same bits for
+/// both cells, except for the sign.
 struct Side {
-  Vec3d from, normal;  ///< a centre, and the unit normal that points away from it
-  double arm;          ///< from that centre to the plane [m]
-  double sign;         ///< −1 if the cell lies beyond the plane, seen from that centre; otherwise 1
-  double distance;     ///< between the two centres [m]
+  Vec3d from, normal;  ///< centre of the facet's particle a, and the unit normal that points away from it
+  double arm;          ///< distance of the plane from that centre [m]
+  double sign;         ///< 1 if the cell is the cell of particle a, −1 if it is the cell beyond the plane
+  double distance;     ///< distance of the two particles' centres [m]
 
   Side(const Specimen& specimen, const Facet& f, bool of_a) : from(specimen.centre[f.a]), sign(of_a ? 1 : -1) {
     const Bisector bisector(specimen, f.a, f.b);
     normal = bisector.normal, arm = bisector.arm, distance = bisector.distance;
   }
 
-  /// Signed height of a point above the side [m]; positive outside of the cell.
+  /// Returns the signed height of a point above the side [m], positive outside of the cell.
   double height(const Vec3d& p) const { return sign * (dot(p - from, normal) - arm); }
 };
 
@@ -56,16 +56,17 @@ class Cutter {
  public:
   Cutter(const Vec3d& box, const WallPlane& plane) : box_(box), plane_(plane), rounding_(rounding_bound(box)) {}
 
-  /// Returns the polygon in which the section plane cuts the cell between these sides. It is empty if they do not meet
-  /// in an area. Sorts the sides.
+  /// Returns the polygon in which the section plane cuts the cell between these sides. The polygon is empty if the
+  /// plane and the cell have no area in common. Sorts the sides.
   const Polygon& cut(std::vector<Side>& sides) {
     plane_.rectangle(box_, polygon_);
-    // Steep sides come first. When a side follows that is parallel to the section plane except for rounding, the
-    // polygon is already as small as the facet, and the facet's tilt lifts none of its vertices above the tolerance.
+    // Sides at a large angle to the section plane come first. When a later side is parallel to the section plane except
+    // for rounding, the polygon is already as small as the facet on this side, so the side's tilt lifts none of the
+    // polygon's vertices above the tolerance.
     std::sort(sides.begin(), sides.end(), [this](const Side& p, const Side& q) { return tilt(p) > tilt(q); });
     for (const Side& side : sides) {
       if (contains_polygon(side)) {
-        // a facet in the section plane is given to the cell above it
+        // If a facet lies in the section plane, only the cell above the facet gets a polygon.
         if (side.sign * side.normal.*plane_.coordinate > 0) polygon_.clear();
       } else {
         clip(
@@ -80,14 +81,15 @@ class Cutter {
     return polygon_;
   }
 
-  /// Area of the polygon that was cut last, if it is not empty [m²].
+  /// Returns the area of the polygon that was cut last, if the polygon is not empty [m²].
   double area() const { return measure_.area; }
 
  private:
-  /// Sine of the angle between a side and the section plane.
+  /// Returns the sine of the angle between a side and the section plane.
   double tilt(const Side& side) const { return std::hypot(side.normal.*plane_.u, side.normal.*plane_.v); }
 
-  /// Whether the side lies in the section plane over the whole polygon, within the tolerance of facets (facets.cpp).
+  /// Returns whether the side lies in the section plane over the whole polygon, within the tolerance of facets
+  /// (facets.cpp).
   bool contains_polygon(const Side& side) const {
     const double tolerance = 1e-10 * side.distance + rounding_;
     return tilt(side) < 1e-6 && std::all_of(polygon_.begin(), polygon_.end(),
@@ -114,7 +116,7 @@ std::vector<std::pair<std::int32_t, const Facet*>> facets_at(const WallPlane& pl
       }
     }
   }
-  // vertices are accurate to 1e-11; cells that only come near the plane are examined too
+  // Vertices are accurate to 1e-11, so cells that only come near the plane are examined too.
   const double margin = 1e-9 * norm(specimen.box.size);
   std::vector<std::pair<std::int32_t, const Facet*>> out;
   for (const Facet& f : tessellation.facets)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// dual_point.cpp  Solves for the dual point by Cramer's rule in double precision, and exactly if the tetrahedron is
-// flat.
+// dual_point.cpp  Solves for the dual point by Cramer's rule in double precision, or exactly if the tetrahedron is
+// nearly flat.
 #include "host/tessellation/dual_point.hpp"
 
 #include <CGAL/MP_Float.h>
@@ -24,8 +24,9 @@ struct Cramer {
   }
 };
 
-/// The equations for the dual point, relative to the first site. If any of the sites is a particle, the first one is.
-/// Bounding sites are so far away that the differences from one of them would be nearly parallel.
+/// The equations for the dual point, in coordinates relative to the first site. The first site is a particle if any of
+/// the four sites is. Bounding sites are so far away that the vectors from a bounding site to the other sites would be
+/// nearly parallel.
 class Equations {
  public:
   Equations(const WeightedSites& sites, const SiteNumbers& number) {
@@ -68,9 +69,10 @@ Vec3d dual_point(const WeightedSites& sites, const SiteNumbers& number) {
   std::array<double, 3> b;
   equations.write(q, b);
   const Cramer<double> c(q, b);
-  // Rounding moves c by about ε·|q| divided by the flatness. Below a flatness of 1e-3 the error would be visible in the
-  // facets, so the equations are solved exactly. (For a flat tetrahedron of nearly cospherical sites, rounding could
-  // place the dual point anywhere on a line.)
+  // The flatness of the tetrahedron is |det(q₀, q₁, q₂)| / (|q₀|·|q₁|·|q₂|). Rounding moves the dual point by about
+  // ε·|q| divided by the flatness. Below a flatness of 1e-3 this error would be visible in the facets, so the equations
+  // are solved exactly. (For a flat tetrahedron of nearly cospherical sites, rounding could place the dual point
+  // anywhere on a line.)
   constexpr double flat = 1e-3;
   if (std::abs(c.den) > 2 * flat * norm(q[0]) * norm(q[1]) * norm(q[2]))
     return equations.origin() + Vec3d{c.nx / c.den, c.ny / c.den, c.nz / c.den};

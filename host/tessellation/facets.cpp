@@ -56,8 +56,8 @@ class FacetMaker {
       for (const std::int32_t b : diagram_.tetrahedra[*t].site)
         if (b >= 0 && b != a) neighbours_.push_back({b, *t});
     }
-    // Keeps one tetrahedron per neighbour, the one with the lowest number, so that the result does not depend on their
-    // order.
+    // Keeps one tetrahedron per neighbour, the one with the lowest number, so that the result does not depend on the
+    // order of the tetrahedra.
     std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& p, const Neighbour& q) {
       return p.particle != q.particle ? p.particle < q.particle : p.tetrahedron < q.tetrahedron;
     });
@@ -73,7 +73,7 @@ class FacetMaker {
   }
 
  private:
-  /// \throws InputError if the centres of two particles nearly coincide.
+  /// Checks that the centres of two particles are far enough apart. \throws InputError if they nearly coincide.
   void require_apart(std::int32_t a, std::int32_t b) const {
     const double distance = norm(specimen_.centre[b] - specimen_.centre[a]);
     const double least = smallest_distance * std::min(specimen_.radius[a], specimen_.radius[b]);
@@ -84,13 +84,14 @@ class FacetMaker {
         fmt::format("{}", distance), fmt::format("more than {} of the smaller radius", smallest_distance));
   }
 
-  /// Sets polygon_ to the dual points of the tetrahedra around the edge (a, b), in cyclic order. Returns the walls (as
-  /// bits) that some of these points are beyond.
+  /// Sets polygon_ to the dual points of the tetrahedra around the edge (a, b), in cyclic order. Returns, as bits, the
+  /// walls beyond which at least one of these points lies.
   unsigned circulate(std::int32_t a, const Neighbour& b) {
     polygon_.clear();
     unsigned some = 0;
     std::int32_t t = b.tetrahedron;
-    // The next tetrahedron is across the face opposite to site `leave`; site `keep` stays.
+    // Indices of the two corners that are not on the edge. The next tetrahedron is across the face opposite to corner
+    // `leave`; corner `keep` also belongs to the next tetrahedron.
     std::int32_t leave = -1, keep = -1;
     for (int k = 0; k < 4; ++k) {
       const std::int32_t site = diagram_.tetrahedra[t].site[k];
@@ -150,9 +151,9 @@ class FacetMaker {
   }
 
   /// Simplifies polygon_ and stores it as one facet. Returns false if it has no area. Lengths below 1e-10 of `scale`,
-  /// the distance of the centres, count as rounding of the input. Lattices written in decimals have such short edges,
-  /// slivers, split facets, and vertices in the middle of an edge; the contact points of a facet must not depend on
-  /// them.
+  /// the distance of the centres, count as rounding of the input. If the coordinates of a lattice are written as
+  /// decimals, its diagram has such short edges, slivers, split facets, and vertices in the middle of an edge. The
+  /// contact points of a facet must not depend on these.
   bool add(std::int32_t a, std::int32_t b, const Vec3d& normal, double scale) {
     const double tolerance = 1e-10 * scale + rounding_;
     merge_vertices(polygon_, tolerance);
@@ -180,7 +181,7 @@ class FacetMaker {
   std::vector<Neighbour> neighbours_;
 };
 
-/// Returns, for each dual point, the walls (bits 0…5) that it is on or beyond, within rounding.
+/// Returns, for each dual point, the walls (as bits 0…5) that the point touches or lies beyond, up to rounding.
 std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d& box) {
   const double rounding = rounding_bound(box);
   std::vector<std::uint8_t> beyond(diagram.dual.size(), 0);

@@ -16,7 +16,7 @@ namespace macadam {
 /// The plane of the wall with the number −1 − k, k = 0…5.
 struct WallPlane {
   double Vec3d::*coordinate;  ///< the coordinate that is constant on the wall
-  double Vec3d::*u;           ///< u and v are the next two in cyclic order
+  double Vec3d::*u;           ///< u and v are the other two coordinates, in cyclic order
   double Vec3d::*v;
   double position;  ///< [m]
   double outward;   ///< −1 or +1
@@ -70,8 +70,8 @@ struct Bisector {
 /// diagonal; sixteen such errors cover the few operations from a coordinate to a vertex of a facet.
 inline double rounding_bound(const Vec3d& box) { return 8 * std::numeric_limits<double>::epsilon() * norm(box); }
 
-/// Sets `facets`, `vertices` and `null_facets` of `out` to all facets inside the box, sorted as documented there.
-/// \throws InputError if two centres nearly coincide.
+/// Sets `facets`, `vertices` and `null_facets` of `out` to all facets inside the box, sorted as documented in struct
+/// Tessellation. \throws InputError if two centres nearly coincide.
 void make_facets(const Specimen& specimen, const PowerDiagram& diagram, Tessellation& out);
 
 }  // namespace macadam

@@ -24,8 +24,8 @@ TessellationInvariants measure_invariants(const Specimen& particles, const Tesse
     if (f.b < 0) {
       const WallPlane wall(-1 - f.b, box);
       wall_area[-1 - f.b] += f.area;
-      // The distance between a particle and its mirror image is twice the distance from the wall; the radius is used
-      // for a centre on the wall.
+      // The scale is the distance between the particle and its mirror image, which is twice the distance from the wall.
+      // It is at least the radius, because the centre may lie on the wall.
       const double scale = std::max(2 * std::abs(wall.height(pa)), specimen.radius[f.a]);
       for (const Vec3d& v : tessellation.polygon(f))
         out.flatness = std::max(out.flatness, std::abs(wall.height(v)) / scale);
@@ -49,7 +49,7 @@ TessellationInvariants measure_invariants(const Specimen& particles, const Tesse
     out.walls = std::max(out.walls, std::abs(wall_area[k] - area) / area);
   }
   const auto& volume = tessellation.cell_volume;
-  // In double precision, a sum of n equal volumes could be wrong by up to n·ε/2.
+  // The sum uses long double: in double precision, a sum of n equal volumes could have a relative error of up to n·ε/2.
   const long double sum = std::accumulate(volume.begin(), volume.end(), 0.0L);
   out.volume = static_cast<double>(std::abs(sum - specimen.box.volume()) / specimen.box.volume());
   return out;

@@ -3,12 +3,13 @@
 //
 // Reasons for the bounds: in the committed examples cells reach at most 1.5 radii beyond their spheres. Packings of
 // spheres placed at random without overlap, which fill 10 to 30 % of their box, reach 7 radii if the sizes are similar,
-// and far more radii among small spheres, but at most 1.8 mean spacings (measured with up to 3,000 spheres). An empty
-// ball with a radius of 2 spacings contains 33 spheres on average, so an empty one in the interior has a probability of
-// exp(-33). A region of large spheres in a specimen of mostly small ones has holes of many mean spacings, but of less
-// than 2 of its own radii. A cell that exceeds both bounds is therefore neither of these. Overlapping mastic fills up
-// to 102 % of the box in the examples. If diameters are given as radii, the fill becomes eight times as large, which
-// exceeds 150 % for any packing of 19 % or more.
+// and far more radii among small spheres, but at most 1.8 mean spacings (measured with up to 3,000 spheres). A ball
+// with a radius of 2 mean spacings contains the centres of 33 spheres on average (4π/3·2³), so the probability that
+// such a ball in the interior is empty is exp(-33). A region of large spheres in a specimen of mostly small spheres has
+// holes of many mean spacings, but these holes are smaller than 2 radii of the large spheres. A cell that exceeds both
+// bounds therefore belongs to neither kind of packing. Overlapping mastic fills up to 102 % of the box in the examples.
+// If diameters are given as radii, the filled fraction becomes eight times as large. It then exceeds 150 % for any
+// packing whose true fraction is 19 % or more.
 #include "macadam/tessellation.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +29,8 @@ constexpr double most_radii = 4, most_spacings = 2, most_fill = 1.5;
 
 double sphere_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
-/// Returns the volume of all spheres, divided by the volume of the box. For a sphere of an aggregate with several
-/// spheres, at most the volume of its cell is counted.
+/// Returns the volume of all spheres, divided by the volume of the box. If an aggregate consists of several spheres,
+/// each of them counts with at most the volume of its cell.
 double filled_fraction(const Specimen& all, const Tessellation& tessellation) {
   std::unordered_map<std::int32_t, int> spheres_of;
   for (const std::int32_t body : all.body) ++spheres_of[body];
@@ -45,12 +46,12 @@ double filled_fraction(const Specimen& all, const Tessellation& tessellation) {
 /// The point of a cell that is farthest from the surface of the cell's sphere.
 struct Reach {
   double radii = 0;         ///< distance, divided by the largest radius of the particle and its neighbours
-  double distance = 0;      ///< from the sphere's surface [m]
+  double distance = 0;      ///< distance from the sphere's surface [m]
   std::int32_t cell = -1;   ///< particle or void; −1 if no cell exceeds both bounds
   std::int32_t other = -1;  ///< other side of the facet: a particle, a void or a Wall
   Vec3d point{};            ///< [m]
   Reach& operator+=(const Reach& o) {
-    if (o.radii > radii) *this = o;  // the first of equal ones
+    if (o.radii > radii) *this = o;  // if several are equal, the first is kept
     return *this;
   }
 };
@@ -85,9 +86,9 @@ Reach farthest_reach(const Specimen& all, const Tessellation& tessellation) {
   });
 }
 
-/// Returns the other side of the facet whose plane is farthest from the centre, among the facets of the cell that
-/// contain the farthest point. In a box that is too high, this is the top wall and not one of the two side walls that
-/// meet in the corner.
+/// Selects, among the facets that contain the cell's farthest point, the facet whose plane is farthest from the
+/// sphere's centre. Returns the cell or the wall on the other side of this facet. In a box that is too high, this is
+/// the top wall and not one of the two side walls that meet in the same corner.
 std::int32_t farthest_side(const Specimen& all, const Tessellation& tessellation, const Reach& reach) {
   const Vec3d arm = reach.point - all.centre[reach.cell];
   double farthest = -1;

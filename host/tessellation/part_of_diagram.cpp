@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// part_of_diagram.cpp  Triangulates a part of the particles and inserts further particles until its tetrahedra equal
-// those in the whole triangulation.
+// part_of_diagram.cpp  Triangulates a part of the particles and inserts further particles until the tetrahedra at the
+// part's particles equal those in the triangulation of all particles.
 #include "host/tessellation/part_of_diagram.hpp"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace macadam {
 namespace {
 
 /// Particles within this many mean spacings around a part are inserted at the start. With a smaller margin more
-/// particles are missing at first; with a larger one more are inserted in vain.
+/// particles are missing at first; with a larger margin more particles are inserted needlessly.
 constexpr double first_margin = 2.5;
 
-/// The dual point of a tetrahedron, and an upper bound of its power with respect to the corners. dual_point() is
-/// accurate to 1e-10 of the lengths, and powers to the rounding of the weights. A bound that is too large only inserts
-/// particles that are not needed.
+/// The dual point of a tetrahedron, and an upper bound of its power with respect to the corners. The bound allows for
+/// the error of dual_point(), which is 1e-10 of the lengths, and for the rounding of the weights. A bound that is too
+/// large only inserts particles that are not needed.
 struct DualSphere {
   Vec3d centre;
   double most_power;
@@ -35,7 +35,8 @@ struct DualSphere {
   }
 };
 
-/// Returns the mean spacing of the particles' centres. Also works if they lie in one layer or one row.
+/// Returns the mean spacing of the particles' centres. The result is also correct if the particles lie in one layer or
+/// one row.
 double spacing_of(const SiteTree& tree) {
   const Vec3d edge = tree.bounds().high - tree.bounds().low;
   const auto n = static_cast<double>(tree.numbers().size());
@@ -58,10 +59,11 @@ class Part {
   std::vector<Tetrahedron> tetrahedra() { return with_own_particles(all_there()); }
 
  private:
-  /// Whether a particle is not used yet, will be inserted, or is inserted.
+  /// State of a particle: not used yet, marked for insertion, or inserted.
   enum class State : std::uint8_t { away, taken, inserted };
 
-  /// Returns all tetrahedra of a triangulation that contains every tetrahedron at the own particles.
+  /// Inserts particles until the triangulation contains every tetrahedron that has a particle of the part as a corner.
+  /// Returns all tetrahedra of this triangulation.
   std::vector<Tetrahedron> all_there() {
     Triangulation triangulation(sites_);
     std::vector<Tetrahedron> all;
@@ -91,11 +93,12 @@ class Part {
     state_[i] = State::taken;
     taken_.push_back(i);
   }
-  /// Marks the particles for insertion that have a smaller power at the dual point than the tetrahedron's corners.
+  /// Marks for insertion all particles whose power at the dual point is smaller than the power of the tetrahedron's
+  /// corners.
   void take_in_conflict(const Tetrahedron& t) {
     const DualSphere sphere(sites_, t.site);
-    // A sphere of smaller power reaches to within √power of the dual point. If this neighbourhood lies inside the
-    // searched bounds, all such spheres have been taken already.
+    // A sphere whose power at the dual point is smaller reaches into the ball of radius √power around the dual point.
+    // If this ball lies inside the searched bounds, all such spheres have been taken already.
     const double reach = std::sqrt(std::max(sphere.most_power, 0.0));
     if (searched_.wider(-reach).has(sphere.centre)) return;
     for (const SiteTree& tree : all_) {
@@ -106,7 +109,7 @@ class Part {
     }
   }
 
-  /// Selects the tetrahedra at own particles and renumbers their neighbours.
+  /// Returns the tetrahedra that have a particle of the part as a corner, with their neighbours renumbered.
   std::vector<Tetrahedron> with_own_particles(const std::vector<Tetrahedron>& all) const {
     std::vector<std::int32_t> number(all.size(), -1);
     std::int32_t count = 0;

@@ -31,8 +31,8 @@ std::size_t parts_for(std::size_t particles) {
 using Parts = std::vector<std::vector<Tetrahedron>>;
 
 /// Joins the tetrahedra of all parts. Each tetrahedron belongs to its first particle, and each particle to one part. A
-/// part numbers the tetrahedra that belong to its particles. It knows both sides of every face whose first particle
-/// belongs to it, and links these.
+/// part numbers the tetrahedra that belong to its particles. It knows the tetrahedra on both sides of every face whose
+/// first particle belongs to it, and makes them each other's neighbours.
 class Joined {
  public:
   Joined(const WeightedSites& sites, const Parts& parts, const std::vector<std::int32_t>& part_of)
@@ -77,7 +77,8 @@ class Joined {
     }
   }
 
-  /// Returns the index of a tetrahedron in the result. \throws RunError if the parts do not agree.
+  /// Returns the index of a tetrahedron in the result. \throws RunError if the result does not contain the tetrahedron,
+  /// because the parts differ.
   std::int32_t number_of(const Tetrahedron& t) {
     const std::span<Tetrahedron> all = of(t.site[0]);
     const auto found = std::ranges::lower_bound(all, t.site, come_before, &Tetrahedron::site);
@@ -105,8 +106,9 @@ class Joined {
 
   const WeightedSites& sites_;
   const Parts& parts_;
-  const std::vector<std::int32_t>& part_of_;  ///< for each particle
-  /// For each particle: range of the tetrahedra that belong to it, and next free index in it.
+  const std::vector<std::int32_t>& part_of_;  ///< part of each particle
+  /// For each particle: beginning of the range of tetrahedra that belong to the particle, and next free index in the
+  /// range.
   std::vector<std::int64_t> begin_, next_;
   PowerDiagram out_;
 };

@@ -29,7 +29,8 @@ void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::siz
                    [&](std::int32_t a, std::int32_t b) { return sites[a].centre.*along < sites[b].centre.*along; });
 }
 
-/// Divides a range into parts. `first` is the index of its first number in the whole array.
+/// Divides a range into parts and appends the beginning of each part to `begin`. `first` is the index of the range's
+/// first number in the whole array.
 void divide(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t parts, std::size_t first,
             std::vector<std::size_t>& begin) {
   if (parts == 1) {

@@ -36,8 +36,8 @@ class SiteTree {
   std::span<const std::int32_t> numbers() const { return numbers_; }
   const BoundingBox& bounds() const { return nodes_.front().bounds; }
 
-  /// Calls f(number) for each particle whose sphere may reach the box: its centre lies in the box widened by its
-  /// radius.
+  /// Calls f(number) for each particle whose sphere may reach into the box, that is, whose centre lies in the box
+  /// widened by the sphere's radius.
   template <class F>
   void each_reaching(const BoundingBox& bounds, F&& f) const {
     visit([&](const Node& node) { return node.bounds.meets(bounds.wider(std::sqrt(node.most_weight))); },
@@ -62,7 +62,7 @@ class SiteTree {
     BoundingBox bounds;
     double most_weight;
     std::size_t begin, end;  ///< range in numbers_
-    /// Index of the node of the second half, 0 for a leaf; the node of the first half is the next one.
+    /// Index of the node of the second half, or 0 for a leaf. The node of the first half follows this node.
     std::size_t second_half;
   };
 
@@ -72,7 +72,7 @@ class SiteTree {
   /// Calls f for the particles in the leaves that are reached through nodes for which wanted(node) is true.
   template <class Wanted, class F>
   void visit(Wanted&& wanted, F&& f) const {
-    std::size_t waiting[64], count = 0;  // enough for halving 2^31 sites
+    std::size_t waiting[64], count = 0;  // nodes to visit; 64 are enough for halving 2^31 sites
     for (waiting[count++] = 0; count > 0;) {
       const std::size_t k = waiting[--count];
       const Node& node = nodes_[k];

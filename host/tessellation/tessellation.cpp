@@ -14,8 +14,8 @@
 namespace macadam {
 namespace {
 
-/// Largest radius in units of the box's diagonal. R² enters the position of every facet's plane; with larger radii its
-/// rounding would be visible in the facets.
+/// Largest radius in units of the box's diagonal. R² enters the position of every facet's plane; with larger radii the
+/// rounding of R² would be visible in the facets.
 constexpr double largest_radius = 1000;
 
 void check_radii(const Specimen& specimen) {
@@ -46,8 +46,9 @@ std::vector<double> measure_cells(const Specimen& specimen, Tessellation& out) {
   return surface;
 }
 
-/// Removes particles whose cells have no volume from `active`. Returns whether any of them had facets. Such a cell is a
-/// sheet between two other cells, or on a wall, that exists due to rounding only; 1e-10 is the tolerance of the facets.
+/// Removes particles whose cells have no volume from `active`. Returns whether any of them had facets. A cell with
+/// facets but without volume is a sheet between two other cells, or on a wall, which exists due to rounding only. The
+/// tolerance 1e-10 is the tolerance of the facets.
 bool retire_empty_cells(const Tessellation& tessellation, const std::vector<double>& surface,
                         std::vector<std::uint8_t>& active) {
   bool again = false;
@@ -67,7 +68,7 @@ Tessellation tessellate(const Specimen& particles) {
   check_radii(specimen);
   Tessellation out;
   std::vector<std::uint8_t> active(specimen.size(), 1);
-  for (bool again = true; again;) {  // a second pass is rare; without the sheets, the cells on both sides meet
+  for (bool again = true; again;) {  // a second pass is rare; in it, the cells on both sides of a removed sheet meet
     make_facets(specimen, power_diagram(specimen, active), out);
     again = retire_empty_cells(out, measure_cells(specimen, out), active);
   }

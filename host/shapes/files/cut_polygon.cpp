@@ -96,7 +96,7 @@ class Polygon {
     return triangles;
   }
 
-  /// Divides into triangles that all share corner 0. The fallback for outlines that cross themselves.
+  /// Divides into triangles that all share corner 0. This is the fallback for outlines that cross themselves.
   std::vector<Triangle> fan() const {
     std::vector<Triangle> triangles;
     for (std::int32_t k = 1; k + 1 < static_cast<std::int32_t>(size()); ++k) triangles.push_back({0, k, k + 1});
@@ -113,8 +113,8 @@ class Polygon {
     return axis_ == 1 ? Triangulation::Point(p.z, p.x) : Triangulation::Point(p.x, p.y);
   }
 
-  /// Returns the corner numbers along a Hilbert curve. Consecutive corners are near each other, which makes their
-  /// insertion fast.
+  /// Returns the corner numbers in the order of a Hilbert curve. Consecutive corners are near each other, which makes
+  /// their insertion fast.
   std::vector<std::int32_t> in_space() const {
     std::vector<Triangulation::Point> points;
     for (const Vec3d& p : corner_) points.push_back(seen(p));
@@ -143,7 +143,8 @@ class Polygon {
       first.push_back(vertex[k]->info());
       if (!same(corner_[first[k]], corner_[k])) return {};  // different corners coincide in the projection
     }
-    // An edge that the outline passes in both directions leads to a hole. It bounds no area and is left out.
+    // An edge that the outline passes in both directions connects the outer boundary with a hole. Such an edge bounds
+    // no area and is left out.
     Outline edges;
     for (std::size_t k = 0; k < size(); ++k) add_edge(edges, first[k], first[(k + 1) % size()], 1);
     try {
@@ -153,7 +154,8 @@ class Polygon {
     return first;
   }
 
-  /// Sets the info of each face to the number of outline edges between it and the outside. Odd numbers are inside.
+  /// Sets the info of each face to the number of outline edges between the face and the outside. Faces with odd numbers
+  /// are inside.
   static void mark_inside(Triangulation& triangulation) {
     for (const auto face : triangulation.all_face_handles()) face->info() = -1;
     std::vector<Triangulation::Face_handle> level{triangulation.infinite_face()}, next;

@@ -12,8 +12,8 @@ namespace macadam {
 
 /// Properties of a polygon that was divided.
 struct PolygonCut {
-  /// Largest distance of a corner from the polygon's mean plane, divided by the largest distance of a corner from its
-  /// middle.
+  /// Largest distance of a corner from the polygon's mean plane, divided by the largest distance of a corner from the
+  /// polygon's middle.
   double bend = 0;
   /// Whether the outline crosses or touches itself or encloses no area. The triangles may then overlap.
   bool crossed = false;

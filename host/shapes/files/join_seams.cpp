@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// join_seams.cpp  Finds near points at open edges with a grid of cubic cells.
+// join_seams.cpp  Finds points at open edges that are near each other, with a grid of cubic cells.
 #include "host/shapes/files/join_seams.hpp"
 
 #include <algorithm>
@@ -29,8 +29,9 @@ std::uint64_t number_of_edge(std::int32_t low, std::int32_t high) {
   return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
 }
 
-/// Returns whether every edge belongs to an even number of facets. A fast test: a 64-bit hash of each edge is combined
-/// by exclusive or, so that an even number of equal edges cancels. An odd edge is missed with a probability of 5e-20.
+/// Returns whether every edge belongs to an even number of facets. The test is fast: the 64-bit hashes of all edges are
+/// combined by exclusive or, so that an even number of equal edges cancels. An odd edge is missed with a probability of
+/// 5e-20.
 bool has_even_edges(const Surface& surface) {
   std::uint64_t sum = 0;
   each_side(surface, [&](std::int32_t low, std::int32_t high) {
@@ -61,8 +62,8 @@ std::vector<std::int32_t> points_of_open_edges(const Surface& surface) {
   return points;
 }
 
-/// Points that other points are joined with, in cubic cells with edges of 2·width. They are more than `width` apart, so
-/// that a cell holds only a few.
+/// The points to which other points are joined, sorted into cubic cells with edges of 2·width. These points are more
+/// than `width` apart, so a cell holds only a few of them.
 class SeamPoints {
  public:
   SeamPoints(const std::vector<Vec3d>& points, const Vec3d& low, double width)

@@ -10,17 +10,18 @@ namespace macadam {
 
 /// Counts of the changes that join_seams() made.
 struct SeamJoin {
-  std::int64_t points = 0;  ///< joined with another one
-  std::int64_t facets = 0;  ///< dropped because two of their corners were joined
+  std::int64_t points = 0;  ///< number of points joined with another point
+  std::int64_t facets = 0;  ///< number of facets dropped because two of their corners were joined
 };
 
 /// Returns the distance below which two points at open edges count as one [m]: the single-precision rounding for a
 /// surface of this size.
 double seam_width(const Surface& surface);
 
-/// Joins points at open edges that are closer than seam_width(): each one is replaced by the lowest-numbered such
-/// point. Other points are never joined, so that a closed surface is not changed, however fine it is. No point moves by
-/// more than seam_width(). join_equal_points() must have been called before.
+/// Joins points at open edges that lie within seam_width() of each other. Each point is replaced by the lowest-numbered
+/// point at an open edge within this distance that has not been replaced itself. Other points are never joined, so that
+/// a closed surface is not changed, however fine it is. No point moves by more than seam_width(). join_equal_points()
+/// must have been called before.
 SeamJoin join_seams(Surface& surface);
 
 }  // namespace macadam

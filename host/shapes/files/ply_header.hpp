@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// A number type of PLY. A double holds each of its values exactly.
+/// A number type of PLY. A double can hold every value of every type exactly.
 struct PlyType {
   std::string_view name, other_name;
   std::size_t bytes;

@@ -50,7 +50,7 @@ class PlyNumbers {
     return text_ ? (words_.left() + 1) / 2 : rest_.size() / type.bytes;
   }
 
-  /// \throws InputError if the file has more content.
+  /// Checks that the file ends here. \throws InputError if it has more content.
   void require_end() {
     if (text_ ? words_.next_line() : rest_.find_first_not_of(" \t\r\n") != std::string_view::npos)
       fail("surface", text_ ? in_quotes(words_.in_line()) : fmt::format("{} bytes more", rest_.size()),

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t header_bytes = 84, record_bytes = 50;
 
-/// Appends one facet of the last three points.
+/// Appends a facet whose corners are the last three points.
 void add_triangle(SurfaceSoup& soup) {
   const auto p = static_cast<std::int64_t>(soup.points.size());
   soup.corners.insert(soup.corners.end(), {p - 3, p - 2, p - 1});
@@ -41,7 +41,7 @@ SurfaceSoup read_binary(const SurfaceFile& file, std::size_t facets) {
   return soup;
 }
 
-/// Returns whether a word is `keyword` (given in lower case), whatever its case.
+/// Returns whether a word equals `keyword`, regardless of case. `keyword` is given in lower case.
 bool is_keyword(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
@@ -122,7 +122,7 @@ class AsciiStl {
   std::size_t corners_ = 0;
 };
 
-/// Returns whether the first word of the file is one that begins an ASCII file.
+/// Returns whether the file begins with a word with which ASCII files begin.
 bool begins_as_ascii(const SurfaceFile& file) {
   Words words(file);
   if (!words.next_line()) return false;
@@ -137,8 +137,8 @@ SurfaceSoup read_stl(const SurfaceFile& file) {
   const std::size_t size = file.bytes.size();
   if (size >= header_bytes) std::memcpy(&facets, &file.bytes[header_bytes - 4], 4);
   // The header of a binary file may begin with "solid" like an ASCII file, so the file size decides. In an ASCII file
-  // the four bytes at the place of the count are characters, which read as a number give 150 million facets or more, so
-  // that the size does not match.
+  // the four bytes at the position of the number of facets are characters. Read as a number, they give 150 million
+  // facets or more, so the file size does not match.
   const std::size_t expected = header_bytes + record_bytes * facets;
   if (size >= expected && size - expected < record_bytes) return read_binary(file, facets);
   const bool has_zero = file.bytes.substr(0, header_bytes).find('\0') != std::string_view::npos;

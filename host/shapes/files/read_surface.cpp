@@ -55,7 +55,7 @@ void add_note(Surface& surface, const std::string& note) {
   if (!note.empty()) surface.reading += (surface.reading.empty() ? "" : "; ") + note;
 }
 
-/// \throws InputError if a corner is not the number of a point.
+/// Checks that every corner is the number of a point. \throws InputError if it is not.
 void require_points(const SurfaceFile& file, const SurfaceSoup& soup) {
   const std::int64_t points = std::ssize(soup.points), first = soup.first_number;
   for (std::size_t f = 0; f < soup.facets(); ++f) {
@@ -70,8 +70,8 @@ void require_points(const SurfaceFile& file, const SurfaceSoup& soup) {
 
 /// Appends the facets as triangles, in the order of the file.
 void add_facets(Surface& surface, const SurfaceSoup& soup) {
-  // A polygon counts as bent if a corner is farther from its mean plane than this fraction of its radius; the way of
-  // dividing it then matters visibly.
+  // A polygon counts as bent if a corner is farther from its mean plane than this fraction of its radius. How the
+  // polygon is divided then makes a visible difference.
   constexpr double bent = 0.01;
   std::int64_t polygons = 0, bent_ones = 0, crossed = 0;
   double bend = 0;
@@ -110,7 +110,8 @@ std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in && errno == ENOMEM) throw std::bad_alloc();
   if (!in) fail(std::strerror(errno), "a readable file");
-  // The memory is allocated here, so that a lack of it throws std::bad_alloc. A stream would report it as a bad file.
+  // The memory is allocated here, so that too little memory throws std::bad_alloc. A stream would report too little
+  // memory as a bad file.
   std::string bytes(static_cast<std::size_t>(in.tellg()), '\0');
   if (!in.seekg(0).read(bytes.data(), std::ssize(bytes))) fail(std::strerror(errno), "a readable file");
   return bytes;

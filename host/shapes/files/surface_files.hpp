@@ -21,7 +21,7 @@ SurfaceFormat format_of(const std::filesystem::path& file);
 /// InputError if the file is not valid.
 Surface surface_in(const SurfaceFile& file, SurfaceFormat format, double scale);
 
-/// \throws InputError if `scale`, metres per unit of the file, is not a finite positive number.
+/// Checks `scale`, in metres per unit of the file. \throws InputError if it is not a finite positive number.
 void require_scale(const std::filesystem::path& file, double scale);
 
 /// Returns whether read_surface() can read files with this ending.

@@ -19,7 +19,7 @@ struct SurfaceFile {
   std::string name;
   std::string_view bytes;
 
-  /// \throws InputError for this line; 0 if no line applies.
+  /// Always throws an InputError about `line`, which is 0 if no line applies.
   [[noreturn]] void fail(int line, const std::string& what, const std::string& found,
                          const std::string& expected) const {
     throw InputError(name, line, what, found, expected);
@@ -29,7 +29,7 @@ struct SurfaceFile {
 /// Points and facets as read from a file, before they are checked together. A facet is a polygon with three or more
 /// corners.
 struct SurfaceSoup {
-  std::vector<Vec3d> points;  ///< finite
+  std::vector<Vec3d> points;  ///< all coordinates are finite
   /// Point numbers from 0, facet after facet; not yet checked against the number of points.
   std::vector<std::int64_t> corners;
   std::vector<std::size_t> ends;  ///< for each facet: index in `corners` one past its last corner

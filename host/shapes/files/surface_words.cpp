@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_words.cpp  Splits text into words, which end at white space. A word is a number only if all of it is parsed,
-// so "1.5.5" is not a number.
+// surface_words.cpp  Splits text into words, which end at white space. A word is a number only if the whole word is
+// parsed, so "1.5.5" is not a number.
 #include "host/shapes/files/surface_words.hpp"
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 namespace macadam {
 namespace {
 
-constexpr std::string_view blank = " \t\r\n\v\f";  // lines are split at one of \r and \n only, so the other may remain
+constexpr std::string_view blank = " \t\r\n\v\f";  // lines are split at either \r or \n, so the other one may remain
 
 std::string_view without_leading_blanks(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
   return text;
 }
 
-/// Parses all of the word into `value`; returns false if it is not a number. Skips a leading plus sign, which
+/// Parses the whole word into `value`; returns false if the word is not a number. Skips a leading plus sign, which
 /// std::from_chars does not accept.
 template <class T>
 bool parse(std::string_view word, T& value) {

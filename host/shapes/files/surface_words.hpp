@@ -11,20 +11,21 @@
 
 namespace macadam {
 
-/// Walks through the text of a file by lines or by words. All lines are taken to end as the first line does: with a
-/// line feed, with carriage return and line feed, or with a carriage return alone. A UTF-8 byte order mark is skipped.
+/// Walks through the text of a file by lines or by words. The class assumes that all lines end as the first line does:
+/// with a line feed, with carriage return and line feed, or with a carriage return alone. A UTF-8 byte order mark is
+/// skipped.
 class Words {
  public:
   /// Starts at byte `from`, which is on line number `line`. The rest of a line after the character `comment` is
   /// skipped; 0 means that the text has no comments.
   explicit Words(const SurfaceFile& file, char comment = 0, std::size_t from = 0, int line = 1);
 
-  /// From now on in_line() continues with the next line after a line whose last character is `sign`.
+  /// Makes in_line() continue with the next line after a line whose last character is `sign`.
   void continue_lines_after(char sign) { continuation_ = sign; }
 
   /// Goes to the next line with words. Returns false at the end of the text.
   bool next_line();
-  /// Returns the next word of this line, or an empty word at its end.
+  /// Returns the next word of this line, or an empty word at the end of the line.
   std::string_view in_line();
   /// Returns the next word of the text, on any line. \throws InputError at the end of the text, saying that `what` was
   /// expected.

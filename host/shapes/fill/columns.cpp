@@ -9,9 +9,10 @@
 namespace macadam {
 namespace {
 
-constexpr double columns_along = 400;  // the volumes of a cube and a sphere are accurate to about 1e-5
+/// Number of columns along the longer side. The volumes of a cube and a sphere are then accurate to about 1e-5.
+constexpr double columns_along = 400;
 
-/// Returns the length of the column that lies in at least one body.
+/// Returns the length of the part of the column that lies in at least one body.
 double length(Column& column) {
   double sum = 0;
   for_each_part(column, [&](double low, double high) { sum += high - low; });

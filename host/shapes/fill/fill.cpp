@@ -18,10 +18,12 @@ namespace macadam {
 namespace {
 
 constexpr std::uint64_t radius_stream = 0, position_stream = 1;
-constexpr int attempts = 200;            // random points per sphere
-constexpr int most_rounds = 10;          // relaxations, each after spheres without a cell got new positions
-constexpr double most_spheres = 1e5;     // more is taken for an input error: all aggregates of a specimen have fewer
-constexpr double least_porosity = -0.5;  // below, spheres would overlap too much to have cells
+constexpr int attempts = 200;  // random points per sphere
+// Largest number of relaxations. Before each further relaxation, the spheres without a cell get new positions.
+constexpr int most_rounds = 10;
+// More spheres are reported as an input error. Even all aggregates of a specimen together have fewer.
+constexpr double most_spheres = 1e5;
+constexpr double least_porosity = -0.5;  // below this value, spheres would overlap too much to have cells
 
 void require(bool good, const std::string& name, const char* what, double found, const char* expected) {
   if (!good) throw InputError(name, 0, std::string("fill: ") + what, shown(found), expected);
@@ -103,7 +105,8 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
   const std::int64_t count = spheres(scale, spec);
   if (count < spec.least) return {{scale * measure_.centroid}, {scale * single_radius(spec.single)}};
 
-  // All lengths from here on are in the scale of the unscaled shape, whose distances are precomputed.
+  // All lengths from here on are in the scale of the unscaled shape, because the distances from its surface are
+  // precomputed.
   RandomStream radii(spec.seed, radius_stream), positions(spec.seed, position_stream);
   const double volume = (1 - spec.porosity) * measure_.volume * scale * scale * scale;
   const std::vector<double> diameter = draw_diameters(diameters(spec), count, volume, radii);
@@ -112,7 +115,7 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
     cluster.radius.push_back(d / (2 * scale));
     cluster.centre.push_back(position(cluster.radius.back(), positions));
   }
-  const double r = cluster.radius.front();  // the largest radius; with this margin no sphere is near a side of the box
+  const double r = cluster.radius.front();  // largest radius; with this margin no sphere is near a side of the box
   const Vec3d low = distance_.low() - Vec3d{r, r, r}, high = distance_.high() + Vec3d{r, r, r};
   Specimen boxed = in_box(cluster, low, high);
   const Enclosure wall{[&](const Vec3d& point, double reach) { return distance_.below(low + point, reach); }};

@@ -12,35 +12,36 @@ namespace macadam {
 /// constructor. Filling is const, so several threads may fill copies of one shape at the same time.
 class ShapeFiller {
  public:
-  /// \throws InputError naming the surface if check_surface() finds a fault.
+  /// Measures the surface and prepares the computation of distances from it. \throws InputError naming the surface if
+  /// check_surface() finds a fault.
   explicit ShapeFiller(const Surface& surface);
 
   /// Returns the number of spheres for a copy scaled by `scale`: the volume (1 − porosity)·V of the copy divided by the
-  /// mean volume of a sphere, rounded (model (20.3)). If it is below `spec.least`, fill() gives a single sphere.
-  /// \throws InputError for an invalid spec or scale.
+  /// mean volume of a sphere, rounded (model (20.3)). If this number is below `spec.least`, fill() gives a single
+  /// sphere. \throws InputError for an invalid spec or scale.
   std::int64_t spheres(double scale, const FillSpec& spec) const;
 
-  /// Returns the radius of the single sphere that represents the unscaled shape by this rule [m].
+  /// Returns the radius of the single sphere by which this rule represents the unscaled shape [m].
   double single_radius(SingleSphere rule) const;
 
   const ShapeMeasure& measure() const { return measure_; }
 
-  /// Returns whether a point, in the frame and scale of the surface, lies inside it.
+  /// Returns whether a point, in the frame and scale of the surface, lies inside the surface.
   bool contains(const Vec3d& point) const {
     return distance_.may_contain(point) && distance_.below(point, 0).depth > 0;
   }
 
-  /// Returns false only if a point, in the frame and scale of the surface, is farther than `reach` [m] outside of it.
-  /// Tests bounding sphere and box only.
+  /// Returns false only if a point, in the frame and scale of the surface, is farther than `reach` [m] outside of the
+  /// surface. Tests the bounding sphere and box only, so a point for which it returns true may be farther away.
   bool may_reach(const Vec3d& point, double reach) const;
 
   /// Returns the height of a point above the surface (negative inside) and the outward direction, in the frame and
   /// scale of the surface [m].
   WallDepth above(const Vec3d& point) const;
 
-  /// Does what fill_shape() does, for a copy scaled by `scale` about the origin of the surface's frame. `spec` applies
-  /// to the scaled copy. \throws InputError for an invalid spec or scale; RunError if spheres remain without a Laguerre
-  /// cell.
+  /// Fills a copy of the shape with spheres, as fill_shape() does. The copy is scaled by `scale` about the origin of
+  /// the surface's frame. `spec` applies to the scaled copy. \throws InputError for an invalid spec or scale; RunError
+  /// if spheres remain without a Laguerre cell.
   MultiSphere fill(double scale, const FillSpec& spec) const;
 
  private:
@@ -52,8 +53,8 @@ class ShapeFiller {
   SurfaceDistance distance_;
 };
 
-/// Returns the cluster as the mastic of a specimen whose box extends from `low` to `high`, shifted so that `low` is the
-/// origin.
+/// Returns a specimen whose mastic particles are the spheres of the cluster. Its box extends from `low` to `high`;
+/// everything is shifted so that `low` becomes the origin.
 Specimen in_box(const MultiSphere& cluster, const Vec3d& low, const Vec3d& high);
 
 }  // namespace macadam

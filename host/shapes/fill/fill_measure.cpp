@@ -37,8 +37,8 @@ void check(const Surface& surface, const MultiSphere& cluster) {
   }
 }
 
-/// All pairs of spheres of a cluster, including each sphere with itself. Spheres are sorted by the distance that they
-/// reach from the middle, farthest first.
+/// All pairs of spheres of a cluster, including each sphere with itself. Spheres are sorted by the distance between the
+/// middle of the cluster and their farthest point, in descending order.
 class Pairs {
  public:
   explicit Pairs(const MultiSphere& cluster) : cluster_(cluster), reach_(cluster.size()), order_(cluster.size()) {
@@ -50,10 +50,10 @@ class Pairs {
   }
 
   /// Returns the longest segment between two points of the spheres' surfaces whose direction lies in a subspace. For
-  /// spheres a and b, with d = b − a = p + q, p in the subspace and q perpendicular to it, its length is |p| + √((Ra +
-  /// Rb)² − q²): the end points are displaced from their centres by q, divided in the ratio Ra : Rb, so that both
-  /// circles have the same slope there. If the subspace is the whole space, the length is |d| + Ra + Rb. `project`
-  /// returns p for d; `along` receives p of the longest segment.
+  /// spheres with centres a and b, d = b − a is the sum of p in the subspace and q perpendicular to the subspace. The
+  /// segment has the length |p| + √((Ra + Rb)² − q²). Its end points are displaced from the two centres along q, and
+  /// the ratio of the displacements is Ra : Rb, because this ratio makes the segment longest. If the subspace is the
+  /// whole space, the length is |d| + Ra + Rb. `project` returns p for d; `along` receives p of the longest segment.
   template <class Project>
   double longest(const Project& project, Vec3d& along) const {
     double best = 0;
@@ -77,8 +77,8 @@ class Pairs {
   std::vector<std::size_t> order_;
 };
 
-/// Returns `v` as a unit vector. If `v` is zero (a single sphere, for which any direction will do), returns a unit
-/// vector perpendicular to `other`.
+/// Returns `v` as a unit vector. If `v` is zero, which happens for a single sphere, any direction is valid; then
+/// returns a unit vector perpendicular to `other`.
 Vec3d direction(const Vec3d& v, const Vec3d& other) {
   if (const double length = norm(v); length > 0) return (1 / length) * v;
   const Vec3d least = std::abs(other.x) <= std::min(std::abs(other.y), std::abs(other.z)) ? Vec3d{1, 0, 0}
@@ -112,8 +112,8 @@ double largest_overlap(const MultiSphere& cluster) {
   return largest;
 }
 
-/// Measures distances from the surface to the nearest sphere, at the points of the surface and at the centroids of the
-/// k² equal parts of each facet.
+/// Measures distances from the surface to the nearest sphere, at the points of the surface and at the centroids of
+/// equal parts into which each facet is divided. Larger facets have more parts.
 void measure_deviation(const Surface& surface, const MultiSphere& cluster, FillReport& report) {
   const auto deviation = [&](const Vec3d& point) {
     double nearest = std::numeric_limits<double>::infinity();

@@ -69,7 +69,7 @@ void Stretching::stretch(const std::array<Vec3d, 3>& axis, const std::array<doub
 CrushedStone::CrushedStone(RandomStream& random, int faces) {
   constexpr int trials = 8;
   std::vector<Vec3d> normals;
-  // Each normal is the one of several random directions that is farthest from all normals before it.
+  // Each normal is chosen among several random directions: it is the direction farthest from all normals before it.
   while (static_cast<int>(normals.size()) < faces) {
     Vec3d best{};
     double nearest = 2;

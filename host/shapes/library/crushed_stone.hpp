@@ -27,7 +27,7 @@ class Stretching {
   Columns points_{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, normals_ = points_;
 };
 
-/// A stone is the set of points with g(x) ≤ 1, stretched, where g is the gauge function
+/// A stone is the stretched set of the points with g(x) ≤ 1, where g is the gauge function
 ///
 ///   g(x) = (1 − w) · (Σᵢ max(0, aᵢ·x)³²)^(1/32) + w · |x|,
 ///

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file icosahedron.hpp  Makes geodesic spheres: an icosahedron on the unit sphere, each triangle repeatedly divided
-/// into four.
+/// \file icosahedron.hpp  Makes geodesic spheres: each triangle of an icosahedron on the unit sphere is repeatedly
+/// divided into four.
 #pragma once
 
 #include "macadam/shape.hpp"

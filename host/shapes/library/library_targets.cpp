@@ -16,29 +16,32 @@
 namespace macadam {
 namespace {
 
-/// A knot of a distribution, which is given as its piecewise linear quantile function: number of shapes, out of the 82
-/// of [1], that lie below `value`.
+/// A distribution is given as a piecewise linear quantile function. At each of its knots, `shapes` of the 82 shapes of
+/// [1] lie below `value`.
 struct Knot {
   double shapes, value;
 };
 using Quantiles = std::vector<Knot>;
 constexpr double paper_shapes = 82;
 
-/// D^I. The sieve classes hold 1, 6, 17, 27, 14, 12, 4 and 1 shapes. In each of the larger classes half of the shapes
-/// lie above a mean of the two sieves. The ends are chosen such that the midpoints of the first and the last stratum
-/// are the smallest and the largest D^I of Table 1.
+/// Distribution of D^I [mm]. The sieve classes hold 1, 6, 17, 27, 14, 12, 4 and 1 shapes. In each of the larger classes
+/// half of the shapes lie above a mean of the two sieves. The ends are chosen such that the midpoints of the first and
+/// the last stratum are the smallest and the largest D^I of Table 1.
 const Quantiles sizes_mm{{0, 0.46}, {1, 0.5},  {7, 1},    {15.5, 1.4}, {24, 2},    {37.5, 2.6}, {51, 4},
                          {58, 5},   {65, 6.3}, {71, 7.9}, {77, 10},    {79, 11.2}, {81, 12.5},  {82, 12.68}};
-/// E. 2 very elongated and 15 moderately elongated shapes; the other knots are chosen such that the average is 0.70.
+/// Distribution of the elongation E. There are 2 very elongated and 15 moderately elongated shapes. The other knots are
+/// chosen such that the average is 0.70.
 const Quantiles elongations{{0, 0.38}, {2, 0.4}, {17, 0.6}, {61, 0.8}, {82, 0.978}};
-/// F. 3 very flat and 19 moderately flat shapes; the other knots are chosen such that the average is 0.64.
+/// Distribution of the flatness F. There are 3 very flat and 19 moderately flat shapes. The other knots are chosen such
+/// that the average is 0.64.
 const Quantiles flatnesses{{0, 0.358}, {3, 0.4}, {22, 0.6}, {60, 0.7}, {79, 0.8}, {82, 0.94}};
-/// ψ^w, with the minimum, average and maximum of Table 1.
+/// Distribution of the true sphericity ψ^w. It has the minimum, average and maximum of Table 1.
 const Quantiles sphericities{{0, 0.718}, {8, 0.79}, {41, 0.865}, {74, 0.92}, {82, 0.968}};
-/// Number of points, with the minimum, average and maximum of Table 1 and nine shapes of fewer than 100 facets.
+/// Distribution of the number of points. It has the minimum, average and maximum of Table 1, and nine shapes have fewer
+/// than 100 facets.
 const Quantiles points{{0, 24.5}, {9, 51}, {41, 145}, {70, 270}, {82, 411.5}};
 
-/// Returns the value below which this number of shapes (out of 82) lies.
+/// Returns the value below which `shapes` of the 82 shapes lie.
 double quantile(const Quantiles& knots, double shapes) {
   auto upper = std::next(knots.begin());
   while (std::next(upper) != knots.end() && upper->shapes <= shapes) ++upper;
@@ -82,8 +85,8 @@ constexpr Correlation correlations[] = {{"SI", "D^L", -0.24},    {"SI", "D^I", -
                                         {"psi^A", "D^L", -0.07}, {"psi^A", "D^I", -0.03}, {"psi^A", "D^S", 0.24},
                                         {"psi^A", "F", 0.76},    {"psi^A", "E", 0.33},    {"points", "D^I", 0.6}};
 
-/// Returns the statistics of Tables 1 and 2 of [1] that depend on the combination. The targets for the extremes lie 2 %
-/// outside the range of [1], so that the library covers that range.
+/// Returns the statistics of Tables 1 and 2 of [1] that depend on which values are combined in one shape. The targets
+/// for the extremes lie 2 % outside the range of [1], so that the library covers that range.
 std::vector<Wish> published_targets() {
   using enum Statistic;
   std::vector<Wish> wishes;
@@ -108,8 +111,9 @@ double found(const Wish& wish, const std::vector<ShapeMeasure>& shapes,
   return wish.statistic == Statistic::least ? spread.min : spread.max;
 }
 
-/// V/(D^L·D^I·D^S), used to predict V; shapes are not fitted to V. The extremes of Table 1 of [1] give 0.45 for the
-/// smallest and 0.41 for the largest stone, provided that all extremes belong to the same stone. An ellipsoid has 0.52.
+/// The ratio V/(D^L·D^I·D^S) by which V is predicted; shapes are not fitted to V. The extremes of Table 1 of [1] give
+/// 0.45 for the smallest and 0.41 for the largest stone, provided that all extremes belong to the same stone. An
+/// ellipsoid has 0.52.
 constexpr double fullness = 0.43;
 
 /// The strata of D^I, E, F and number of points, and how they are combined to shapes.
@@ -158,9 +162,9 @@ class Pairing {
   }
 
  private:
-  /// Sum of squares of the deviations beyond the tolerances, in units of the tolerance. Deviations within the tolerance
-  /// cost nothing, so that shapes are not more ordered than the tables require. Statistics that are undefined (NaN) for
-  /// a small number of shapes do not count.
+  /// Returns the sum of squares of the deviations beyond the tolerances, each in units of its tolerance. Deviations
+  /// within the tolerance cost nothing, so that shapes are not more ordered than the tables require. Statistics that
+  /// are undefined (NaN) for a small number of shapes do not count.
   double cost() const {
     const std::vector<ShapeMeasure> shapes = targets();
     std::vector<std::vector<double>> values;
@@ -182,11 +186,12 @@ class Pairing {
   std::array<std::vector<double>, 3> columns_;  ///< E, F, points
 };
 
-/// Assigns the strata of ψ^w in ascending order of ψ^A, with two corrections and a random part. Table 2 has a
-/// correlation of ψ^w of 0.89 with ψ^A and of -0.06 to -0.34 with the sizes; `disorder` and `fineness` (smaller stones
-/// get larger values) reproduce these. A convex surface with few points has a lower sphericity than the smooth body
-/// through its points, by about 0.8 divided by the number of points (for a sphere: 0.06 with the 12 points of the
-/// icosahedron, 0.02 with 42).
+/// Assigns the strata of ψ^w in ascending order of ψ^A, with two corrections and a random part. In Table 2, the
+/// correlation of ψ^w with ψ^A is 0.89, and its correlation with the sizes is -0.06 to -0.34. The random part
+/// `disorder` and the correction `fineness`, which gives larger values to smaller stones, reproduce these correlations.
+/// The correction `lack` is for the number of points: a convex surface with few points has a lower sphericity than the
+/// smooth body through its points, by about 0.8 divided by the number of points (for a sphere: 0.06 with the 12 points
+/// of the icosahedron, 0.02 with 42).
 void add_sphericities(std::vector<ShapeMeasure>& shapes, RandomStream& random) {
   constexpr double disorder = 0.02, fineness = 0.04, lack = 0.8;
   std::vector<std::pair<double, std::size_t>> order;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file library_targets.hpp  Chooses target measures for the shapes of a generated library, such that its statistics
-/// are those of Tables 1 and 2 of [1].
+/// \file library_targets.hpp  Chooses target measures for the shapes of a generated library, such that the statistics
+/// of the library are those of Tables 1 and 2 of [1].
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 namespace macadam {
 
 /// Returns the target measures of each shape, ordered from the smallest to the largest D^I. Points, facets, D^L, D^I,
-/// D^S, ψ^w and, approximately, V are set; all other measures that derive from these (SI, F, Fl, E, ψ^A) then have the
+/// D^S, ψ^w and, approximately, V are set; the measures that derive from these (SI, F, Fl, E, ψ^A) then have the
 /// statistics of [1]. `shapes` must be at least 1.
 ///
 /// The values of D^I, E, F, ψ^w and the number of points are the midpoints of equal strata of distributions with the

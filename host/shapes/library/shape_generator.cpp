@@ -15,7 +15,8 @@
 namespace macadam {
 namespace {
 
-constexpr double grid = 1e9;  // coordinates are multiples of 1 nm: short in a file, and read back to the same bits
+// Coordinates are multiples of 1 nm, so that they are short in a file and are read back to the same bits.
+constexpr double grid = 1e9;
 
 Surface rounded(Surface s) {
   for (Vec3d& p : s.points)
@@ -30,15 +31,15 @@ std::array<double, 3> factors(const ShapeMeasure& target, const ShapeMeasure& fo
 
 std::array<Vec3d, 3> axes(const ShapeMeasure& m) { return {m.axis_long, m.axis_intermediate, m.axis_short}; }
 
-/// Returns the deviation of a stone from its target: the largest relative deviation of D^L, D^I, D^S, and half of that
-/// of ψ^w.
+/// Returns the deviation of a stone from its target: the largest relative deviation of D^L, D^I, D^S, and half of the
+/// relative deviation of ψ^w.
 double deviation(const ShapeMeasure& target, const ShapeMeasure& found) {
   double largest = 0.5 * std::abs(found.sphericity_true / target.sphericity_true - 1);
   for (const double f : factors(target, found)) largest = std::max(largest, std::abs(f - 1));
   return largest;
 }
 
-/// Largest accepted deviation of the three lengths; that of ψ^w may be twice as large.
+/// Largest accepted deviation of the three lengths; the deviation of ψ^w may be twice as large.
 constexpr double near_enough = 0.004;
 
 /// The best stone so far and its deviation from the target.
@@ -83,8 +84,8 @@ Fit fit_stone(const CrushedStone& stone, const ShapeMeasure& target) {
   return best;
 }
 
-/// Returns the first stone that is close enough to its target, or otherwise the best of all attempts. After a stone
-/// that was too round the next one has fewer faces, after one that was not round enough it has more.
+/// Returns the first stone that is close enough to its target, or otherwise the best of all attempts. If a stone is too
+/// round, the next stone has fewer faces; otherwise the next stone has more.
 Surface make_stone(std::uint64_t seed, int number, const ShapeMeasure& target) {
   constexpr int attempts = 10;
   int fewest = 8, most = 28;

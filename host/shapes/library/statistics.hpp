@@ -12,7 +12,7 @@ namespace macadam {
 
 /// A geometrical property, which is a column of every table.
 struct ShapeProperty {
-  const char* name;    ///< the symbol of [1]
+  const char* name;    ///< symbol that [1] uses
   const char* column;  ///< heading in CSV files, with the SI unit
   const char* unit;    ///< unit in the printed table, e.g. `"mm"`
   double per_unit;     ///< factor from SI to `unit`
@@ -38,19 +38,19 @@ struct Spread {
 /// Computes the statistics of one property, with the values of tabulated().
 Spread spread_of(const ShapeProperty& property, const std::vector<ShapeMeasure>& shapes);
 
-/// Returns Pearson's correlation coefficient over the pairs in which both are numbers. Returns NaN if there are fewer
-/// than two such pairs or if one of the variables is constant.
+/// Returns Pearson's correlation coefficient over the pairs of values of which neither is NaN. Returns NaN if there are
+/// fewer than two such pairs or if one of the variables is constant.
 double pearson(const std::vector<double>& x, const std::vector<double>& y);
 
 /// Returns the matrix of correlation coefficients of the properties that are `correlated`.
 std::vector<std::vector<double>> correlation_matrix(const std::vector<ShapeMeasure>& shapes);
 
 /// Returns CSV text: `name`, one column per property, and the two sieves of the class [m] (the upper one is empty above
-/// the largest sieve). SI units.
+/// the largest sieve). All values are in SI units.
 std::string shapes_csv(const std::vector<std::string>& names, const std::vector<ShapeMeasure>& shapes);
 
 /// Returns CSV text, one row per property: number of shapes; minimum, average and maximum; then the values published in
-/// [1], in columns paper_min, paper_average and paper_max. SI units.
+/// [1], in columns paper_min, paper_average and paper_max. All values are in SI units.
 std::string statistics_csv(const std::vector<ShapeMeasure>& shapes);
 
 /// Returns the correlation matrix as CSV text with headings.

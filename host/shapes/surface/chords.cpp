@@ -19,7 +19,7 @@ struct Chord {
   Vec3d axis{};
 };
 
-/// Collects the longest chords offered so far. Chords whose lengths differ by rounding only count as equally long, and
+/// Collects the longest chords offered so far. Chords whose lengths differ only by rounding count as equally long, and
 /// all of them are kept.
 class Longest {
  public:
@@ -148,7 +148,8 @@ class ChordFinder {
     return longest;
   }
 
-  /// Returns D^S, the length of the longest chord along `axis`. `u` and `v` are perpendicular to it and to each other.
+  /// Returns D^S, the length of the longest chord along `axis`. `u` and `v` are perpendicular to the axis and to each
+  /// other.
   double longest_along(const Vec3d& axis, const Vec3d& u, const Vec3d& v) const {
     std::vector<Vec3d> seen;  // coordinates (along u, along v, height along axis)
     for (const Vec3d& p : points_) seen.push_back({dot(u, p), dot(v, p), dot(axis, p)});

@@ -16,7 +16,7 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-/// Returns a plane number for each facet: facets in one plane have the number of the first of them.
+/// Returns a plane number for each facet. All facets in one plane have the number of the first facet in this plane.
 std::vector<std::size_t> planes_of(const Mesh& hull) {
   std::vector<std::size_t> plane(hull.number_of_faces(), hull.number_of_faces());
   std::vector<Mesh::Face_index> next;

@@ -30,7 +30,7 @@ class EdgeGap {
  public:
   explicit EdgeGap(double rounding) : rounding_(rounding) {}
 
-  /// Considers one pair of edges: their crossing, and the ends of each on the other.
+  /// Compares the heights of two edges where they cross, and where an end of one edge lies on the other edge.
   void offer(const Segment& a, const Segment& b) {
     if (a.y_low() > b.y_high() + rounding_ || b.y_low() > a.y_high() + rounding_) return;
     if (std::max(a.z_high() - b.z_low(), b.z_high() - a.z_low()) <= largest_) return;
@@ -101,8 +101,8 @@ double largest_gap_over_facets(const std::vector<Vec3d>& points, const std::vect
     const Vec3d &o = points[a], e1 = points[b] - o, e2 = points[c] - o, r = points[point] - o;
     const double both = turn(e1, e2), s = turn(r, e2) / both, t = turn(e1, r) / both;
     if (!(s >= 0 && t >= 0 && s + t <= 1)) return;
-    const Vec3d apart =
-        s * e1 + t * e2 - r;  // in a facet that is vertical, s and t are noise, but its edges were compared before
+    // In a vertical facet s and t are meaningless. The edges of such a facet are compared by largest_gap_of_edges().
+    const Vec3d apart = s * e1 + t * e2 - r;
     if (flat_dot(apart, apart) <= rounding * rounding) largest = std::max(largest, std::abs(apart.z));
   });
   return largest;

@@ -48,7 +48,7 @@ class FacetPairs {
   Kernel::Triangle_3 triangle(const Corners& c) const { return {at(c[0]), at(c[1]), at(c[2])}; }
   Kernel::Segment_3 far_edge(const Corners& c) const { return {at(c[1]), at(c[2])}; }
 
-  /// Moves the common corners to the front of both, in the same order, and returns their number.
+  /// Moves the common corners of two facets to the front of both lists, in the same order, and returns their number.
   static int shared_first(Corners& a, Corners& b) {
     int n = 0;
     for (int i = n; i < 3; ++i) {

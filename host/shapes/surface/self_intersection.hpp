@@ -10,8 +10,8 @@
 namespace macadam {
 
 /// Returns, in ascending order, the numbers of the facets that meet another facet elsewhere than in a common point or
-/// edge. Uses exact predicates without tolerances. Facets marked in `skip` are left out (those without area, which have
-/// no plane). Points with equal coordinates count as one.
+/// edge. Uses exact predicates without tolerances. Facets marked in `skip` are left out; they must include all facets
+/// without area, which have no plane. Points with equal coordinates count as one.
 std::vector<std::int32_t> self_intersecting_facets(const Surface& surface, const std::vector<bool>& skip);
 
 }  // namespace macadam

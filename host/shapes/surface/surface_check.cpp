@@ -77,7 +77,7 @@ class Check {
   void collect_sides() {
     for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
       const auto [a, b, c] = surface_.facets[f];
-      if (a == b || b == c || c == a) continue;  // skipped: without this facet, its neighbours share the edge directly
+      if (a == b || b == c || c == a) continue;  // skips this facet; its neighbours then share the edge directly
       for (int k = 0; k < 3; ++k) {
         const std::int32_t from = surface_.facets[f][k], to = surface_.facets[f][(k + 1) % 3];
         sides_.push_back({std::min(from, to), std::max(from, to), static_cast<std::int32_t>(f), k, from < to});
@@ -98,7 +98,8 @@ class Check {
     for (std::size_t e = 0; e + 1 < edges_.size(); ++e) visit(&sides_[edges_[e]], sides_.data() + edges_[e + 1]);
   }
 
-  /// An edge of one side is open; an edge of more than two sides is non-manifold.
+  /// Records the facets at faulty edges. An edge with one side is open; an edge with more than two sides is
+  /// non-manifold.
   void faulty_edges() {
     each_edge([&](const Side* first, const Side* last) {
       if (last - first == 1) verdict_.open.push_back(first->facet);
@@ -139,7 +140,7 @@ class Check {
   }
 
   /// Finds misoriented facets. In each connected patch the facets are divided into two classes such that neighbours of
-  /// one class have consistent orientation. The facets of the smaller class are reported.
+  /// the same class have consistent orientations. The facets of the smaller class are reported.
   void misoriented() {
     struct Neighbour {
       std::int32_t facet;

@@ -16,7 +16,7 @@ namespace macadam {
 namespace {
 
 constexpr int deepest_level = 4;           // the edges of these leaves are 1/16 of the box
-constexpr std::size_t few_candidates = 6;  // testing these takes as long as descending one level
+constexpr std::size_t few_candidates = 6;  // testing this many candidates takes as long as descending one level
 enum Feature { corner_0, edge_01 = 3, edge_12, edge_20, face };
 
 double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
@@ -82,8 +82,9 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(const Facet& facet, const Vec3
   return found(a + (vb / (va + vb + vc)) * ab + (vc / (va + vb + vc)) * ac, face);
 }
 
-/// A candidate at distance D from the other point is at least D − way from this one. The search therefore ends when D −
-/// way exceeds the smallest distance found.
+/// The candidates are sorted by their distance D from another point, which is `way` from `point`. The distance of a
+/// candidate from `point` is therefore at least D − way, and the search ends when D − way exceeds the smallest distance
+/// found.
 SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> nearest_first, double way,
                                                      const Vec3d& point) const {
   Nearest best{std::numeric_limits<double>::infinity(), {}, {}};

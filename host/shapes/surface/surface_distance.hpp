@@ -19,7 +19,7 @@ namespace macadam {
 /// sign is correct in all three cases.
 class SurfaceDistance {
  public:
-  /// Copies what it needs of `surface`, which must be good().
+  /// Copies the data that it needs from `surface`, for which check_surface() must find no fault.
   explicit SurfaceDistance(const Surface& surface);
 
   /// Returns the depth of a point [m], negative outside, and the unit vector along which the depth grows fastest. If
@@ -45,7 +45,7 @@ class SurfaceDistance {
   /// around them and are not normalised; the normal of the face is a unit vector.
   struct Facet {
     std::array<Vec3d, 3> corner;
-    std::array<Vec3d, 7> normal;  ///< of corners 0, 1, 2; of edges 01, 12, 20; of the face
+    std::array<Vec3d, 7> normal;  ///< normals of corners 0, 1, 2, of edges 01, 12, 20, and of the face
   };
   /// The nearest point of the surface, its squared distance, and the normal there.
   struct Nearest {
@@ -53,14 +53,14 @@ class SurfaceDistance {
     Vec3d point, normal;
   };
   struct Candidate {
-    double distance;  ///< from the centre of the cell that lists the candidate [m]
+    double distance;  ///< distance from the centre of the cell that lists the candidate [m]
     std::int32_t facet;
   };
   /// A cell of the octree.
   struct Node {
-    double depth;              ///< of the cell's centre [m]
+    double depth;              ///< depth of the cell's centre [m]
     std::int32_t child;        ///< index of the first of eight children; −1 for a leaf
-    std::int32_t first, last;  ///< range of a leaf in candidates_
+    std::int32_t first, last;  ///< range of the leaf's candidates in candidates_
   };
 
   /// Returns the nearest point of one facet.
@@ -74,8 +74,8 @@ class SurfaceDistance {
 
   std::vector<Facet> facet_;
   std::vector<Node> node_;
-  std::vector<Candidate> all_;         ///< every facet, with distance 0 because it is not known
-  std::vector<Candidate> candidates_;  ///< of each leaf, sorted by distance from the leaf's centre
+  std::vector<Candidate> all_;         ///< every facet, with distance 0 because the distance is not known
+  std::vector<Candidate> candidates_;  ///< candidates of each leaf, sorted by distance from the leaf's centre
   Vec3d low_, high_;
 };
 

@@ -22,9 +22,10 @@ class SurfacePieces {
   /// Returns the area of each piece [m²].
   std::vector<double> areas() const;
 
-  /// Returns for each piece whether it lies inside the piece with the largest volume, as a closed pore or inside one.
-  /// `verdict` must have all faults of the surface except `pieces` and `inner`. A faulty piece (open or intersecting
-  /// another one, for example) does not count as inside; if the largest piece is faulty, no piece does.
+  /// Returns for each piece whether it lies inside the piece with the largest volume, either as a closed pore or inside
+  /// a closed pore. `verdict` must have all faults of the surface except `pieces` and `inner`. A faulty piece (open or
+  /// intersecting another one, for example) does not count as inside; if the largest piece is faulty, no piece counts
+  /// as inside.
   std::vector<bool> find_inner(const SurfaceVerdict& verdict) const;
 
   /// Returns the surface without the marked pieces.

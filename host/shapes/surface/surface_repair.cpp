@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // surface_repair.cpp  Repairs surfaces. First the existing facets are mended; if the surface is still faulty, it is
-// wrapped in a new one.
+// wrapped in a new surface.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -33,7 +33,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-/// Points and polygons as CGAL's functions on polygon soups take them.
+/// Points and polygons in the form that CGAL's functions for polygon soups take.
 struct Soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> polygons;
@@ -62,7 +62,8 @@ double relative_change(double before, double after) { return (after - before) / 
 /// One repair of one surface. Collects a description of the steps.
 class Repair {
  public:
-  /// `as`: the file that the surface will be read from; its format determines rounding. Empty if no such file exists.
+  /// `as` is the file from which the surface will be read later; its format determines how coordinates are rounded.
+  /// `as` is empty if there is no such file.
   Repair(const Surface& surface, const std::filesystem::path& as) : surface_(surface), as_(as) {}
 
   /// Returns the repaired surface. \throws RunError if neither mending nor wrapping gives a good surface.
@@ -193,7 +194,8 @@ class Repair {
     return surface;
   }
 
-  /// Drops closed pores, because a particle is solid. Surfaces made from voxels have such inner shells.
+  /// Drops closed pores, because a particle is solid. In surfaces made from voxels, closed pores appear as inner
+  /// shells.
   Surface without_pores(Surface surface) {
     const SurfacePieces pieces(surface);
     const std::vector<bool> inner = pieces.find_inner(check_surface(surface));
@@ -209,8 +211,8 @@ class Repair {
     return solid;
   }
 
-  /// Drops specks beside the largest piece. If there are two or more larger pieces, keeps everything, because the
-  /// program cannot choose between them.
+  /// Drops specks, which are pieces whose area is small compared with the area of the largest piece. If there are two
+  /// or more larger pieces, keeps everything, because the program cannot choose between them.
   Surface without_specks(const Surface& surface) {
     const SurfacePieces pieces(surface);
     constexpr double speck = 0.05;  // fraction of the area of the largest piece
