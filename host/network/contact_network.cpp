@@ -197,8 +197,8 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
     if (f.area < limit.area_min.value_or(0) * mean_area) return ++out.dropped_area, dropped += f.area, false;
     return true;
   };
-  std::vector<std::uint32_t> facet_of,
-      point_begin{0};  // for each contact: its facet, and the index of its first point (then the end)
+  // For each contact: its facet, and the index of its first point. point_begin has one more entry, the end.
+  std::vector<std::uint32_t> facet_of, point_begin{0};
   for (std::size_t k = 0; k < tessellation.facets.size(); ++k) {
     const Facet& f = tessellation.facets[k];
     if (!wanted(f)) continue;

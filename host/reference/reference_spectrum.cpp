@@ -36,8 +36,8 @@ double reference_static_modulus(const Specimen& specimen, const ContactNetwork& 
   // Stiffness of the weak springs as a fraction of the particle's own stiffness. It is far below the stiffness of the
   // softest elastic motion, and far above the rounding errors of the factorisation.
   constexpr double holding = 1e-8;
-  constexpr double tolerance =
-      1e-12;  // largest residual as a fraction of the load; the reaction has about this relative error
+  // Largest residual as a fraction of the load. The reaction has about this relative error.
+  constexpr double tolerance = 1e-12;
   constexpr int most_rounds = 100;
 
   const reference::Stiffness stiffness = reference::assemble_stiffness(network, laws, specimen.size());

@@ -90,8 +90,8 @@ class Lines {
     return false;
   }
 
-  static constexpr std::size_t longest =
-      1000;  // longest line [bytes]; a record of seven numbers has at most a few hundred
+  // Longest line [bytes]. A record of seven numbers has at most a few hundred bytes.
+  static constexpr std::size_t longest = 1000;
   std::string name_;
   std::unique_ptr<gzFile_s, int (*)(gzFile)> in_{nullptr, gzclose_r};
   std::array<char, 1 << 16> buffer_;

@@ -32,7 +32,7 @@ constexpr double residual_share = 1e-4;
 /// The error estimate contains this fraction of the tolerance for the residuals of the solutions. On 175 particles the
 /// residuals alone caused an error of 0.03 times the tolerance.
 constexpr double of_residuals = 0.1;
-constexpr int first_places = 9, most_rounds = 4;  // 9, 17, 33, then 65 places
+constexpr int first_places = 9, most_rounds = 4;  // the rounds have 9, 17, 33 and 65 places
 /// Number of frequencies at which the series is compared with solutions that were not used to make it.
 constexpr int checks = 3;
 
@@ -56,9 +56,8 @@ class Finder {
     std::vector<double> places;
     for (int i = 0; i < first_places; ++i) {
       places.push_back(high + (low - high) * i / (first_places - 1));
-      join(
-          {places
-               .back()});  // from fast to slow: solutions give good starts for slower ones, which are worse conditioned
+      // From fast to slow: each solution gives a good start for slower ones, which are worse conditioned.
+      join({places.back()});
     }
     std::sort(places.begin(), places.end());
     double before = 1;

@@ -12,8 +12,8 @@ namespace {
 
 // Number of cells along the longest edge of a shape.
 constexpr int field_cells = 40;
-constexpr double sample_tolerance =
-    0.003;  // in units of the intermediate diameter D^I; small compared with the gaps that packing keeps
+// Tolerance of the samples divided by the intermediate diameter D^I; small compared with the gaps that packing keeps.
+constexpr double sample_tolerance = 0.003;
 
 double farthest_point(const Surface& s) {
   double most = 0;
