@@ -15,8 +15,8 @@ namespace {
 
 using Row = std::vector<hsize_t>;  ///< shape of a row of an array: {} if it is one number, otherwise {how many numbers}
 
-/// Makes an array that has no rows yet and can grow. `piece` rows are stored together in the file. They are compressed
-/// if `packed` is true.
+/// Makes an array that has no rows yet and can grow. `piece` rows are stored together in the file. The rows are
+/// compressed if `packed` is true.
 H5::DataSet make_growing(const H5::Group& group, const std::string& name, const H5::DataType& type, const Row& row,
                          hsize_t piece, bool packed = false) {
   std::vector<hsize_t> size{0}, most{H5S_UNLIMITED}, chunk{std::max<hsize_t>(1, piece)};
@@ -195,8 +195,8 @@ class VtkHdfSeries : public FieldSeries {
   }
 
  private:
-  /// Sets the number of steps and the list of times in one write: VTK reads all times in the list into memory that it
-  /// has allocated for the number of steps.
+  /// Sets the number of steps and the list of times in one write, so that the two always agree. VTK allocates memory
+  /// for the number of steps and reads all times of the list into it.
   void set_steps(std::size_t number, const double* last_time) {
     open_->write(0, [&](H5::H5File& file) {
       H5::Group steps = file.openGroup(path_of_steps);

@@ -19,7 +19,7 @@ namespace {
 /// Number of random positions tried before the open cells are listed; listing them takes about the time of this many
 /// trials.
 constexpr std::int64_t plain_attempts = 20'000;
-constexpr std::int64_t tries_at_once = 128;  // trials per thread and call
+constexpr std::int64_t tries_at_once = 128;  // number of trials that a thread processes at a time
 
 double squared_distance(const Vec3d& a, const Vec3d& b) {
   const Vec3d d = a - b;

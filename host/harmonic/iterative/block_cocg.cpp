@@ -16,7 +16,7 @@
 namespace macadam::harmonic {
 namespace {
 
-constexpr std::size_t chunk = 128;  ///< particles per block of a sum
+constexpr std::size_t chunk = 128;  ///< number of particles per partial sum
 
 /// The iteration for F tasks side by side.
 template <int F>

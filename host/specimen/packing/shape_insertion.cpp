@@ -11,7 +11,7 @@ namespace macadam {
 namespace {
 
 constexpr std::int64_t plain_shape_attempts = 2'000;  // listing the open cells takes about the time of this many trials
-constexpr std::int64_t shape_tries_at_once = 4;       // per thread and call
+constexpr std::int64_t shape_tries_at_once = 4;       // number of trials that a thread processes at a time
 
 double smallest_radius(const std::vector<ShapeBody>& bodies) {
   double r = bodies.empty() ? 1 : bodies.front().radius();
