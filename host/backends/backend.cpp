@@ -17,7 +17,7 @@ namespace macadam {
 
 namespace {
 
-/// Returns the device with a number. \throws InputError listing the devices of the report.
+/// Returns the device with this number. \throws InputError, which lists the devices of the report, if there is none.
 const DeviceInfo& device_of(const BackendReport& report, int number) {
   std::string list;
   for (const DeviceInfo& d : report.devices) {
@@ -31,8 +31,9 @@ const DeviceInfo& device_of(const BackendReport& report, int number) {
                    ", expected the number of a device that can run Macadam: " + report.cuda_status + ": " + list);
 }
 
-/// Returns the devices of a list of numbers, all devices, or the first of the report (which must have one). \throws
-/// InputError when a number is not in the report.
+/// Returns the devices with the given numbers; all devices of the report if every device is requested; the first device
+/// of the report if the list is empty. The report must have at least one device. \throws InputError when a number is
+/// not in the report.
 std::vector<DeviceInfo> chosen_devices(const BackendReport& report, const DeviceList& numbers) {
   if (numbers.empty()) return {report.devices.front()};
   if (numbers == DeviceList{every_device}) return report.devices;

@@ -10,9 +10,9 @@
 namespace macadam {
 namespace {
 
-/// Number of contacts from which several devices are worthwhile. Two H100 step 221,000 contacts at 1.2 times the speed
-/// of one. They step 441,000 contacts, which do not fit in the registers and shared memory of one, at 4 times its speed
-/// (bench/results/team-*.csv).
+/// Number of contacts from which several devices are worthwhile. Two H100 step 221,000 contacts 1.2 times as fast as
+/// one H100. They step 441,000 contacts 4 times as fast, because so many contacts do not fit in the registers and
+/// shared memory of one H100 (bench/results/team-*.csv).
 constexpr std::size_t contacts_of_a_team = 300'000;
 // Smallest number of contacts per device when there are several.
 constexpr std::size_t contacts_of_a_device = 150'000;

@@ -13,7 +13,8 @@ namespace macadam {
 /// once, in the folders of MACADAM_PLUGIN_PATH (separated by colons) and then in the folder of the library itself.
 const kernels::CudaCode* cuda_code(std::string* why = nullptr);
 
-/// Counting the devices takes some tenths of a second. The absence of devices is known within the following time.
+/// Time within which a machine without devices reports that it has none. Counting devices, if there are any, takes some
+/// tenths of a second.
 inline constexpr std::chrono::milliseconds none_is_known_within{50};
 
 /// Returns the numbers of the devices that `asked` means for backend cuda: all, the first (if `asked` is empty), or the

@@ -27,7 +27,7 @@ struct ProcessorCode {
 /// x86-64-v4) asks for an older one.
 ProcessorGeneration processor_generation();
 
-/// Returns the code of that generation.
+/// Returns the code of processor_generation().
 const ProcessorCode& processor_code();
 
 }  // namespace macadam

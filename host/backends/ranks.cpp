@@ -21,7 +21,8 @@ const RanksPlugin* find(std::string& why) {
   return static_cast<const RanksPlugin*>(find_plugin(asked, why));
 }
 
-/// Returns how many processes the command has, from the environment variables of Open MPI, MPICH and Slurm.
+/// Returns the number of processes that mpirun or srun started, from the environment variables of Open MPI, MPICH and
+/// Slurm.
 int processes_begun() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
     if (const char* value = std::getenv(name)) return std::atoi(value);
@@ -35,7 +36,8 @@ DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   if (report_backends().devices.empty()) return asked;
   DeviceList devices = device_numbers(asked.empty() ? DeviceList{every_device} : asked);
   const auto own = static_cast<std::size_t>(team.number_on_host());
-  // each process may see another device as its only one; if processes share one, NCCL reports the error
+  // The launcher may show each process a single device, a different one for each. If two processes share a device, NCCL
+  // reports the error.
   if (devices.size() == 1) return devices;
   if (own >= devices.size()) {
     throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " ranks on this host with " +

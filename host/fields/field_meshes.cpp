@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// field_meshes.cpp  Makes the meshes of a specimen (vertices, lines or polygons) with those arrays that do not change.
+// field_meshes.cpp  Makes the meshes of a specimen (vertices, lines or polygons), and the arrays on them that do not
+// change during a run.
 #include <numeric>
 
 #include "host/fields/field_lists.hpp"

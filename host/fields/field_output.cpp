@@ -119,13 +119,13 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
   const bool has_contact_states = scene_.solver.backend != Backend::reference;
   ContactState carried;
   if (spec.contacts || has_contact_states) carried = stepper.contacts(prepared_.network);
-  if (!writes_) return;  // this rank's data have been sent to the first rank above
+  if (!writes_) return;  // the calls above have sent this rank's data to the first rank
   if (particles_) {
     if (has_contact_states) of_particles.push_back(stress_array(prepared_.tessellation, prepared_.network, carried));
     particles_->add(time, of_particles);
   }
   if (!contacts_) return;
-  // these chains belong to contact points, not to the facet
+  // In the points form the chains belong to contact points, not to the whole contact.
   if (form == ContactForm::points) carried.chain_begin.clear();
   contacts_->add(time, contact_arrays(prepared_.specimen, prepared_.network, carried, state.displacement));
 }

@@ -20,29 +20,29 @@ void remove_fields(const std::filesystem::path& out);
 /// Writes the fields that the scene asks for, of a specimen that has not been loaded. \throws RunError.
 void write_specimen_fields(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
-/// Writes the fields of a run while it advances; nothing if the scene asks for none. Scene and preparation must outlive
-/// it.
+/// Writes the fields of a run while the run advances; writes nothing if the scene requests no fields. Scene and
+/// preparation must outlive this object.
 class FieldOutput {
  public:
   /// Writes the cells, which do not change, if they are asked for. \throws RunError.
   FieldOutput(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
-  /// Begins the series of fields of a stepped run. `of`: the part of the run, for the file names, for example "20Hz".
-  /// If the stepper starts at a `time` other than 0, the existing series are continued. `samples`: samples per period,
-  /// or of the whole test. Returns a sentence about each series that should have existed but did not. \throws
-  /// InputError for a file that is not a series of this run.
+  /// Begins the series of fields of a stepped run. `of` names the part of the run in the file names, for example
+  /// "20Hz". If the stepper starts at a `time` other than 0, the existing series are continued. `samples` is the number
+  /// of samples per period of a cyclic test, or the number of samples of any other test. Returns a sentence about each
+  /// series that should have existed but did not. \throws InputError for a file that is not a series of this run.
   std::vector<std::string> begin(const std::string& of, int samples, double time);
-  /// Whether the scene asks for a series.
+  /// Returns whether the scene requests a series.
   bool begun() const { return begun_; }
-  /// Whether a frame is due at this sample.
+  /// Returns whether a frame is due at this sample.
   bool wants(std::int64_t sample) const;
   /// Adds a frame. \throws RunError.
   void add(const Stepper& stepper, ContactForm form, Geometry geometry, double time);
   /// Closes the series after the last frame. \throws RunError.
   void end();
 
-  /// Writes a steady state. `laws` are the laws that it was solved with. `temperature` [°C] becomes a part of the file
-  /// name if there are several temperatures.
+  /// Writes a steady state. `laws` are the laws with which it was solved. `temperature` [°C] must be given if there are
+  /// several temperatures; it becomes a part of the file name.
   /// \throws RunError.
   void write(const HarmonicResult& solved, const LawTable& laws, std::optional<double> temperature);
 

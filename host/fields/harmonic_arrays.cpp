@@ -25,7 +25,7 @@ void add_parts(const std::string& name, const char* unit, std::size_t entries, i
       tuples(name + "_imag", unit, entries, components, [&](std::size_t i, int k) { return of(i, k).imag(); }));
 }
 
-/// Returns component k (0 to 2: x, y, z) of a vector whose parts along the contact's n, s and t are these.
+/// Returns component k (0 to 2: x, y, z) of the vector that has the components n, s and t in the frame of the contact.
 Complex component(const Contact& c, const Complex& n, const Complex& s, const Complex& t, int k) {
   double Vec3d::*const axis = k == 0 ? &Vec3d::x : k == 1 ? &Vec3d::y : &Vec3d::z;
   return n * (c.n.*axis) + s * (c.s.*axis) + t * (c.t.*axis);

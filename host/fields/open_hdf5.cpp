@@ -70,7 +70,8 @@ OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file)
     with_hdf5(file, [&] {
       require_memory_for_hdf5(0);
       hdf5_ = std::make_unique<H5::H5File>(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access());
-      // A flush writes the recorded end of the file last. After a kill during a flush, arrays may lie beyond it.
+      // A flush writes the recorded end of the file last. After a kill during a flush, arrays may lie beyond the
+      // recorded end; this call moves the recorded end to the real one.
       if (!anew && H5Fincrement_filesize(hdf5_->getId(), 0) < 0) throw H5::FileIException("H5Fincrement_filesize");
     });
   } catch (...) {
@@ -100,7 +101,7 @@ void OpenHdf5::close() {
 }
 
 void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& change) {
-  constexpr std::size_t bookkeeping = 1 << 21;  // bound for tree nodes and headers of the arrays, on the safe side
+  constexpr std::size_t bookkeeping = 1 << 21;  // upper bound of the bytes of tree nodes and array headers
   const off_t end = ::lseek(descriptor_, 0, SEEK_END);
   if (end < 0) refuse(file_, errno);
   if (const int error = ::posix_fallocate(descriptor_, end, static_cast<off_t>(bytes + bookkeeping)); error != 0) {
@@ -109,7 +110,7 @@ void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& 
   }
   off_t size = 0;
   with_hdf5(file_, [&] {
-    require_memory_for_hdf5(2 * bytes);  // for the values that HDF5 converts, and for its pieces
+    require_memory_for_hdf5(2 * bytes);  // for converted values, and for the pieces of arrays
     change(*hdf5_);
     hdf5_->flush(H5F_SCOPE_GLOBAL);
     size = static_cast<off_t>(hdf5_->getFileSize());  // reserved space beyond this size is given back

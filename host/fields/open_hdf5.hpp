@@ -13,9 +13,9 @@
 namespace macadam {
 
 /// A file that is open for writing. HDF5 does not survive errors of the disk, so disk space is reserved before it
-/// writes. Its metadata of the file stay in memory until a flush, so that after a kill the file is as the last flush
-/// left it. The file is not locked: others may read it meanwhile. A new file has a temporary name until keep(), and is
-/// removed if keep() is never called.
+/// writes. HDF5 keeps the metadata of the file in memory until a flush, so that after a kill the file is as the last
+/// flush left it. The file is not locked: others may read it meanwhile. A new file has a temporary name until keep(),
+/// and is removed if keep() is never called.
 class OpenHdf5 {
  public:
   enum class Begin : std::uint8_t { anew, as_it_is };
@@ -39,11 +39,12 @@ class OpenHdf5 {
   void close_hdf5();
 
   std::filesystem::path file_, part_;  ///< part_: temporary name of a new file until keep(); otherwise empty
-  int descriptor_ = -1;                ///< of the same file, to reserve disk space and give it back
+  int descriptor_ = -1;                ///< descriptor of the same file, to reserve disk space and give it back
   std::unique_ptr<H5::H5File> hdf5_;
 };
 
-/// Calls f(). HDF5 prints no errors meanwhile. \throws RunError, naming the file, if HDF5 fails or memory runs out.
+/// Calls f(). During the call HDF5 prints no errors. \throws RunError, naming the file, if HDF5 fails or memory runs
+/// out.
 void with_hdf5(const std::filesystem::path& file, const std::function<void()>& f);
 
 }  // namespace macadam

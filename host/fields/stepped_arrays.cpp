@@ -8,8 +8,8 @@
 namespace macadam {
 namespace {
 
-/// Returns the number of Kelvin units of each contact; 0 without chains. A contact has six chains, each with f and one
-/// number per unit.
+/// Returns the number of Kelvin units of each contact; 0 without chains. A contact has six chains; each has its force f
+/// and the stretch of each unit.
 std::vector<int> units_of(const ContactState& state) {
   std::vector<int> out(state.force.size(), 0);
   for (std::size_t c = 0; c + 1 < state.chain_begin.size(); ++c) {
@@ -19,8 +19,8 @@ std::vector<int> units_of(const ContactState& state) {
   return out;
 }
 
-/// Returns the unit normal of a contact whose particles have moved; the initial one without displacements. The normal
-/// at a wall does not turn.
+/// Returns the unit normal of a contact after its particles have moved, or the initial normal if `displacement` is
+/// empty. The normal at a wall does not turn.
 Vec3d turned_normal(const Specimen& specimen, const Contact& c, const std::vector<Vec3d>& displacement) {
   if (c.b < 0 || displacement.empty()) return c.n;
   const auto at = [&](std::int32_t i) {

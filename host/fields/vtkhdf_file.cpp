@@ -15,7 +15,8 @@ namespace {
 
 using Row = std::vector<hsize_t>;  ///< shape of a row of an array: {} if it is one number, otherwise {how many numbers}
 
-/// Makes an array without rows that can grow. `piece` rows are stored together in the file. `packed`: compressed.
+/// Makes an array that has no rows yet and can grow. `piece` rows are stored together in the file. The rows are
+/// compressed if `packed` is true.
 H5::DataSet make_growing(const H5::Group& group, const std::string& name, const H5::DataType& type, const Row& row,
                          hsize_t piece, bool packed = false) {
   std::vector<hsize_t> size{0}, most{H5S_UNLIMITED}, chunk{std::max<hsize_t>(1, piece)};
@@ -168,7 +169,7 @@ class VtkHdfSeries : public FieldSeries {
   std::size_t size() const override { return steps_; }
 
   void add(double time, const std::vector<FieldArray>& arrays) override {
-    if (!open_ && steps_ > 0) reopen(time);  // the frame before this one failed
+    if (!open_ && steps_ > 0) reopen(time);  // the file was closed because the frame before this one failed
     const bool first = !open_;
     try {
       if (first) {
@@ -182,7 +183,7 @@ class VtkHdfSeries : public FieldSeries {
       set_steps(steps_ + 1, &time);  // last, so that a reader, also after a kill, finds only complete steps
       if (first) open_->keep();
     } catch (const RunError&) {
-      open_.reset();  // a file that has no frame yet is removed
+      open_.reset();  // closes the file; a file that has no frame yet is removed
       if (first) steps_ = 0;
       throw;
     }
@@ -194,8 +195,8 @@ class VtkHdfSeries : public FieldSeries {
   }
 
  private:
-  /// Sets the number of steps and the list of times in one write: VTK reads all times in the list into memory that it
-  /// has allocated for the number of steps.
+  /// Sets the number of steps and the list of times in one write, so that the two always agree. VTK allocates memory
+  /// for the number of steps and reads all times of the list into it.
   void set_steps(std::size_t number, const double* last_time) {
     open_->write(0, [&](H5::H5File& file) {
       H5::Group steps = file.openGroup(path_of_steps);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// vtp_file.cpp  Writes XML that is followed by the arrays as they are in memory ("appended", "raw").
+// vtp_file.cpp  Writes XML text followed by the raw bytes of the arrays (VTK's "appended" data in "raw" encoding).
 #include "host/fields/vtp_file.hpp"
 
 #include <fmt/format.h>

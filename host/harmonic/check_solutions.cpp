@@ -38,7 +38,7 @@ struct Sums {
 };
 using AllSums = std::array<Sums, at_once>;
 
-/// Check of up to four solutions. `single`: of one solution only, whose contacts are processed four at a time.
+/// Checks up to four solutions. If `single`, it checks one solution and processes four of its contacts at a time.
 template <bool single>
 class Check {
  public:
@@ -74,7 +74,8 @@ class Check {
   }
 
  private:
-  /// Sums of load times relative displacement over the contacts of one pair. `share`: the fraction that counts.
+  /// Sums of load times relative displacement over the contacts of one pair type. `share` is the fraction of a contact
+  /// that counts.
   struct PairProducts {
     Products<at_once> normal, shear;
     void add(const kernels::FacetLoad<L>& load, const L (&u)[6], L share) {
@@ -137,7 +138,8 @@ class Check {
     return out;
   }
 
-  /// Adds the squares of residuals beyond rounding; `largest` is the load by magnitude.
+  /// Adds the squares of the parts of residuals that exceed rounding. `largest` is the load that results if all terms
+  /// are added by magnitude.
   void add_beyond(L rest, L largest, AllSums& sums) const {
     for (int f = 0; f < at_once; ++f) {
       const double excess = std::max(std::abs(rest.at(f)) - rounding_ * largest.at(f).real(), 0.0);
@@ -227,8 +229,8 @@ class Check {
     if (rounding_ > 0) add_largest(g, k, own, other, out);
   }
 
-  /// Returns the fraction of a contact that counts at one end: a half, since a contact is visited from both of its
-  /// particles, but all of it for a wall contact.
+  /// Returns the fraction of a contact that counts when it is visited from one particle: 1/2 for a contact between two
+  /// particles, because it is visited from both; 1 for a wall contact.
   static double share(std::int32_t far) { return far < 0 ? 1 : 0.5; }
 
   /// Returns the stiffness of each contact of a group; lanes without a contact get 0.
@@ -240,7 +242,8 @@ class Check {
     return k;
   }
 
-  /// Adds the force and moment by magnitude: as if nothing cancelled between the motions of the contacts' ends.
+  /// Adds the force and moment that result if the motions of the two ends of each contact are added by magnitude, so
+  /// that nothing cancels.
   void add_largest(const Group& g, const Factor<at_once>& k, const Twist<L>& own, const Twist<L>& other,
                    Total& out) const {
     const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };

@@ -15,15 +15,16 @@ struct SolutionCheck {
   double beyond_rounding = 0;  ///< the residual without the parts that rounding explains [N]
   Complex inertia = 0;         ///< uᵀ·M·u [kg]
   /// Sums of u·k*·u over the contacts of each pair, with their relative displacements u and without conjugates; for a
-  /// real stiffness this is twice the energy. Not yet divided by the specimen's size, and without inertia.
+  /// real stiffness this is twice the energy. The sums are not yet divided by the specimen's size and do not contain
+  /// inertia.
   ModulusParts parts;
 };
 
 /// Checks the motions of tasks, four in one pass. The numbers of a motion have rounding errors, which the stiffness of
 /// stiff contacts turns into errors of the loads. If the load is much smaller than these errors, no smaller residual
-/// can be expected. `rounding`: fraction of the load that a particle would have if nothing cancelled; residuals up to
-/// this are attributed to rounding (0: no residual is). Sums are computed per piece of particles, then added in order,
-/// so that the result does not depend on the number of threads.
+/// can be expected. A residual is attributed to rounding if it is at most the fraction `rounding` of the load that the
+/// particle would have if nothing cancelled. With 0 no residual is attributed to rounding. Sums are computed per piece
+/// of particles, then added in order, so that the result does not depend on the number of threads.
 std::vector<SolutionCheck> check_solutions(const ContactNetwork& network, const Inertia& inertia,
                                            const std::vector<const LinearTask*>& tasks, double rounding);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_harmonic_code.cpp  Chooses the table of the processor generation that the step uses as well.
+// choose_harmonic_code.cpp  Chooses the table of the processor generation whose code also runs the time step.
 #include "host/backends/processor_code.hpp"
 #include "host/harmonic/harmonic_code.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file complex_lanes.hpp  Stores one complex number for each of F solutions in a SIMD register: first the real parts, then
-/// the imaginary parts.
+/// \file complex_lanes.hpp  Stores one complex number for each of F solutions in a SIMD register: first the real parts,
+/// then the imaginary parts.
 ///
 /// Real factors (frames, lever arms, moments, the preconditioner) then multiply 2F plain numbers, and the data of a
 /// contact are read once for all solutions.
@@ -70,7 +70,8 @@ struct Lanes {
 template <int F>
 struct Factor {
   Lanes<F> real,
-      imaginary;  ///< each in both lanes of a number; the imaginary part is negated in the real lanes (i·i = −1)
+      imaginary;  ///< each part is stored in both lanes of a number; in the real lane the imaginary part is negated
+                  ///< (i·i = −1)
 
   void set(int f, std::complex<double> z) {
     real.v[f] = real.v[F + f] = z.real();
@@ -97,7 +98,7 @@ struct Products {
   double conjugated(int f) const { return straight.v[f] + straight.v[F + f]; }
 };
 
-/// [particle][6]: ux uy uz θx θy θz of all solutions.
+/// A vector for all solutions, [particle][6]: ux uy uz θx θy θz.
 template <int F>
 using LaneVector = kernels::AlignedVector<Lanes<F>>;
 

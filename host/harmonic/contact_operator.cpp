@@ -35,7 +35,8 @@ std::array<double, 6> moments_over_distance(const Contact& c) {
           c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
 }
 
-/// `a`, `b`: motions of the two ends (six numbers each), nullptr for a wall.
+/// Returns the six relative displacements of a contact. `a` and `b` are the motions of its two ends (six numbers each),
+/// or nullptr for a wall. `wall` is the displacement of the top wall along z.
 std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const Complex* b, Complex wall) {
   const auto twist = [&](std::int32_t end, const Complex* x, auto part) -> Twist<double> {
     if (x) return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
@@ -118,7 +119,7 @@ ContactOperator::ContactOperator(const ContactNetwork& network, std::size_t part
     on_bottom_.insert(on_bottom_.end(), bottom.begin(), bottom.end());
     on_top_.insert(on_top_.end(), top.begin(), top.end());
   }
-  // wall_loads() needs the contacts of one particle side by side; a network from elsewhere may have another order
+  // wall_loads() needs the contacts of one particle side by side; a network that the caller made may have another order
   std::stable_sort(on_top_.begin(), on_top_.end(),
                    [&](std::uint32_t x, std::uint32_t y) { return network.contacts[x].a < network.contacts[y].a; });
 }

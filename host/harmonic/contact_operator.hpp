@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_operator.hpp  Forces of all contacts for given complex motions: multiplies by K*(s) without a stored
-/// matrix.
+/// \file contact_operator.hpp  Computes the forces of all contacts for given complex motions. This multiplies by K*(s)
+/// without a stored matrix.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct PairStiffness {
   std::array<double, pair_types> alpha{};
 };
 
-/// Returns the stiffness of all laws for motions as e^(s·t). \throws InputError if a law has none.
+/// Returns the stiffness of all laws for motions proportional to e^(s·t). \throws InputError if a law has none.
 PairStiffness pair_stiffness(const LawTable& laws, Complex s);
 // Deleted so that ω cannot be passed in place of iω.
 PairStiffness pair_stiffness(const LawTable& laws, double) = delete;
@@ -54,7 +54,7 @@ std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& mot
 kernels::FacetLoad<Complex> facet_load(const Contact& contact, const PairStiffness& stiffness,
                                        const std::array<Complex, 6>& u);
 
-/// The product with K*(s) of a network, computed contact by contact. The network must outlive it.
+/// The product with K*(s) of a network, computed contact by contact. The network must outlive this object.
 class ContactOperator {
  public:
   ContactOperator(const ContactNetwork& network, std::size_t particles);

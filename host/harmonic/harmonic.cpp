@@ -30,7 +30,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// \throws InputError naming a pair that has contacts but no law.
+/// Checks that each pair with contacts has a law. \throws InputError naming a pair that has contacts but no law.
 void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (network.count[pair] > 0 && !laws[pair]) {
@@ -83,7 +83,7 @@ class Harmonic::Implementation {
     } catch (const NotIterable& error) {
       if (options.linear == LinearMethod::iterative || specimen.size() > largest_direct) throw;
       why_factors_ = error.what();
-      direct();  // its error names the particle that can move, if the stiffness is singular
+      direct();  // if the stiffness is singular, the error of direct() names the particle that can move
     }
   }
 
@@ -113,12 +113,14 @@ class Harmonic::Implementation {
   }
 
  private:
-  /// Largest error in the energy norm relative to the energy of the solution, √(rᴴ·P⁻¹·r / uᵀ·K·u).
+  /// Returns the largest accepted error in the energy norm relative to the energy of the solution, √(rᴴ·P⁻¹·r /
+  /// uᵀ·K·u).
   ///
   /// Contacts that are far stiffer than the others, for instance with walls, make up nearly all of ‖f‖. A small
-  /// residual then says nothing about the softer contacts, but this error does. The relative error of E* is its square
-  /// over the smallest eigenvalue of P⁻¹·K. That eigenvalue is some thousandths, because tens of iterations suffice. So
-  /// with a residual tolerance of 1e-8 the error of E* is 1e-9, and with 1e-11 it is below rounding.
+  /// residual then says nothing about the softer contacts, but this error does. The relative error of E* is the square
+  /// of this error divided by the smallest eigenvalue of P⁻¹·K. This eigenvalue is about 1e-3, because some tens of
+  /// iterations suffice. With a residual tolerance of 1e-8, this error is at most 1e-6, and the error of E* is about
+  /// (1e-6)²/1e-3 = 1e-9. With a residual tolerance of 1e-11 the error of E* is below rounding.
   double energy_tolerance() const { return 100 * options_.tolerance; }
 
   LinearSolver& direct() {
@@ -134,7 +136,7 @@ class Harmonic::Implementation {
     task.stiffness = pair_stiffness(laws_, s);
     task.inertia = -load.density_scaling * (s * s + s * load.viscous_damping);
     task.right = contacts_.wall_loads(task.stiffness);
-    // stricter, because rounding makes the solver's own residual differ from the true one
+    // stricter than the option, because rounding makes the solver's own residual differ from the true one
     task.tolerance = 0.3 * options_.tolerance;
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       const Complex k = task.stiffness.k[pair];
@@ -153,11 +155,11 @@ class Harmonic::Implementation {
     return x;
   }
 
-  /// Prepares a task for the direct solver. It starts from the result of the iterative solver if the residual of that
-  /// is below 1.
+  /// Prepares a task for the direct solver. The direct solver starts from the result of the iterative solver if this
+  /// result has a relative residual below 1.
   void begin_again(Work& w, const HarmonicLoad& load) {
     w.why_factors = refusal(w, load);
-    w.task.energy_limit = std::numeric_limits<double>::infinity();  // the limit is for another preconditioner
+    w.task.energy_limit = std::numeric_limits<double>::infinity();  // the old limit refers to another preconditioner
     if (!(w.residual < 1)) w.task.motion.clear();
     w.tried = false;
   }
@@ -184,7 +186,7 @@ class Harmonic::Implementation {
   }
 
   /// Checks solutions by residuals that are computed from the network, and by errors in the energy norm. The part of a
-  /// residual that exceeds rounding takes longer to compute, so it is asked for only when a residual exceeds the
+  /// residual that exceeds rounding takes longer to compute, so it is computed only when a residual exceeds the
   /// tolerance.
   void check(const std::vector<Work*>& works) {
     std::vector<const LinearTask*> tasks;

@@ -22,8 +22,8 @@ struct LinearTask {
   PairStiffness stiffness;
   Complex inertia = 0;   ///< −(s² + s·β)·density scaling; 0: without inertia
   Loads right;           ///< f; particles that are not listed have no load
-  double tolerance = 0;  ///< largest ‖f − K·u‖ / ‖f‖
-  /// Largest rᴴ·P⁻¹·r, with the solver's preconditioner P.
+  double tolerance = 0;  ///< largest accepted ‖f − K·u‖ / ‖f‖
+  /// Largest accepted rᴴ·P⁻¹·r, where P is the solver's preconditioner.
   double energy_limit = std::numeric_limits<double>::infinity();
   Vector motion;  ///< the start of the iteration (empty: at rest), then the solution
   /// rᴴ·P⁻¹·r of the solution. The residual r is computed from the solution, because the residual that the iteration
@@ -49,7 +49,7 @@ class LinearSolver {
 void require_not_stopped(const std::function<bool()>& stop);
 
 /// Returns the direct solver: COCG preconditioned by Cholesky factors of Re K at one frequency. It takes about ten
-/// iterations, but its memory grows as n^(4/3).
+/// iterations, but its memory grows as n^(4/3) with the number n of particles.
 /// \throws RunError when the stiffness is singular or memory does not suffice.
 std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, const ContactOperator& contacts,
                                                  const PairStiffness& typical, const Inertia& inertia,
@@ -67,10 +67,10 @@ std::size_t usual_boxes(std::size_t particles);
 
 /// Returns the iterative solver: COCG preconditioned by each particle's own stiffness block and by the rigid motions of
 /// boxes of particles. Only the small matrix of the boxes is factored. Up to four tasks are solved side by side.
-/// `backend`: cpu, or cuda on `devices`, where the whole iteration runs. `boxes`: approximate number of boxes, instead
-/// of usual_boxes(). With 0 the preconditioner has only the blocks of single particles. \throws NotIterable when a
-/// single particle can move without force or the specimen has more than six free motions; RunError when a device has
-/// too little memory.
+/// `backend` is cpu or cuda; with cuda the whole iteration runs on `devices`. `boxes`, if given, is the approximate
+/// number of boxes, in place of usual_boxes(). With 0 boxes the preconditioner has only the blocks of single particles.
+/// \throws NotIterable when a single particle can move without force or the specimen has more than six free motions;
+/// RunError when a device has too little memory.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free, Backend backend = Backend::cpu,

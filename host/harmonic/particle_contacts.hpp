@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file particle_contacts.hpp  Stores four complex numbers in one SIMD register, and up to four contacts of a particle as
-/// seen from that particle.
+/// \file particle_contacts.hpp  Stores four complex numbers in one SIMD register, and up to four contacts of a particle
+/// as seen from that particle.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace macadam::harmonic {
 inline constexpr int at_once = kernels::most_loads;
 using FourNumbers = Lanes<at_once>;
 
-/// Returns the real numbers of(f), each in the real and in the imaginary lane of number f. Written out because the
-/// compiler turns a loop into inserts of one lane after the other.
+/// Returns the real numbers of(f), each in the real and in the imaginary lane of number f. The numbers are written out
+/// one by one, because the compiler would turn a loop into one insert per lane.
 template <class Of>
 FourNumbers real_lanes(Of&& of) {
   static_assert(at_once == 4);
@@ -43,12 +43,12 @@ inline FourNumbers size_of(FourNumbers x) {
 template <int N>
 struct ContactGroup {
   const Contact* contact[N];
-  double sign[N];                 ///< 1; −1 if the particle is the contact's second end, where n and t are reversed
+  double sign[N];                 ///< 1 at the contact's first end; −1 at its second end, where n and t are reversed
   double over_d[N];               ///< 1/distance [1/m]
   double own_arm[N], far_arm[N];  ///< lever arms of this particle and of the other end [m]
   std::int32_t far[N];            ///< the other end: a particle, or a wall (negative)
   std::size_t pair[N];
-  int count;          ///< contacts that are there, at most N
+  int count;          ///< number of valid contacts, at most N
   bool alike = true;  ///< whether all contacts are of the same pair
 
   /// Takes the contacts of entry `at` of the network's `rows` and the entries after it, up to `end`.

@@ -79,7 +79,7 @@ void relative_motions(const Contact& c, const Row& row, Index count, ContactMoti
   }
 }
 
-/// The 3 × 3 matrices that turn relative displacements into forces per k*, for α = 1, with the same sums as
+/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. The sums are those of
 /// condensed_load().
 Eigen::Matrix3d normal_form(const Contact& c) {
   const auto& m = c.moments;
@@ -136,7 +136,7 @@ MatrixXd ReducedModel::new_columns(const std::vector<Vector>& motions) const {
 
 /// Computes the columns from `from` on of the small matrices, and the rows that mirror them.
 void ReducedModel::project(Index from) {
-  constexpr Index stack = 48;  // contacts whose products are computed as one matrix product
+  constexpr Index stack = 48;  // number of contacts whose products are computed as one matrix product
   const Index count = basis_.cols(), added = count - from;
   const auto& contacts = network_.contacts;
   using Sums = std::array<MatrixXd, 2 * pair_types>;
@@ -208,8 +208,8 @@ ReducedModel::Solution ReducedModel::solve(const LawTable& laws, const HarmonicL
   out.of_the_motions = VectorXcd::Ones(basis_.cols());
   const Index free = basis_.cols() - 1;
   if (free > 0) {
-    // Degrees of freedom have different units, and stiff walls make some rows far larger: each row is scaled by its
-    // diagonal.
+    // Degrees of freedom have different units, and stiff walls make some rows far larger than others. So rows and
+    // columns are scaled by the diagonal.
     const Eigen::VectorXd scale = whole.diagonal().tail(free).cwiseAbs().cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXcd scaled = scale.asDiagonal() * whole.bottomRightCorner(free, free) * scale.asDiagonal();
     const VectorXcd right = scale.asDiagonal() * whole.bottomLeftCorner(free, 1);

@@ -2,11 +2,11 @@
 /// \file reduced_model.hpp  Restricts a specimen to the motions of earlier solutions (a reduced basis). This gives E*
 /// for other laws within milliseconds.
 ///
-/// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. A few
-/// real motions v_j, which are at rest at the walls, reduce N, S and M to small matrices, once. Then any laws and any s
-/// take only a small linear system (Galerkin's method, model section 17). If the real and imaginary parts of a solution
-/// are among the motions, the model gives the same E* and derivatives as the solution. Otherwise the error of E* grows
-/// with the square of the distance from the motions.
+/// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. Once, N,
+/// S and M are reduced to small matrices between a few real motions v_j, which are at rest at the walls. Afterwards E*
+/// for any laws and any s takes only a small linear system (Galerkin's method, model section 17). If the real and
+/// imaginary parts of a solution are among the motions, the model gives the same E* and derivatives as the solution.
+/// Otherwise the error of E* grows with the square of the distance between the solution and the span of the motions.
 #pragma once
 
 #include <Eigen/Dense>
@@ -19,7 +19,8 @@ namespace macadam::harmonic {
 /// The reduced model of one specimen, see the top of this file.
 class ReducedModel {
  public:
-  /// Specimen and network must outlive it. \param inertia  of the particles; empty: solutions have no inertia.
+  /// Specimen and network must outlive this object. `inertia` has the masses of the particles; if it is empty,
+  /// solutions have no inertia.
   ReducedModel(const Specimen& specimen, const ContactNetwork& network, Inertia inertia);
 
   /// Adds the motions of solutions at unit displacement of the top wall (HarmonicResult::motion). Parts that the model
@@ -37,8 +38,8 @@ class ReducedModel {
   /// Returns the motion of the particles, [6·particles], as a start for an iteration (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;
 
-  /// Returns N + α·S of a pair between the motions, [motions][motions]: uᵀ·K·u per k*, not yet divided by the
-  /// specimen's size.
+  /// Returns the matrix N + α·S of a pair between the motions, [motions][motions]. For coefficients u, uᵀ·(N + α·S)·u
+  /// is the energy form uᵀ·K·u divided by k*; it is not yet divided by the specimen's size.
   Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
 
   Eigen::Index motions() const { return basis_.cols(); }  ///< number of real motions, the first included
@@ -54,8 +55,8 @@ class ReducedModel {
   const Specimen& specimen_;
   const ContactNetwork& network_;
   Inertia inertia_;
-  /// [6·particles][motions]. In the first motion the top wall moves by one. In the others it is at rest; these are
-  /// orthonormal.
+  /// [6·particles][motions]. In the first motion the top wall moves by one. In all others the top wall is at rest, and
+  /// these motions are orthonormal.
   Matrix basis_;
   std::array<Matrix, pair_types> normal_, shear_;  ///< vᵢᵀ·N·vⱼ and vᵢᵀ·S·vⱼ
   Matrix mass_;                                    ///< vᵢᵀ·M·vⱼ

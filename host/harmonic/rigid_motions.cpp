@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rigid_motions.cpp  Finds free motions as null spaces: of the stiffness of the contacts around a part for its six
-// rigid motions, and of the stiffness of single particles.
+// rigid_motions.cpp  Finds free motions as null spaces. Free rigid motions of a part are the null space of the
+// stiffness with which the contacts around the part resist its six rigid motions. Free motions of single particles are
+// the null spaces of their stiffness blocks.
 #include "host/harmonic/rigid_motions.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -22,14 +23,14 @@ Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
   const double height = specimen.box.size.z;
   const Vec3d r = specimen.centre[static_cast<std::size_t>(particle)] - 0.5 * specimen.box.size;
   Matrix6 out = Matrix6::Identity();
-  // translation by a turn about axis k: e_k × r
+  // a turn about axis k displaces the particle by e_k × r
   out.topRightCorner<3, 3>() << 0, r.z, -r.y, -r.z, 0, r.x, r.y, -r.x, 0;
   out.rightCols<3>() /= height;
   return out;
 }
 
 /// Makes a motion orthonormal to the motions of the list from number `first` on, with respect to masses, and appends
-/// it. Each of those motions moves either one particle of the new motion or all of its particles.
+/// it. Each of these earlier motions moves either one particle of the new motion or all particles of the new motion.
 void add_orthonormal(FreeMotion added, std::size_t first, const Inertia& inertia, std::vector<FreeMotion>& list) {
   const auto weighted = [&](const FreeMotion& m, const double* a, const double* b) {
     return sum_in_parallel<double>(m.motion.size(), [&](std::size_t i) {
@@ -48,15 +49,15 @@ void add_orthonormal(FreeMotion added, std::size_t first, const Inertia& inertia
   list.push_back(std::move(added));
 }
 
-/// Returns the indices of `wanted` linearly independent columns. It takes the longest column and removes its direction
-/// from all columns, again and again; the matrix is overwritten.
+/// Returns the indices of `wanted` linearly independent columns. Repeatedly takes the longest column and removes its
+/// direction from all columns. The matrix is overwritten.
 std::vector<std::size_t> independent_columns(Eigen::MatrixXd& matrix, int wanted) {
   const auto columns = static_cast<std::size_t>(matrix.cols());
   struct Longest {
     double square = -1;
     std::size_t column = 0;
     Longest& operator+=(const Longest& o) {
-      if (o.square > square) *this = o;  // the first of equal ones
+      if (o.square > square) *this = o;  // of equally long columns, the first is kept
       return *this;
     }
   };
@@ -121,8 +122,8 @@ class Part {
  private:
   double radius_of(std::size_t k) const { return specimen_.radius[static_cast<std::size_t>(members_[k])]; }
 
-  /// Finds the rigid motions of the part that its contacts with other parts and with walls do not resist while all else
-  /// is at rest.
+  /// Finds the rigid motions of the part that its contacts with other parts and with walls do not resist while all
+  /// other particles and the walls are at rest.
   void find_rigid(bool is_cluster) {
     Matrix6 around = Matrix6::Zero();
     for (const std::int32_t particle : members_) {
@@ -140,11 +141,12 @@ class Part {
     const Eigen::SelfAdjointEigenSolver<Matrix6> modes(around);
     largest_ = modes.eigenvalues()(5);
     int free = 0;
-    while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest_) ++free;  // rounding of sums of at most 1e4 terms
+    // 1e-12 is the rounding error of sums of up to 1e4 terms
+    while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest_) ++free;
     rigid_ = modes.eigenvectors().leftCols(free);
   }
 
-  /// Finds the free motions of single particles, and removes from the rigid motions those that are made of them alone.
+  /// Finds the free motions of single particles, and removes the rigid motions that consist of such motions only.
   void find_own() {
     for (std::size_t k = 0; k < members_.size(); ++k) {
       OwnMotions own = own_motions(members_[k], specimen_, network_, stiffness_);

@@ -38,11 +38,12 @@ struct FreeMotion {
 
 /// The motions without stiffness. A specimen between frictionless walls has three: along x, along y, and the turn about
 /// z. If parts of a specimen are joined only by flat horizontal contacts without shear stiffness, each part has these
-/// three; an example are the spheres of a vertical column with alpha = 0. A particle whose contact normals are all
-/// parallel may also turn by itself.
+/// three; an example is a vertical column of spheres with alpha = 0. A particle whose contact normals are all parallel
+/// may also turn by itself.
 ///
-/// The load is orthogonal to all of them, because a contact that a motion does not deform does not transfer the motion
-/// of the top wall to it either. So E* is determined although these motions are not.
+/// The load is orthogonal to all free motions. A contact that a free motion does not deform does no work on this
+/// motion, so the top wall cannot drive the motion through the contact. Therefore E* is unique, although the amplitudes
+/// of the free motions are not.
 struct FreeMotions {
   std::vector<Pin> pins;            ///< one per motion; without force under a load in equilibrium
   std::vector<FreeMotion> motions;  ///< orthonormal with respect to masses and moments of inertia

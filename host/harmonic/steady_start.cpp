@@ -13,7 +13,8 @@ using namespace harmonic;
 StartState steady_start(const ContactNetwork& network, const LawTable& laws,
                         const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading) {
   const double omega = 2 * std::numbers::pi * loading.frequency, dt = loading.dt();
-  // the wall moves by −A·sin ωt = Im(−A·e^{iωt}), and everything else by this times its own complex factor
+  // The wall moves by −A·sin ωt = Im(−A·e^{iωt}). A particle moves by Im(−A·z·e^{iωt}), where z is its part of
+  // `motion`.
   const Complex before = -loading.amplitude * std::polar(1.0, -omega * dt);
   const Complex rate =
       -loading.amplitude * Complex(2 * std::pow(std::sin(omega * dt / 2), 2), std::sin(omega * dt)) / dt;

@@ -99,8 +99,9 @@ Contact geometry(const Specimen& specimen, const Facet& f) {
   return c;
 }
 
-/// Adds the area moments of one triangle, given by the coordinates of its corners: `lumped` as three points with a
-/// third of the area each, `exact` as integrals. Both have the same area and first moments.
+/// Adds the area moments of one triangle, given by the coordinates of its corners. `lumped` gets the moments of three
+/// points, one at each corner, with a third of the area each; `exact` gets the integrals over the triangle. Area and
+/// first moments are the same in both.
 void add_triangle(double area, const std::array<double, 3>& s, const std::array<double, 3>& t, AreaMoments& lumped,
                   AreaMoments& exact) {
   const auto product = [](const std::array<double, 3>& p, const std::array<double, 3>& q) {
@@ -196,7 +197,8 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
     if (f.area < limit.area_min.value_or(0) * mean_area) return ++out.dropped_area, dropped += f.area, false;
     return true;
   };
-  std::vector<std::uint32_t> facet_of, point_begin{0};  // for each contact: its facet; first of its points, and the end
+  // For each contact: its facet, and the index of its first point. point_begin has one more entry, the end.
+  std::vector<std::uint32_t> facet_of, point_begin{0};
   for (std::size_t k = 0; k < tessellation.facets.size(); ++k) {
     const Facet& f = tessellation.facets[k];
     if (!wanted(f)) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_stiffness.cpp  Computes Gᵀ·D·G of one contact. G maps the motion of an end to the six generalised
-// displacements q of the contact, D is the stiffness matrix made of the area moments.
+// contact_stiffness.cpp  Computes the stiffness Gᵀ·D·G of one contact. G maps the motion of an end to the six
+// generalised displacements q of the contact, and D is the 6×6 stiffness matrix for q, computed from the area moments.
 #include "host/network/contact_stiffness.hpp"
 
 namespace macadam {

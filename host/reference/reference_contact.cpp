@@ -36,8 +36,8 @@ ContactFrame middle_of(const ContactFrame& before, const ContactFrame& after) {
   return out;
 }
 
-// x0 lies at R_A − Un/2 − dv from A, with Un = R_A + R_B − d and dv fixed (Eq. 5, 6). So the lever arm of A changes by
-// half of the change of d, and the lever arm of B by the other half.
+// The distance of x0 from A is R_A − Un/2 − dv, with Un = R_A + R_B − d and a constant dv (Eq. 5, 6). So if d changes,
+// the lever arm of A takes one half of the change, and the lever arm of B the other half.
 void ReferenceContact::follow_pair(const Vector3d& centres, const Vector3d& mean_turn) {
   const ContactFrame before = frame;
   const double d = centres.norm();

@@ -65,7 +65,8 @@ struct ReferenceContact {
   void spin_frame(const Vector3d& mean_turn);
 };
 
-/// Returns one contact of a network with its points, at rest. `units`: numbers that each chain keeps in its `stretch`.
+/// Returns one contact of a network with its points, at rest. `units` is the number of values that each chain keeps in
+/// its `stretch`.
 ReferenceContact make_reference_contact(const ContactNetwork& network, const Contact& contact, std::size_t units);
 
 }  // namespace macadam::reference

@@ -18,17 +18,19 @@ using ReferenceLaws = std::array<std::optional<ReferenceLaw>, pair_types>;
 /// \throws InputError naming a pair type that has no law, or a law with an invalid parameter.
 ReferenceLaws read_laws(const ContactNetwork& network, const LawTable& laws);
 
-/// \throws InputError when `found` is not `expected`; `what` is the plural name of the items ("velocities").
+/// Checks the number of items. `what` is the plural name of the items ("velocities"). \throws InputError when `found`
+/// is not `expected`.
 void require_count(const char* what, std::size_t found, std::size_t expected);
 
-/// \throws InputError naming the first contact whose particles or points do not exist or whose distance is not
-/// positive.
+/// Checks the contacts of a network. \throws InputError naming the first contact whose particles or points do not exist
+/// or whose distance is not positive.
 void require_network(const ContactNetwork& network, std::size_t particles);
 
-/// \throws InputError naming the first particle whose mass or moment of inertia is not positive and finite.
+/// Checks the masses. \throws InputError naming the first particle whose mass or moment of inertia is not positive and
+/// finite.
 void require_inertia(const Inertia& inertia, std::size_t particles);
 
-/// \throws InputError naming the first option that the reference stepper does not support.
+/// Checks the options. \throws InputError naming the first option that the reference stepper does not support.
 void require_options(const StepperOptions& options);
 
 }  // namespace macadam::reference

@@ -42,8 +42,8 @@ ReferenceLaw read(const laws::GeneralisedKelvin& law, const std::string& pair) {
   return out;
 }
 
-// Two springs, k = E·A_J/d and α·k. The state keeps their stretch beside their force, so that the opening is known
-// after the break, and a closed point transfers pressure again. Stresses are forces over A_J.
+// Two springs, k = E·A_J/d and α·k. The state keeps the stretch of each spring as well as its force. So the opening is
+// known after the break, and a point that closes again transfers pressure. Stresses are forces over A_J.
 ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
   require(std::isfinite(law.E) && law.E > 0, pair, "E", law.E, "a positive modulus");
   require(law.tensile_strength > 0, pair, "tensile_strength", law.tensile_strength, "a positive strength");

@@ -25,8 +25,9 @@ struct ChainState {
   std::vector<double> stretch;  ///< x_l of the Kelvin units [m], or the numbers that a PointLaw keeps
 };
 
-/// The step of a law that is not a chain, at one contact point. `area`: the point's part A_J of the area [m²];
-/// `distance`: d of the contact [m]; `dx`: opening and slips during the step along n, ŝ and t̂ [m].
+/// A function that advances a law that is not a chain by one step, at one contact point. `area` is the point's part A_J
+/// of the contact's area [m²], `distance` is d of the contact [m], and `dx` contains the opening and the two slips
+/// during the step, along n, ŝ and t̂ [m].
 using PointLaw = std::function<void(double area, double distance, double dt, const std::array<double, 3>& dx,
                                     ChainState (&chain)[3])>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_spectrum.cpp  Computes eigenvalues by a dense solver, and equilibrium by LDLᵀ factors with weak
-/// springs that hold the free motions.
+/// \file reference_spectrum.cpp  Computes eigenvalues by a dense solver, and equilibrium by LDLᵀ factorisation. Weak
+/// springs hold the motions that have no stiffness.
 #include "host/reference/reference_spectrum.hpp"
 
 #include <cmath>
@@ -30,12 +30,14 @@ double reference_largest_frequency(const ContactNetwork& network, const LawTable
 
 // K is singular if some motions have no stiffness, but the load of a wall does no work on these motions. So K·u = f is
 // solved by repeating u += (K + H)⁻¹·(f − K·u) with weak springs H. The error of a motion with stiffness shrinks by a
-// factor H/K each time. A free motion gets no force and stays at rest. At the end f − K·u ≈ 0, so H holds nothing.
+// factor H/K each time. A free motion gets no force and stays at rest. At the end f − K·u ≈ 0, so the springs H carry
+// no load.
 double reference_static_modulus(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws) {
-  // fraction of a particle's own stiffness: far below the softest elastic motion, and far above the rounding errors of
-  // the factors
+  // Stiffness of the weak springs as a fraction of the particle's own stiffness. It is far below the stiffness of the
+  // softest elastic motion, and far above the rounding errors of the factorisation.
   constexpr double holding = 1e-8;
-  constexpr double tolerance = 1e-12;  // fraction of the load; the reaction is as accurate
+  // Largest residual as a fraction of the load. The reaction has about this relative error.
+  constexpr double tolerance = 1e-12;
   constexpr int most_rounds = 100;
 
   const reference::Stiffness stiffness = reference::assemble_stiffness(network, laws, specimen.size());

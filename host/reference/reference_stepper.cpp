@@ -152,9 +152,10 @@ class ReferenceStepper : public Stepper {
  private:
   [[noreturn]] static void refuse_checkpoints() { throw RunError("backend reference keeps no checkpoints"); }
 
-  /// Sets the motion of step −1 and takes the step to step 0. The forces at step −1 are unknown and stay 0: the given
-  /// velocities are already those half a step later. They are divided by the factor with which viscous damping will
-  /// multiply them in this step.
+  /// Sets the displacements of step −1 and the velocities of step −1/2, then advances to step 0. The forces at step −1
+  /// are unknown and stay 0. They are not needed, because the given velocities already belong to step −1/2. The step
+  /// will multiply the velocities by the factor of viscous damping, so the given velocities are divided by this factor
+  /// beforehand.
   void start_from(const StartState& start) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       Body& body = bodies_[i];
@@ -200,7 +201,7 @@ class ReferenceStepper : public Stepper {
     advance(1);
   }
 
-  /// Moves the frame of a contact from the undeformed geometry to step −1, as one step.
+  /// Moves the frame of a contact from the undeformed geometry to step −1, in a single step.
   void carry_to_start(ReferenceContact& contact, const std::vector<Vec3d>& rotation) const {
     const Body& a = bodies_[contact.a];
     const Vector3d turn_a = to_eigen(rotation[contact.a]);
@@ -219,7 +220,7 @@ class ReferenceStepper : public Stepper {
   Vector3d accelerate(const Vector3d& v, const Vector3d& load, double mass) const {
     const double dt = options_.dt, damping = options_.damping;
     switch (options_.damping_kind) {
-      case Damping::viscous:  // F_d = −β·m·(v + v')/2 contains the new velocity v', for which it is solved
+      case Damping::viscous:  // F_d = −β·m·(v + v')/2 contains the new velocity v'; the equation is solved for v'
         return (v * (1 - damping * dt / 2) + dt * load / mass) / (1 + damping * dt / 2);
       case Damping::local: {  // F_d = −χ·|F|·sign(v) by component
         const Vector3d sign = v.unaryExpr([](double c) { return static_cast<double>((c > 0) - (c < 0)); });
@@ -245,8 +246,8 @@ class ReferenceStepper : public Stepper {
     }
   }
 
-  /// Moves the walls likewise. Axes with a given displacement follow their drive; axes with a given force move as a
-  /// platen (model (10.2)).
+  /// Computes v(k+1/2) of the walls, then their displacements at k+1. Axes with a given displacement follow their
+  /// drive; axes with a given force move as a platen (model (10.2)).
   void move_walls() {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       WallPlane& wall = walls_[w];
@@ -294,10 +295,10 @@ class ReferenceStepper : public Stepper {
       }
       for (int axis = 0; axis < 3 && !law.point; ++axis) {
         const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contact.initial_distance;
-        // without area, shear stiffness (α = 0) or modulus no force acts and no chain is advanced
+        // If area, shear stiffness (α) or modulus is 0, no force acts, so the chain is not advanced.
         if (scale * law.E_m != 0) advance_chain(law, scale, options_.dt, local[axis], point.chain[axis]);
       }
-      // The chains resist the motion of B away from A: they pull A towards B, and B back.
+      // In tension the chains pull A towards B, and B towards A.
       const Vector3d force =
           point.chain[0].force * frame.n + point.chain[1].force * frame.s + point.chain[2].force * frame.t;
       a.force += force;

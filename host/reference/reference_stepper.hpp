@@ -4,7 +4,7 @@
 ///
 /// It shares no arithmetic with the kernels, so that the two can be compared. It favours clarity over speed: one
 /// thread, no precomputed coefficients. `StepperOptions::form` and `threads` have no effect. It always works per
-/// contact point, so it can be compared only with area moments that are lumped in points.
+/// contact point, so its results can be compared only with runs whose area moments are lumped in points.
 #pragma once
 
 #include <memory>

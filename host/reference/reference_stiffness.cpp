@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stiffness.cpp  Sums BᵀDB over all contact points.
+/// \file reference_stiffness.cpp  Assembles the stiffness matrix as the sum of BᵀDB over all contact points. B maps the
+/// motion of a particle to the displacement of the point, and D is the stiffness of the point.
 #include "host/reference/reference_stiffness.hpp"
 
 #include "host/reference/reference_contact.hpp"

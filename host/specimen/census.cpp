@@ -12,8 +12,8 @@
 namespace macadam {
 namespace {
 
-/// Checks the packing of a file. For large specimens only the filled fraction is checked, because the tessellation
-/// takes 10 s per million cells and thread.
+/// Checks the packing of a specimen that was read from a file. For more than 500,000 cells only the filled fraction is
+/// checked, because the tessellation takes 10 s per million cells on one thread.
 std::vector<std::string> warnings_of(const Specimen& specimen) {
   constexpr std::size_t most_cells = 500'000;
   if (specimen.cells() <= most_cells) return packing_warnings(specimen, tessellate(specimen));
@@ -21,7 +21,7 @@ std::vector<std::string> warnings_of(const Specimen& specimen) {
   return sparse.empty() ? std::vector<std::string>() : std::vector{std::move(sparse)};
 }
 
-/// Reads a specimen file and counts.
+/// Reads a specimen file and counts its bodies and spheres.
 Census of_file(const SpecimenSpec& spec) {
   const Specimen specimen = read_specimen_csv(*spec.file, spec.box);
   Census out;

@@ -12,18 +12,19 @@ namespace macadam {
 
 /// Numbers of bodies and spheres, and warnings.
 struct Census {
-  std::int64_t aggregates = 0;     ///< bodies
-  std::int64_t in_aggregates = 0;  ///< their spheres: equal to `aggregates`, or more if shapes are filled
+  std::int64_t aggregates = 0;     ///< number of aggregates
+  std::int64_t in_aggregates = 0;  ///< spheres in all aggregates; more than `aggregates` if shapes are filled
   std::int64_t mastic = 0, voids = 0;
-  std::int64_t templates = 0;  ///< shapes whose copies the aggregates are
+  std::int64_t templates = 0;  ///< number of shapes; each aggregate is a copy of one of them
   /// Radii of the smallest spheres of a file [m]; 0 if it has none. Not set for a recipe.
   double smallest_mastic = 0, smallest_in_aggregates = 0;
   std::vector<std::string> warnings;  ///< packing_warnings() of a file; empty for a recipe
   std::int64_t particles() const { return in_aggregates + mastic; }
 };
 
-/// Counts the spheres of a specimen. A file is read. For a recipe its classes are solved, and shapes and sizes are
-/// drawn if there are any. \throws InputError for a file or recipe that a run would refuse too.
+/// Counts the spheres of a specimen. A file is read. For a recipe, the volumes of its classes are computed; if the
+/// recipe has shapes, shapes and sizes are drawn too. \throws InputError for a file or recipe that a run would refuse
+/// too.
 Census count_specimen(const SpecimenSpec& spec);
 
 }  // namespace macadam

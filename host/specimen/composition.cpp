@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file composition.cpp  Solves a recipe for the volumes of its classes, then draws the radii of their spheres.
+/// \file composition.cpp  Computes the volumes of the classes of a recipe, then draws the radii of their spheres.
 #include "host/specimen/composition.hpp"
 
 #include <algorithm>
@@ -89,8 +89,8 @@ double volume_beside_voids(const SpecimenSpec& spec) {
   return spec.box.volume() - (spec.voids ? request_of(*spec.voids, spec).volume : 0);
 }
 
-/// Returns the volume of aggregates and mastic [m³], to which volume fractions refer. Without mastic it is unknown, and
-/// the volume of the box without the voids takes its place.
+/// Returns the volume of aggregates and mastic [m³], to which volume fractions refer. Without mastic this volume is
+/// unknown; the function then returns the volume of the box without the voids.
 double solid_volume(const SpecimenSpec& spec, const std::vector<ClassRequest>& aggregate,
                     const std::optional<ClassRequest>& mastic) {
   if (!mastic) return volume_beside_voids(spec);
@@ -129,8 +129,8 @@ std::int64_t ClassRequest::number(double box_volume) const {
     refuse(origin, name + ": number of spheres for its volume", shown(mean),
            "at most " + std::to_string(most_particles));
   if (least <= most) return static_cast<std::int64_t>(std::clamp(mean, least, most));
-  // No number of spheres between the sieves has exactly this volume: `most` spheres have less, even if all are as large
-  // as allowed, and `least` spheres have more.
+  // No number of spheres with diameters between the sieve sizes has exactly this volume. `most` spheres have less
+  // volume, even if all have the largest diameter. `least` spheres have more, even if all have the smallest diameter.
   const double below = volume - most * largest;
   const double above = least * smallest - volume;
   if (std::min(below, above) > tolerance * box_volume)
@@ -202,8 +202,9 @@ Composition compose(const SpecimenSpec& spec) {
 
 namespace {
 
-/// Returns a recipe of the mastic only, in which a porosity is adjusted such that the mastic has the same volume as
-/// beside aggregates (of this volume) and voids.
+/// Returns a recipe that has only the mastic of `spec`, without aggregates and voids. If `spec` gives a porosity, the
+/// new recipe has a larger one, with which the mastic keeps its volume. `aggregate_volume` is the volume of the
+/// aggregates [m³].
 SpecimenSpec mastic_alone(const SpecimenSpec& spec, double aggregate_volume) {
   SpecimenSpec rest;
   rest.box = spec.box;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file composition.hpp  Computes the radii of the spheres that must be placed from the recipe of a scene.
+/// \file composition.hpp  Computes, from the recipe of a scene, the radii of the spheres that must be placed.
 #pragma once
 
 #include <functional>
@@ -49,8 +49,9 @@ struct ClassRequest {
   /// Returns the expected volume of `count` bodies [m³].
   double counted_volume() const { return static_cast<double>(*count) * form * range.mean_volume(); }
 
-  /// Returns the given count, or the number whose expected volume is closest to the volume of the class and for which
-  /// the sieves allow that volume. \throws InputError if no number comes close.
+  /// Returns the given count. Without a count, returns the number of bodies whose expected volume is closest to
+  /// `volume`; only numbers are considered with which bodies of sizes within `range` can have this volume. \throws
+  /// InputError if every number misses the volume by more than 0.2 % of the box.
   std::int64_t number(double box_volume) const;
 };
 
@@ -60,21 +61,24 @@ struct Recipe {
   std::optional<ClassRequest> mastic;
 };
 
-/// Solves a recipe for the volumes of its classes. `form`, if given, returns ClassRequest::form for an aggregate class.
+/// Computes the volumes of the classes of a recipe. `form`, if given, returns ClassRequest::form for an aggregate
+/// class.
 /// \throws InputError for a contradictory or impossible recipe.
 Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const SizeRange&)>& form = {});
 
-/// \throws InputError if the size of an aggregate [m] exceeds the shortest edge of the box.
+/// Checks that the largest aggregate of a class fits in the box. \throws InputError if its size `largest` [m] exceeds
+/// the shortest edge of the box.
 void require_fit(const Origin& origin, const std::string& size_class, double largest, const Box& box);
 
 /// Draws the radii of all aggregates and mastic spheres of a recipe. Volume fractions refer to the solid volume: (1 −
 /// porosity)·(box − voids), or the value that follows from the count of mastic spheres. Without mastic the solid volume
-/// is unknown, and fractions refer to the box. Each class reaches its volume up to rounding if its sieves allow,
-/// otherwise to 0.2 % of the box. \throws InputError for a contradictory or impossible recipe.
+/// is unknown, and fractions refer to the box. The drawn volume of a class equals the requested one up to rounding if
+/// its sieve sizes allow this; otherwise they differ by at most 0.2 % of the box volume. \throws InputError for a
+/// contradictory or impossible recipe.
 Composition compose(const SpecimenSpec& spec);
 
-/// Draws the mastic of a recipe whose aggregates have a known volume [m³]: one entry, or none. \throws InputError as
-/// compose().
+/// Draws the mastic of a recipe whose aggregates have a known volume [m³]. Returns one entry, or none if the recipe has
+/// no mastic. \throws InputError as compose().
 std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregate_volume);
 
 /// Returns only the number of mastic spheres, or of voids. \throws InputError as compose().
@@ -83,7 +87,7 @@ std::int64_t mastic_number(const SpecimenSpec& spec, double aggregate_volume);
 std::int64_t void_number(const SpecimenSpec& spec);
 /// @}
 
-/// Draws the voids of a recipe: one entry, or none. \throws InputError as compose().
+/// Draws the voids of a recipe. Returns one entry, or none if the recipe has no voids. \throws InputError as compose().
 std::vector<Population> compose_voids(const SpecimenSpec& spec);
 
 }  // namespace macadam

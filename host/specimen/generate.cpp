@@ -132,7 +132,8 @@ GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
 
   SettledMastic settled = settle_mastic(specimen, placement, spec.fix_aggregates, Origin(spec), wall, progress);
   result.relaxation_iterations = settled.iterations;
-  // With voids among the spheres the cells are numbered differently, so the tessellation cannot be reused.
+  // If there are voids, this tessellation counts them as particles. The particles of the finished specimen have other
+  // numbers, so the tessellation cannot be reused.
   if (first_void == end_of_voids) {
     cells.tessellation = std::move(settled.tessellation);
     cells.seconds_tessellation = settled.seconds_tessellation;

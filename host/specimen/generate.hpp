@@ -14,7 +14,7 @@ namespace macadam {
 /// A generated specimen and its cells.
 struct GeneratedWithCells {
   GeneratedSpecimen made;
-  /// The tessellation of the specimen. Empty if there are voids, because these were among the particles when the
+  /// The tessellation of the specimen. Empty if there are voids, because the voids were among the particles when the
   /// tessellation was made.
   std::optional<Tessellation> tessellation;
   double seconds_tessellation = 0;  ///< time of the tessellation, if it is present [s]

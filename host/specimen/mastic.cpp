@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mastic.cpp  Relaxes the mastic repeatedly, and moves hidden spheres to new random places in between.
+// mastic.cpp  Relaxes the mastic repeatedly. Between two relaxations, moves hidden spheres (those without a Laguerre
+// cell) to new random places.
 #include "host/specimen/mastic.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace macadam {
 namespace {
 
-constexpr int most_rounds = 10;  // rounds of relaxation before the hidden spheres are an error
+constexpr int most_rounds = 10;  // rounds of relaxation after which remaining hidden spheres are an error
 
 /// Moves hidden mastic spheres to new random places.
 void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Placement& placement) {

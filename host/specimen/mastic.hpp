@@ -18,9 +18,9 @@ struct SettledMastic {
 };
 
 /// Relaxes a specimen until the spheres are evenly spread and each has a Laguerre cell. Mastic spheres without a cell
-/// are moved to new places. `wall` is passed to relax(); `progress` may be empty. At this time voids are still spheres
-/// of the specimen, among the aggregates. \throws RunError naming the spheres without a cell if there are any after 10
-/// rounds.
+/// are moved to new places. `wall` is passed to relax(); `progress` may be empty. When this function is called, voids
+/// are still spheres of the specimen and are treated as aggregates. \throws RunError naming the spheres without a cell
+/// if there are any after 10 rounds.
 SettledMastic settle_mastic(Specimen& specimen, Placement& placement, bool fix_aggregates, const Origin& origin,
                             const Enclosure& wall,
                             const std::function<void(const char* stage, double share)>& progress);

@@ -19,7 +19,7 @@ namespace {
 /// Number of random positions tried before the open cells are listed; listing them takes about the time of this many
 /// trials.
 constexpr std::int64_t plain_attempts = 20'000;
-constexpr std::int64_t tries_at_once = 128;  // trials per thread and call
+constexpr std::int64_t tries_at_once = 128;  // number of trials that a thread processes at a time
 
 double squared_distance(const Vec3d& a, const Vec3d& b) {
   const Vec3d d = a - b;
@@ -33,7 +33,7 @@ Vec3d random_point(Draws& draws, const Vec3d& low, const Vec3d& high) {
 
 /// An aggregate to be placed.
 struct Waiting {
-  std::size_t population, rank;  ///< class, and index in its list of radii
+  std::size_t population, rank;  ///< index of the class, and index in the class's list of radii
   double radius;
 };
 
@@ -93,7 +93,7 @@ std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Populati
 
 void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing) {
   // Later spheres are not larger than this one, except voids. With this reach, every later sphere that could be too
-  // close finds this one in the list of the cell that contains its centre.
+  // close finds this one in the list of the cell that contains the centre of the later sphere.
   grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, radius + std::max(radius, largest_void_) + spacing);
   add(centre, radius, Phase::aggregate, body);
 }
@@ -117,7 +117,7 @@ void Placement::place_mastic(const Population& mastic) {
     add(random_point(draws, {0, 0, 0}, specimen_.box.size), mastic.radius[placed], Phase::mastic, -1);
     return ++placed < mastic.radius.size();
   };
-  // The same numbers give the same point in `place` and `free`.
+  // `place` and `free` get the same random numbers, so both compute the same point.
   const auto free = [&](Draws draws) { return clear_of_placed(random_point(draws, {0, 0, 0}, specimen_.box.size), 0); };
   if (!random_.each_good(attempts_, 3, tries_at_once, free, place)) no_room_for_mastic();
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr double close_enough = 1e-3;
 constexpr double tolerance = 0.005;  // an error above this fraction of the class's volume is refused
 constexpr int most_draws = 200;      // attempts to draw the templates of one class
-constexpr int size_shares = 64;      // sample points of a size law for means over it
+constexpr int size_shares = 64;      // number of sizes at which a size law is sampled to compute a mean
 
 /// Number of the random stream of the first class. The streams of single spheres start at 100 (composition.cpp).
 constexpr std::uint64_t first_stream = 10'000;
@@ -43,7 +43,8 @@ class Composer {
   }
 
   /// Draws templates at random, then sizes such that the class has its volume. With few bodies this may be impossible
-  /// for some templates. Templates are then drawn again, with one body more or less as well if the number is not given.
+  /// for some templates. In that case templates are drawn again. If the recipe does not give the number of bodies, two
+  /// of three such attempts have one body more or one body fewer.
   std::vector<AggregateRequest> draw(const ClassRequest& request, int size_class, std::int64_t count,
                                      RandomStream random) const {
     std::vector<AggregateRequest> best;

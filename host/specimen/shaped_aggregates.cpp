@@ -207,7 +207,7 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
   for (std::size_t k = 0; k < n; ++k) {
     const Pose& pose = placed.aggregate[k].pose;
     out.spheres[k] = std::move(spheres[placed.request[k]]);
-    // The radius must have the same bits as in the description.
+    // The radius must be exactly half of the diameter in the description of the aggregate, without another rounding.
     if (placed.aggregate[k].sphere) out.spheres[k].radius = {out.aggregate[k].d_long / 2};
     for (Vec3d& c : out.spheres[k].centre) c = Pose{pose.centre, pose.turn, 1}(c);
     out.aggregate[k].spheres = static_cast<std::int64_t>(out.spheres[k].size());

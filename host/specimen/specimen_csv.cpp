@@ -90,7 +90,8 @@ class Lines {
     return false;
   }
 
-  static constexpr std::size_t longest = 1000;  // longest line [bytes]; seven numbers take some hundred
+  // Longest line [bytes]. A record of seven numbers has at most a few hundred bytes.
+  static constexpr std::size_t longest = 1000;
   std::string name_;
   std::unique_ptr<gzFile_s, int (*)(gzFile)> in_{nullptr, gzclose_r};
   std::array<char, 1 << 16> buffer_;
@@ -108,7 +109,7 @@ class CsvReader {
   Specimen read() {
     std::string line;
     constexpr int most_blank = 1000;
-    int blank = 0;  // number of the first of the blank lines being skipped; blank lines are allowed at the end only
+    int blank = 0;  // line number of the first blank line; blank lines are allowed only at the end of the file
     while (lines_.next(line)) {
       if (lines_.number() == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets' byte-order mark
       if (line.empty() && (blank == 0 || lines_.number() - blank < most_blank)) {
@@ -199,7 +200,7 @@ Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box) { 
 
 void write_specimen_csv(const std::filesystem::path& file, const Specimen& particles) {
   const Specimen specimen = with_voids_as_cells(particles);
-  fmt::memory_buffer text;  // unlike a stream, it throws when memory is exhausted
+  fmt::memory_buffer text;  // unlike a stream, this buffer throws when memory is exhausted
   const auto to = std::back_inserter(text);
   fmt::format_to(to, "{}\n", header);
   for (std::size_t i = 0; i < specimen.size(); ++i) {

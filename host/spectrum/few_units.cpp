@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// few_units.cpp  Approximates a sum of exponentials by a few of its own units: non-negative least squares, which adds
-// one unit at a time until the error is below the tolerance.
+// few_units.cpp  Approximates a sum of exponentials by a few of its own units (exponentials). Non-negative least
+// squares adds one unit at a time until the error is below the tolerance.
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +10,14 @@
 namespace macadam {
 namespace {
 
-/// Fraction of E(0) below which E(t) is not resolved: there, differences are taken relative to this value.
+/// Fraction of E(0) below which E(t) is not resolved. Differences are divided by E(t), or by this fraction of E(0) if
+/// E(t) is less.
 constexpr double nothing = 1e-9;
 /// Times per decade at which series are compared.
 constexpr int per_decade = 20;
 
-/// Returns the times of the least-squares fit: 0, the given range, and two decades before it, where E(0) turns into
-/// E(t).
+/// Returns the times of the least-squares fit: 0, the given range, and the two decades before the range, in which E
+/// falls from E(0) to E(shortest).
 std::vector<double> places(double shortest, double longest) {
   std::vector<double> out = log_range(1e-2 * shortest, longest, per_decade);
   out.insert(out.begin(), 0);
@@ -38,7 +39,7 @@ double difference(const PronySeries& series, const PronySeries& exact, double sh
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance) {
   const std::vector<double> times = places(shortest, longest);
   const auto rows = std::ssize(times), units = std::ssize(series.units);
-  Eigen::MatrixXd of_units(rows, units + 1);  // column j: unit j over time; the last: the long-term modulus
+  Eigen::MatrixXd of_units(rows, units + 1);  // column j: unit j at each time; last column: the long-term modulus
   Eigen::VectorXd sum(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const double t = times[static_cast<std::size_t>(i)], over = 1 / scale(series, t);

@@ -23,7 +23,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Eigenvalues of a form below this fraction of its largest one are rounding errors.
+/// Eigenvalues of a matrix G_p below this fraction of the largest one are rounding errors.
 constexpr double rounding = 1e-14;
 /// Units with a modulus below this fraction of E_0 are rounding errors too.
 constexpr double no_unit = 1e-14;
@@ -72,7 +72,8 @@ PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::op
     rate.segment(at, b.rows()).setConstant(rates[static_cast<std::size_t>(k)]);
     at += b.rows();
   }
-  // equilibrium of the free motions; degrees of freedom have different units, so each row is scaled by its diagonal
+  // This solves the equilibrium of the free motions. Degrees of freedom have different units, so rows and columns are
+  // scaled by the diagonal.
   const Index free = n - 1;
   const VectorXd scale = at_once.diagonal().tail(free).cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = scale.asDiagonal() * at_once.bottomRightCorner(free, free) * scale.asDiagonal();
@@ -85,7 +86,7 @@ PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::op
   decay.diagonal().array() += 1;
   decay = rate.asDiagonal() * decay * rate.asDiagonal();
   const VectorXd drive = rate.cwiseProduct(strain.col(0) - of_free * answer);
-  if (rows == 0) return {to_modulus * instantaneous, {}};  // nothing flows
+  if (rows == 0) return {to_modulus * instantaneous, {}};  // no law flows
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (decay + decay.transpose()));
   const VectorXd share = eigen.eigenvectors().transpose() * drive;
   PronySeries out;

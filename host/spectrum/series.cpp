@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// series.cpp  Evaluates sums of exponentials, and converts laws to relaxation and relaxation to creep. The poles of one
-// are the zeros of the other, which lie between its poles.
+// series.cpp  Evaluates sums of exponentials, and converts laws to relaxation and relaxation to creep. The poles of a
+// stiffness are the zeros of the corresponding compliance, and vice versa. Each zero lies between two poles, where
+// bisection finds it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,7 +74,7 @@ double CreepSeries::after_ramp(double t, double duration) const {
 namespace {
 
 /// Returns the root r of a function that increases from below zero at ln r = low to above zero at ln r = high.
-/// Bisection of ln r, because both ends may be poles.
+/// Uses bisection of ln r, because both ends may be poles.
 template <class F>
 double root(F&& f, double low, double high) {
   for (int i = 0; i < 200; ++i) {
@@ -99,7 +100,7 @@ PronySeries prony_series(const Law& law) {
   }
   const auto& chain = std::get<laws::GeneralisedKelvin>(law);
   // At s = −r the compliance 1/E_m − 1/(r·C_m) + Σ 1/(E_l − r·C_l) increases from −∞ to ∞ between two poles, and once
-  // more beyond the last pole. The poles of k*(s) are its zeros.
+  // more beyond the last pole. The poles of k*(s) are the zeros of this compliance.
   struct Pole {
     double rate, E, C;
   };
@@ -159,7 +160,7 @@ CreepSeries creep_series(const PronySeries& relaxation) {
                      "a positive modulus");
   }
   // At s = −r, E*(s) = E_∞ − Σ g·r·τ/(1 − r·τ) decreases from E_∞ at r = 0, and from ∞ to −∞ between two poles; beyond
-  // the last pole it stays positive. The poles of J* = 1/E* are its zeros.
+  // the last pole it stays positive. The poles of J* = 1/E* are the zeros of E*.
   const auto minus_modulus = [&](double r) {
     double out = -relaxation.long_term;
     for (const auto& u : relaxation.units) out += u.modulus * r * u.time / (1 - r * u.time);
@@ -179,7 +180,7 @@ CreepSeries creep_series(const PronySeries& relaxation) {
     out.fluidity = 1 / viscosity;
   }
   for (std::size_t i = 0; i < units.size(); ++i) {
-    // the zero next to the pole of this unit, on the side of slower times
+    // the zero next to the pole of this unit, on the side of longer times
     const bool slowest = i + 1 == units.size();
     if (slowest && relaxation.long_term == 0) continue;  // this zero is at r = 0: the dashpot
     const double high = -std::log(units[i].time), low = slowest ? high - beyond : -std::log(units[i + 1].time);

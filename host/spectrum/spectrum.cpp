@@ -23,17 +23,17 @@ using Complex = std::complex<double>;
 
 /// E(t) depends on E*(s) for s from about 0.1/t to 10/t.
 constexpr double slower = 10, faster = 10;
-/// This over the fastest relaxation time (or over the shortest time that is asked for, if that is less) is the s of a
-/// solution for the instantaneous response, in which no dashpot moves.
+/// The instantaneous response, in which no dashpot moves, is solved at s = at_once/t. Here t is the fastest relaxation
+/// time, or the shortest requested time if this is less.
 constexpr double at_once = 1e8;
-/// The residual tolerance of the solutions is this times the square root of the tolerance, since the error of E* is the
-/// square of the error of a solution.
+/// The residual tolerance of the solutions is residual_share·√tolerance, because the error of E* is the square of the
+/// error of a solution.
 constexpr double residual_share = 1e-4;
-/// The error estimate contains this fraction of the tolerance for the residuals of the solutions. Residuals alone left
-/// an error of 0.03 times the tolerance on 175 particles.
+/// The error estimate contains this fraction of the tolerance for the residuals of the solutions. On 175 particles the
+/// residuals alone caused an error of 0.03 times the tolerance.
 constexpr double of_residuals = 0.1;
-constexpr int first_places = 9, most_rounds = 4;  // up to 66 solutions
-/// Number of frequencies at which the series is compared with solutions that it is not made of.
+constexpr int first_places = 9, most_rounds = 4;  // the rounds have 9, 17, 33 and 65 places
+/// Number of frequencies at which the series is compared with solutions that were not used to make it.
 constexpr int checks = 3;
 
 /// The search for the spectrum of one specimen.
@@ -56,7 +56,8 @@ class Finder {
     std::vector<double> places;
     for (int i = 0; i < first_places; ++i) {
       places.push_back(high + (low - high) * i / (first_places - 1));
-      join({places.back()});  // solutions serve as starts for slower ones, which are worse conditioned
+      // From fast to slow: each solution gives a good start for slower ones, which are worse conditioned.
+      join({places.back()});
     }
     std::sort(places.begin(), places.end());
     double before = 1;
@@ -88,7 +89,7 @@ class Finder {
     return out;
   }
 
-  /// Adds a place in the middle between each two, and solves there.
+  /// Adds a place (a value of ln s) in the middle between every two neighbours, and solves there.
   void halve(std::vector<double>& places) {
     std::vector<double> between;
     for (std::size_t i = 1; i < places.size(); ++i) between.push_back(0.5 * (places[i - 1] + places[i]));
@@ -128,8 +129,8 @@ class Finder {
     return difference(before, now, options_.shortest, options_.longest);
   }
 
-  /// Compares the series with solutions that it is not made of, at frequencies within the range. Returns whether the
-  /// largest difference is within the tolerance.
+  /// Compares the series with solutions that were not used to make it, at frequencies within the range. Returns whether
+  /// the largest difference is within the tolerance.
   bool checked() {
     const double slow = 1 / (2 * std::numbers::pi * options_.longest),
                  fast = 1 / (2 * std::numbers::pi * options_.shortest);

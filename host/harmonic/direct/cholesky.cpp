@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cholesky.cpp  Factors the matrix. METIS orders particles instead of unknowns (35,000 nodes in place of 215,000).
-// CHOLMOD works on supernodes (groups of columns with the same structure) as dense blocks.
+// cholesky.cpp  Factors the matrix. METIS orders particles instead of degrees of freedom, so its graph has six times
+// fewer nodes. CHOLMOD works on supernodes (groups of columns with the same structure) as dense blocks.
 #include "host/harmonic/direct/cholesky.hpp"
 
 #include <cholmod.h>
@@ -46,9 +46,9 @@ std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::
 }
 
 /// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. OpenBLAS divides products among its
-/// threads, so the last digits of the factors would depend on their number. Its threads are also not counted among the
-/// threads of a job. More threads would not help either: most supernodes are small, and 16 threads took twice as long
-/// as four.
+/// threads, so the last digits of the factors would depend on their number. Its threads would also not be counted among
+/// the threads of a job. More threads would not help either: most supernodes are small, and 16 threads took twice as
+/// long as four.
 void limit_blas_threads() {
   if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
 }

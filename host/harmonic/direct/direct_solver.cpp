@@ -3,8 +3,9 @@
 // preconditioner.
 //
 // K*(s) is the real stiffness matrix of the network with each contact multiplied by the complex number of its pair.
-// Preconditioned by the real parts at one frequency, its eigenvalues lie close to the few ratios of these numbers. So
-// about ten iterations suffice.
+// The preconditioner is the same matrix with the real parts of these numbers at one frequency. The eigenvalues of the
+// preconditioned matrix lie close to the ratios of the complex numbers to these real parts. There are only a few
+// ratios, one for each pair, so about ten iterations suffice.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -100,7 +101,8 @@ class DirectSolver : public LinearSolver {
   void precondition(const LinearTask& task, const Vector& r, Vector& z) const {
     factors_.solve(r, z);
     // The load does not act on the free motions, so with inertia they are absent from the solution. The preconditioner,
-    // which has pins in place of that inertia, would put some into z; the number of iterations would then triple.
+    // which has pins in place of inertia, would add some of these motions to z, and the number of iterations would
+    // triple.
     if (task.inertia == 0.0) return;
     for (const FreeMotion& motion : free_.motions) motion.remove_from(z, inertia_);
   }

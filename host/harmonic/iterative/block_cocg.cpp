@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // block_cocg.cpp  Implements COCG, the conjugate-gradient method with products xᵀ·y without conjugates, for complex
 // symmetric matrices. The preconditioner adds a fine level (the inverse block of each particle) and a coarse level
-// (rigid motions of boxes). One iteration has three sweeps over the particles: q = K·p; x, r and the fine level of z;
-// the coarse level of z, and p. Sums are computed per block of particles and then added in order, so that they do not
-// depend on the number of threads.
+// (rigid motions of boxes). One iteration has three sweeps over the particles. The first computes q = K·p, the second
+// x, r and the fine level of z, the third the coarse level of z and then p. Sums are computed per block of particles
+// and then added in order, so that they do not depend on the number of threads.
 #include "host/harmonic/iterative/block_cocg.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace macadam::harmonic {
 namespace {
 
-constexpr std::size_t chunk = 128;  ///< particles per block of a sum
+constexpr std::size_t chunk = 128;  ///< number of particles per partial sum
 
 /// The iteration for F tasks side by side.
 template <int F>
@@ -76,7 +76,7 @@ class BlockCocg {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// Sums over particles: rᵀ·z and rᵀ·r, and the products of z with the free motions (`drop`), by mass.
+  /// Sums over particles: rᵀ·z, rᵀ·r, and the mass-weighted products of z with the free motions (`drop`).
   struct Sums {
     Products<F> rz, rr;
     L drop[kernels::most_free_motions];
@@ -139,7 +139,8 @@ class BlockCocg {
   }
 
   /// Updates the state of each task and computes β = rᵀz / (rᵀz of the previous iteration). For tasks that are done β
-  /// is 0, and they no longer change. Returns the largest relative residual of the others, 0 if all are done.
+  /// is 0, and they no longer change. Returns the largest relative residual of the tasks that are not done, or 0 if all
+  /// are done.
   double judge(int k, const Sums& sums, Factor<F>& beta) {
     double worst = 0;
     for (int f = 0; f < F; ++f) {
@@ -297,7 +298,7 @@ void solve_block(const kernels::LinearSystem& system, const std::vector<double>&
     BlockCocg<1>(system, inverse, layout, tasks).solve(stop);
     return;
   }
-  // fills the lanes; with its infinite tolerance it is done before the first iteration
+  // This task fills the lanes that have no task. With its infinite tolerance it is done before the first iteration.
   LinearTask spare = *tasks.front();
   spare.tolerance = std::numeric_limits<double>::infinity();
   while (tasks.size() < static_cast<std::size_t>(kernels::most_loads)) tasks.push_back(&spare);

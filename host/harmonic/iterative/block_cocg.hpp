@@ -11,8 +11,8 @@
 
 namespace macadam::harmonic {
 
-/// Solves up to four tasks at once and stores the results in them. `inverse`: from invert_particle_blocks(). \throws
-/// InterruptedError when `stop` is given and returns true.
+/// Solves up to four tasks at once and stores the results in them. `inverse` is the result of invert_particle_blocks().
+/// \throws InterruptedError when `stop` is given and returns true.
 void solve_block(const kernels::LinearSystem& system, const std::vector<double>& inverse, const kernels::Layout& layout,
                  std::vector<LinearTask*> tasks, const std::function<bool()>& stop);
 

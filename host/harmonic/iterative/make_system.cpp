@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_system.cpp  Builds the arrays. The coarse matrix RᵀKR is summed only over contacts between boxes, because a
-// rigid motion of a box does not strain the contacts inside it.
+// make_system.cpp  Builds the arrays of the iterative solver. The coarse matrix RᵀKR is summed only over contacts
+// between boxes, because a rigid motion of a box does not strain the contacts inside it.
 #include "host/harmonic/iterative/make_system.hpp"
 
 #include "host/harmonic/iterative/invert.hpp"
@@ -152,8 +152,8 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
   return out;
 }
 
-/// Returns the products, by mass, of a free motion of some particles with the motions of the boxes. They are not zero
-/// for a motion of the boxes that contains the free motion.
+/// Returns the mass-weighted products of a free motion of some particles with the motions of the boxes. They are not
+/// zero for a motion of the boxes that contains the free motion.
 Eigen::VectorXd weights_of_boxes(const LinearSystem& system, int motion) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   return Eigen::Map<const Eigen::VectorXd>(system.weight.data() + motion * size, size);
@@ -182,7 +182,7 @@ void make_motions(const kernels::Layout& layout, const Inertia& inertia, const F
   }
 }
 
-/// Computes Rᵀ·M·motion for all free motions: their products, by mass, with the motions of the boxes.
+/// Computes Rᵀ·M·motion for all free motions, that is, their mass-weighted products with the motions of the boxes.
 void make_weights(LinearSystem& out) {
   const auto motions = static_cast<std::size_t>(out.free);
   out.weight.assign(motions * 6 * out.boxes(), 0);
@@ -211,7 +211,8 @@ LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen
   make_weights(out);
   Eigen::MatrixXd k = coarse_stiffness(out);
   // Free motions of the whole specimen have no stiffness among the boxes either, so the coarse matrix would be
-  // singular. They are given some stiffness; the part of them that gets into z is removed from it anyway.
+  // singular. This loop gives them some stiffness. It has no effect on the solution, because the iteration removes the
+  // free motions from z.
   const double usual = k.trace() / static_cast<double>(k.rows());
   for (int m = 0; m < out.free; ++m) {
     const bool of_all = free.motions[static_cast<std::size_t>(m)].particles.size() == layout.particles();

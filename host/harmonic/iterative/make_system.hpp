@@ -20,8 +20,7 @@ kernels::LinearSystem make_system(const ContactNetwork& network, const Specimen&
 /// \throws NotIterable naming a particle that can move by itself without force.
 std::vector<double> invert_particle_blocks(const kernels::LinearSystem& system, const kernels::Layout& layout);
 
-/// Throws NotIterable naming the particle that can move by itself. `body`: the first such particle, as its number in
-/// the layout.
+/// Throws NotIterable naming the particle that can move by itself. `body` is the number of this particle in the layout.
 [[noreturn]] void refuse_loose_particle(std::int64_t body, const kernels::Layout& layout);
 
 }  // namespace macadam::harmonic

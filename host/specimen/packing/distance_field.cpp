@@ -67,8 +67,8 @@ DistanceField::Value DistanceField::value(const Vec3d& point) const {
   const double d = mix(f0, f1, c.share.z);
   const double beyond2 = dot(c.beyond, c.beyond);
   // Outside the grid: let q be the nearest point of the grid's box. The box is convex and contains the shape, so the
-  // angle at q between this point and any point of the shape is at least 90°. The distance to the shape is therefore at
-  // least √(d² + beyond²), where d is the distance at q.
+  // directions from q to the given point and to any point of the shape enclose an angle of at least 90°. The distance
+  // to the shape is therefore at least √(d² + beyond²), where d is the distance at q.
   if (beyond2 > 0) return {std::sqrt(d * d + beyond2), (1 / std::sqrt(beyond2)) * c.beyond};
   const double x0 = mix(f[1] - f[0], f[down + 1] - f[down], c.share.y);
   const double x1 = mix(f[deep + 1] - f[deep], f[deep + down + 1] - f[deep + down], c.share.y);

@@ -38,7 +38,7 @@ class DistanceField {
 
  private:
   struct Cell {
-    std::size_t node;  ///< number of the lower corner
+    std::size_t node;  ///< index of the node at the corner with the smallest coordinates
     Vec3d share;       ///< position within the cell, 0 … 1
     Vec3d beyond;      ///< vector from the nearest point of the grid; 0 inside the grid
   };

@@ -12,7 +12,8 @@ namespace {
 
 // Number of cells along the longest edge of a shape.
 constexpr int field_cells = 40;
-constexpr double sample_tolerance = 0.003;  // in units of D^I; small compared with the gaps that packing keeps
+// Tolerance of the samples divided by the intermediate diameter D^I; small compared with the gaps that packing keeps.
+constexpr double sample_tolerance = 0.003;
 
 double farthest_point(const Surface& s) {
   double most = 0;
@@ -51,8 +52,8 @@ struct Manifold {
   }
 };
 
-/// Adds the samples of `a` in the field of `b`. The normal pushes `a` away from `b` if `sign` is 1, and `b` away from
-/// `a` if it is −1.
+/// Adds the samples of `a` that are closer to `b` than `gap`, according to the distance field of `b`. The normal pushes
+/// `a` away from `b` if `sign` is 1, and `b` away from `a` if it is −1.
 void add_samples(Manifold& m, const ShapeBody& a, const ShapeBody& b, double gap, double sign) {
   const Transfer transfer(a, b);
   const DistanceField& field = b.geometry->field;
@@ -89,8 +90,8 @@ bool sphere_touches(const ShapeBody& sphere, const ShapeBody& body) {
   return body.geometry->solid.contains(own) || body.scale * body.geometry->solid.distance(own) <= r;
 }
 
-/// Returns whether the field of `b` proves that a sample of `a` is inside `b`. Samples within the error of the field
-/// are not counted.
+/// Returns whether the field of `b` proves that a sample of `a` is inside `b`. Samples are ignored if their distance
+/// from the surface is below the error of the field.
 bool sample_inside(const ShapeBody& a, const ShapeBody& b) {
   const Transfer transfer(a, b);
   const DistanceField& field = b.geometry->field;
@@ -177,7 +178,7 @@ bool overlap(const ShapeBody& a, const ShapeBody& b) {
   const double apart = norm(d);
   if (apart > a.radius() + b.radius()) return false;
   if (apart <= a.inner_radius() + b.inner_radius()) return true;
-  if (a.sphere && b.sphere) return false;  // the inner radius of a sphere is its radius
+  if (a.sphere && b.sphere) return false;  // tested in the line above: the inner radius of a sphere is its radius
   if (a.sphere) return sphere_touches(a, b);
   if (b.sphere) return sphere_touches(b, a);
   // If the other surface comes closer to a body's centre than the radius of the inner ball, the bodies overlap.

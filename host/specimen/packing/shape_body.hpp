@@ -22,14 +22,14 @@ struct ShapeGeometry {
   DistanceField field;
   SurfaceSamples samples;
   std::vector<double> facet_reach;  ///< for each facet: longest edge at its first corner
-  double radius;                    ///< of the ball about the centroid that contains the shape
-  double inner;                     ///< of a ball about the centroid inside the shape; otherwise 0
+  double radius;                    ///< radius of the ball about the centroid that contains the shape
+  double inner;                     ///< radius of a ball about the centroid inside the shape; 0 if none is known
 };
 
 /// A scaled copy of a shape, or a sphere, at a position in the box.
 struct ShapeBody {
   const ShapeGeometry* geometry = nullptr;
-  /// Its spheres at full scale; if present, they are tested in place of the surface.
+  /// The spheres that fill the body, at full scale. If present, they are tested in place of the surface.
   const SphereCluster* cluster = nullptr;
   bool sphere = false;
   double size = 0;   ///< D^I at full scale [m]
@@ -47,8 +47,8 @@ struct ShapeBody {
   /// Radii of a ball about the centre that contains the body, and of one that the body contains [m].
   double radius() const { return sphere ? sphere_radius() : cluster ? cluster->radius() : scale * geometry->radius; }
   double inner_radius() const { return sphere ? sphere_radius() : cluster ? 0 : scale * geometry->inner; }
-  /// Transforms one point: from the frame of the template to the box, back to the frame of the template, and from the
-  /// box to the frame of the cluster.
+  /// Transform a point: from the frame of the template to the box (to_space), from the box to the frame of the template
+  /// (to_own), and from the box to the frame of the cluster (to_cluster).
   Vec3d to_space(const Vec3d& own) const { return centre + scale * rotation(own); }
   Vec3d to_own(const Vec3d& space) const { return (1 / scale) * rotation.back(space - centre); }
   Vec3d to_cluster(const Vec3d& space) const { return rotation.back(space - centre); }

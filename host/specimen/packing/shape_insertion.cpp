@@ -11,7 +11,7 @@ namespace macadam {
 namespace {
 
 constexpr std::int64_t plain_shape_attempts = 2'000;  // listing the open cells takes about the time of this many trials
-constexpr std::int64_t shape_tries_at_once = 4;       // per thread and call
+constexpr std::int64_t shape_tries_at_once = 4;       // number of trials that a thread processes at a time
 
 double smallest_radius(const std::vector<ShapeBody>& bodies) {
   double r = bodies.empty() ? 1 : bodies.front().radius();
@@ -87,8 +87,8 @@ bool ShapeInsertion::inside(const ShapeBody& body, const Extent& e) const {
   return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z;
 }
 
-/// Tests only whether the body's inner ball comes too close to a placed body. Most trials fail, most of them by this
-/// fast test.
+/// Tests only whether the body's inner ball comes too close to a placed body. Most trials fail, and this fast test
+/// detects most of the failures.
 bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
   const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) {
@@ -128,7 +128,8 @@ void ShapeInsertion::measure_room(std::size_t k) {
 
 std::vector<std::size_t> ShapeInsertion::open_cells(std::size_t k, double inner_radius) {
   measure_room(k);
-  // A point of a cell has at most the room of the cell's middle plus half of the cell's diagonal.
+  // The distance from any point of a cell to the nearest body is at most room_, which is measured at the cell's middle,
+  // plus half of the cell's diagonal.
   const double least = inner_radius - norm(grid_.edge()) / 2;
   std::vector<std::size_t> open;
   for (std::size_t cell = 0; cell < room_.size(); ++cell)

@@ -44,9 +44,9 @@ class ShapeInsertion {
   std::vector<std::size_t> open_cells(std::size_t k, double inner_radius);
 
   const Box& box_;
-  /// Largest radius and inner radius of this body and of those after it [m].
+  /// Entry k: the largest radius, and the largest inner radius, of the bodies from number k on [m].
   std::vector<double> radius_to_come_, inner_to_come_;
-  SphereGrid near_;  ///< for each cell, the placed bodies that a body to come may touch
+  SphereGrid near_;  ///< for each cell, the placed bodies that a body not yet placed may touch
   SphereGrid grid_;  ///< fine cells for room_; their lists are not used
   double spacing_;   ///< [m]
   std::int64_t attempts_;

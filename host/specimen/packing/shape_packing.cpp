@@ -12,18 +12,20 @@
 namespace macadam {
 namespace {
 
-// Contacts have the stiffness 1 and the smallest body has the mass 1. About twelve contacts act on a body, also through
-// lever arms, so that stiffness divided by mass reaches about 50. An iteration with momentum is stable if this ratio is
-// below 2·(1 + momentum)/step, which is 65.
+// Contacts have the stiffness 1 and the smallest body has the mass 1. For rotations a contact at the radius of a body
+// counts (radius/lever_)² = 4 times. A body has up to about twelve contacts, so stiffness divided by mass reaches about
+// 50. An iteration with momentum is stable if this ratio is below 2·(1 + momentum)/step, which is 65.
 constexpr double step = 0.06, momentum = 0.95;
-constexpr double longest_move = 0.02;  // per iteration, in D^I of the smallest body
-constexpr double skin_share = 0.2;     // skin of the neighbour lists, in D^I of the smallest body
-// Depths of contacts, in units of the gap (1: the surfaces touch). While the bodies grow they may overlap a little, but
-// not so deeply that they could be pushed out on the wrong side. At the end they may use half of the gap.
+constexpr double longest_move = 0.02;  // largest movement per iteration, divided by D^I of the smallest body
+constexpr double skin_share = 0.2;     // skin of the neighbour lists, divided by D^I of the smallest body
+// Largest allowed depths of contacts, divided by the gap (at 1 the surfaces touch). While the bodies grow they may
+// overlap a little, but not so deeply that they could be pushed out on the wrong side. At the end at least half of the
+// gap must be free.
 constexpr double settled = 0.5, growing = 4;
 constexpr double growth_a_gap = 0.15;  // relative growth in one iteration, divided by the relative gap
 constexpr int most_idle = 2000;        // iterations without growth after which the bodies count as jammed
-// Rounds of separating bodies that touch by the exact test although their samples show no contact.
+// Largest number of rounds in which bodies are separated that touch by the exact test although their samples show no
+// contact.
 constexpr int most_rounds = 40;
 constexpr double freeing = 1.4;  // factor by which the gaps of such bodies are widened in each round
 
@@ -41,7 +43,7 @@ struct PairContact {
   double look_at;  ///< the pair is tested again when the two bodies together have travelled this far [m]
 };
 
-/// One packing.
+/// The state of a packing: bodies that grow, their contacts and their motion.
 class Packing {
  public:
   Packing(const Box& box, std::vector<ShapeBody>& bodies, double from, double gap)
@@ -211,7 +213,7 @@ class Packing {
   std::vector<Ball> proxies_;
   Neighbours neighbours_;
   std::vector<PairContact> pairs_;
-  /// Factor on each body's gap, its mass, and its lever arm [m].
+  /// For each body: the factor by which its gap is widened, its mass, and its lever arm [m].
   std::vector<double> extra_, mass_, lever_;
   /// Upper bound of the distance that any point of a body has moved since the beginning [m].
   std::vector<double> travel_;

@@ -50,10 +50,10 @@ struct ShapeComposition {
 double aggregate_volume(const ShapeTemplate& shape, double size, bool sphere);
 
 /// Draws the aggregates of a recipe: sizes D^I by the size law, templates with equal probability. Volume fractions
-/// refer to the solid volume, as in compose(). The volume of a class is met to 1e-3 of it; if none of many samples is
-/// that close, the closest one is used. `is_sphere` returns whether a single sphere represents the shape for a template
-/// and a D^I. \throws InputError for a contradictory or impossible recipe, and if a class would miss its volume by more
-/// than 5e-3 of it.
+/// refer to the solid volume, as in compose(). The drawn volume of a class differs from the requested one by at most
+/// 0.1 %; if none of 200 samples is that close, the closest one is used. `is_sphere` returns, for a template and a D^I,
+/// whether a single sphere represents the aggregate. \throws InputError for a contradictory or impossible recipe, and
+/// if the volume of a class would be wrong by more than 0.5 %.
 ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<ShapeTemplate>& shapes,
                                 const std::function<bool(int shape, double size)>& is_sphere);
 
@@ -74,7 +74,7 @@ struct ShapePlacementSpec {
 /// The placed aggregates, largest first.
 struct ShapePlacement {
   std::vector<PlacedAggregate> aggregate;
-  std::vector<std::size_t> request;  ///< index of each in the composition
+  std::vector<std::size_t> request;  ///< for each placed aggregate, its index in ShapeComposition::aggregate
   std::vector<CompositionRow> row;   ///< requested and placed amounts, one row per class
 };
 

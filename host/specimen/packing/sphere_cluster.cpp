@@ -27,8 +27,8 @@ SphereCluster::SphereCluster(MultiSphere spheres, double reach)
     grid_.insert(static_cast<std::int32_t>(i), spheres_.centre[i] - low_, spheres_.radius[i] + reach);
 }
 
-/// Calls visit for the spheres near a point until it returns false. A point outside the cube is farther from every
-/// sphere than the nearest point of the cube, whose cell is used.
+/// Calls visit for the spheres near a point until visit returns false. For a point outside the cube, uses the cell of
+/// the nearest point of the cube. That point is nearer to every sphere, so no near sphere is missed.
 template <class Visit>
 void SphereCluster::each_near(const Vec3d& point, const Visit& visit) const {
   for (const std::int32_t i : grid_.near(grid_.cell_of(point - low_))) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_samples.cpp  Samples corners and edges; the tree halves them along their longest extent until few are
-/// left.
+/// \file surface_samples.cpp  Samples the corners and edges of a surface. The tree splits the samples into halves along
+/// their longest extent until a node has few samples.
 #include "host/specimen/packing/surface_samples.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace macadam {
 namespace {
 
 constexpr std::uint32_t leaf_size = 12;
-// Limit for very long or sharp edges.
+// Limits the number of samples on very long or sharp edges.
 constexpr double most_samples_an_edge = 64;
 
 Vec3d unit_normal(const Surface& s, const std::array<std::int32_t, 3>& f) {
@@ -26,7 +26,7 @@ Vec3d unit_normal(const Surface& s, const std::array<std::int32_t, 3>& f) {
 }  // namespace
 
 SurfaceSamples::SurfaceSamples(const Surface& s, double tolerance) : point_(s.points) {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> facet_of;  // by directed edge
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> facet_of;  // the facet of each directed edge
   for (std::size_t f = 0; f < s.facets.size(); ++f)
     for (int k = 0; k < 3; ++k) facet_of[{s.facets[f][k], s.facets[f][(k + 1) % 3]}] = f;
   for (const auto& [edge, facet] : facet_of) {
