@@ -105,8 +105,8 @@ struct FitOptions {
   std::optional<bool> flow;  ///< a dashpot in series with the chain; empty: the criterion chooses
   Criterion criterion = Criterion::aicc;
   ShiftKind shift = ShiftKind::none;
-  /// [°C]; empty: the measured temperature in the middle. Must be a measured one if the shift is free. It only rescales
-  /// time.
+  /// Reference temperature [°C]; if empty, the middle one of the measured temperatures. If the shift is free, it must
+  /// be a measured temperature. Its choice only rescales time.
   std::optional<double> reference_temperature;
   /// Used for data without standard deviations: relative standard deviation of |E*|, and standard deviation of φ
   /// [degrees]. Only their ratio matters; their size is taken from the misfit.
@@ -121,7 +121,7 @@ struct FitParameter {
   bool logarithmic = true;  ///< whether the covariance is that of its natural logarithm
 };
 
-/// A measurement, and the fitted values at it.
+/// A measurement, and the values of the fitted model at the same frequency and temperature.
 struct FittedPoint {
   ModulusPoint measured;
   double log10_a_T = 0;
@@ -135,8 +135,8 @@ struct FitCandidate {
   int parameters = 0;
   double misfit = 0;        ///< sum of squares
   double criterion = 0;     ///< the chain with the smallest value is chosen
-  bool determined = false;  ///< whether no parameter ran to the bounds; chains with such parameters are chosen only if
-                            ///< all are like that
+  bool determined = false;  ///< whether no parameter is at a bound; a chain with a parameter at a bound is chosen only
+                            ///< if every chain has one
 };
 
 /// Errors of a fit against the measurements.

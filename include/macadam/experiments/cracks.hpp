@@ -13,7 +13,7 @@ namespace macadam::experiments {
 
 /// A contact point that was intact at one sample and broken at the next.
 struct CrackEvent {
-  std::uint32_t contact = 0, point = 0;  ///< index in ContactNetwork::contacts and in its point arrays
+  std::uint32_t contact = 0, point = 0;  ///< indices in `contacts` and in the point arrays of ContactNetwork
   Break how = Break::none;
   double time_s = 0;  ///< time of the first sample at which the point is broken
 };
@@ -41,10 +41,11 @@ struct Cracks {
   }
 };
 
-/// Why a test ended before its last point: no path of intact contacts connected the bottom and top walls.
+/// The rupture that ended a test before its last point: no path of intact contacts connected the bottom and top walls
+/// any more.
 struct Rupture {
-  double time_s = 0, strain = 0;                ///< at the sample at which this was found
-  double time_before_s = 0, strain_before = 0;  ///< at the sample before it
+  double time_s = 0, strain = 0;                ///< at the first sample after the rupture
+  double time_before_s = 0, strain_before = 0;  ///< at the last sample before the rupture
 };
 
 }  // namespace macadam::experiments

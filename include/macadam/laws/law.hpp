@@ -60,8 +60,8 @@
 /// S is a number or, on the CPU, a packet of numbers. So a law must not branch; it uses select().
 ///
 /// Laws do not own memory and do not depend on arrays or threads. A law may use its units for states of any kind:
-/// damage, slip, plasticity. To add a law: a header here, a line in all.hpp, a reference implementation in
-/// host/reference, a test. A program may also have laws of its own (examples/own_law).
+/// damage, slip, plasticity. To add a law, write a header here, a line in all.hpp, a reference implementation in
+/// host/reference and a test. A program may also have laws of its own (examples/own_law).
 #pragma once
 
 #include <concepts>
@@ -77,7 +77,7 @@ namespace macadam::laws {
 /// Kind of a value, in [Pa], [Pa·s], [Pa]. The factor `delta` of a scene applies to moduli and viscosities, not to
 /// strengths.
 enum class ValueKind : std::uint8_t { modulus, viscosity, strength };
-/// A value that may be infinite is also optional.
+/// Whether a scene must give a value. A value that may be infinite is also optional.
 enum class ValueNeed : std::uint8_t { required, optional, may_be_infinite };
 
 /// A value of a law that is valid by itself but does not fit the others.
