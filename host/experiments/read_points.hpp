@@ -11,7 +11,8 @@
 
 namespace macadam::scene {
 
-/// Returns the key that skips `kind`, which is already known when an experiment reads its section.
+/// Returns a key that accepts `kind` without reading it, because the kind is already known when an experiment reads its
+/// section.
 inline Key kind_key() {
   return {"kind", Need::required, {[](const Value&) {}, {"one of"}}, "kind of the test; it determines the other keys"};
 }

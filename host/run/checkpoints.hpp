@@ -48,21 +48,22 @@ std::uint32_t checksum(const Preparation& prepared);
 /// \throws InputError if the checkpoint was written for other particles or contacts (its specimen file was changed).
 void require_same_specimen(const std::filesystem::path& file, const Checkpoint& found, const Preparation& prepared);
 
-/// Takes Stepper::state() out of a checkpoint and returns it. The other arrays stay.
+/// Removes the arrays of Stepper::state() from a checkpoint and returns them. The other arrays stay.
 std::vector<StateArray> take_state(Checkpoint& from);
 
 /// Adds an experiment's own texts and arrays to a checkpoint.
 using Content = std::function<void(Checkpoint& to)>;
 
-/// Writes the checkpoints of one run when they are due. If one cannot be written (a full disk), that is a warning: the
-/// previous one stays, and the run continues.
+/// Writes the checkpoints of one run when they are due. If a checkpoint cannot be written, for example because the disk
+/// is full, the user is warned; the previous checkpoint stays, and the run continues.
 class Checkpoints {
  public:
   Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared, Backend backend,
               std::function<bool()> stop, std::function<void(const std::string&)> warn, bool resumed);
 
   /// Writes a checkpoint if one is due or the run must stop. `where` is for messages.
-  /// \throws InterruptedError if the run must stop; it says that the checkpoint was written, or why it could not be.
+  /// \throws InterruptedError if the run must stop. Its message says that the checkpoint was written, or why it could
+  /// not be written.
   void look(const Content& content, const Stepper& stepper, const std::string& where);
 
   /// Whether the file, if it exists, belongs to this run: the run has written it or continues from it.

@@ -60,10 +60,10 @@ class FileForecast {
     return !kind.empty() && name == load_words(kind).file ? 200 + load_line * points : material_file;
   }
 
-  /// Returns the number of broken points that the run lists. The load decides it, so this is the order of magnitude for
-  /// a specimen that breaks in two.
+  /// Returns the number of broken points that the run lists. This number depends on the load. The result is the order
+  /// of magnitude for a specimen that breaks in two.
   double broken_points() const {
-    constexpr double points_per_contact = 5.9, broken_part = 0.11;  // of t8 pulled in two
+    constexpr double points_per_contact = 5.9, broken_part = 0.11;  // measured: t8 torn in two
     const auto part = mean_of_usual(scene_, [](const Law& law) {
       return std::visit([](const auto& l) { return facts_of(l).breaks ? 1.0 : 0.0; }, law);
     });

@@ -23,8 +23,8 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// Returns the scene as this rank runs it: on its own device. \throws InputError for a scene that is not stepped on
-/// devices.
+/// Returns the scene with the device of this rank in place of its devices. \throws InputError for a scene that is not
+/// stepped on devices.
 Scene scene_of_rank(const Ranks& team, Scene scene);
 
 /// \throws RunError if the ranks have read different scenes.

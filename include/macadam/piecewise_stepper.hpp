@@ -11,9 +11,9 @@
 namespace macadam {
 
 /// Advances a stepper in pieces that take 0.1 to 0.4 s of wall time, however long a step takes. The first piece has 16
-/// steps; the number is doubled after a piece that took less than 0.1 s, and halved after one that took more than 0.4
-/// s. Results do not depend on the length of the pieces, to the last bit. In a run of several processes, all processes
-/// take the same pieces.
+/// steps; the number is doubled after a piece that took less than 0.1 s, and halved after a piece that took more than
+/// 0.4 s. Results do not depend on the length of the pieces, to the last bit. In a run of several processes, all
+/// processes take the same pieces.
 class PiecewiseStepper {
  public:
   /// The stepper must outlive this object.

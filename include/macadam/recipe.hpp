@@ -83,9 +83,9 @@ struct MixVolumes {
   double absorbed_binder = 0;   ///< fraction of the aggregate by mass
 
   std::vector<MixClass> classes;  ///< classes above the cut, coarsest first, without empty ones
-  double aggregate_mass = 0;      ///< of all particles, with the binder in their pores, fraction of the mix
-  double aggregate_volume = 0;    ///< of all particles, fraction of the box
-  double aggregate_density = 0;   ///< of particles with the binder in their pores [kg/m³]; 0 without particles
+  double aggregate_mass = 0;      ///< mass of all particles with the binder in their pores, fraction of the mix
+  double aggregate_volume = 0;    ///< volume of all particles, fraction of the box
+  double aggregate_density = 0;   ///< density of particles with the binder in their pores [kg/m³]; 0 without particles
   double mastic_mass = 0;         ///< fraction of the mix
   double mastic_volume = 0;       ///< fraction of the box
   double mastic_density = 0;      ///< [kg/m³]

@@ -100,11 +100,10 @@ enum class SizeLaw : std::uint8_t { log_uniform, uniform, volume_uniform };
 
 /// One aggregate class: spheres whose diameters lie between two sieves.
 struct AggregateClass {
-  double sieve_min = 0, sieve_max = 0;  ///< diameters [m]
-  std::optional<double>
-      volume_fraction;  ///< fraction of the solid volume (aggregates and mastic); empty if `count` is given
-  std::optional<std::int64_t> count;  ///< number of aggregates
-  int line = 0;                       ///< line in SpecimenSpec::source, for messages; 0: none
+  double sieve_min = 0, sieve_max = 0;    ///< diameters [m]
+  std::optional<double> volume_fraction;  ///< fraction of the volume of all solids; empty if `count` is given
+  std::optional<std::int64_t> count;      ///< number of aggregates
+  int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
 /// The mastic that fills the remaining volume; radii are uniform in a range.

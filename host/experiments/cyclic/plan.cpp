@@ -58,8 +58,7 @@ class Planner {
   bool automatic() const { return scene_.solver.tolerance.has_value(); }
   double tolerance() const { return *scene_.solver.tolerance; }
   /// Returns the residual to which solutions are computed. The error of E* is of the order of the residual squared. The
-  /// error of the motion in a steady start is the residual itself, times the condition of K, which is about 1e5 at
-  /// most.
+  /// error of the motion in a steady start is the residual times the condition number of K, which is at most about 1e5.
   double planning_residual() const {
     return automatic() ? std::clamp(1e-5 * tolerance(), HarmonicOptions{}.tolerance, 1e-8)
                        : HarmonicOptions{}.tolerance;
@@ -99,7 +98,8 @@ class Planner {
     const double strain = scene_.cyclic().strain_amplitude, error = fixed_geometry_error(strain);
     const bool fixed = plan_.geometry == Geometry::fixed;
     if (automatic()) {
-      // carried frames turn while the points move with them, so the two forms differ by the square of the strain
+      // contact frames rotate and the contact points rotate with them, so the two forms differ by the square of the
+      // strain
       decide("contact form {}: the other form differs only by {}", to_string(plan_.form),
              fixed ? "rounding" : fmt::format("about {:.0e}, the square of the strain", strain * strain));
       decide("geometry {}: at a strain of {:g}, keeping the initial geometry changes |E*| by at most about {:.1e}",
@@ -162,7 +162,7 @@ class Planner {
       std::move(all.begin(), all.end(), out.begin());
     } catch (const InterruptedError&) { throw; } catch (const RunError&) {
       for (std::size_t i = 0; i < loads.size(); ++i)
-        out[i] = solution(loads[i]);  // one by one, so that a failed load does not cost the others their solutions
+        out[i] = solution(loads[i]);  // one by one, so that the other loads are solved even if one fails
     }
     for (const auto& r : out) {
       if (r && !r->why_factors.empty())

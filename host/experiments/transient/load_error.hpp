@@ -23,7 +23,8 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
                                                const Preparation& prepared, const Watcher& watcher, Backend backend,
                                                LoadPlan& plan);
 
-/// Errors of the rows of one stepped test, relative: of the stress, or, if the load is a stress, of the strain.
+/// Relative errors of the rows in the result of one stepped test: errors of the stress or, if the load is a stress, of
+/// the strain.
 class LoadErrors {
  public:
   /// `heavy_density`: mean density, including the density scaling [kg/m³]. The plan must outlive this object.
@@ -37,7 +38,7 @@ class LoadErrors {
   /// not known or zero.
   std::string ramp_words() const;
 
-  /// Describes what `error` of a table is.
+  /// Describes the meaning of the column `error` in the table of results.
   std::string meaning() const;
 
   /// Returns a warning that names the row with the largest error, its cause and what reduces it; empty if no error is

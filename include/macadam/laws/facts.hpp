@@ -89,7 +89,7 @@ constexpr int units_of() {
 }
 /// @}
 
-/// Returns the properties of a law. The overloads below do so for each law of a table.
+/// Returns the properties of a law. The overload below does so for each law of a table.
 template <class L>
 LawFacts facts_of(const L& law) {
   return {L::name,       law.alpha,      law.instantaneous(), law.shortest_time(),

@@ -18,9 +18,9 @@
 ///     `template <int L, class S, class Units> S advance(S f, S dx, Units&& x) const`, which returns f(t+Δt) for the
 ///     displacement increment dx and updates the unit states x(0)…x(L−1) (references). L = −1 means that the number of
 ///     units is only known at run time. `static constexpr bool memoryless` says whether f is a function of x alone;
-///     then `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state.
-/// The concept SteppableLaw below checks these members, and steppers require it by name. A law of the library's own
-/// list (all.hpp) also has
+/// then `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state. The
+/// concept SteppableLaw below checks these members. Code that makes steppers requires this concept of its laws. A law
+/// of the library's own list (all.hpp) also has
 ///   - `template <class F> void each_key(F&& f)` — calls f(key, member, ValueKind, ValueNeed) for each value that a
 ///     scene may set, a double or a std::vector<double>, in the order in which the scene file names them.
 /// All of the following members are optional:
