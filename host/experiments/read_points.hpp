@@ -20,7 +20,7 @@ inline Key kind_key() {
 /// Sets the target to its default and returns the key `poisson_ratio` of `[loading]`.
 Key poisson_key(double& target);
 
-/// \throws InputError if the key is there without entries, or has the same entry twice.
+/// Checks a list. \throws InputError if the key is given without entries, or has the same entry twice.
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
                   const char* what);
 

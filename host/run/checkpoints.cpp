@@ -57,7 +57,7 @@ std::pair<std::string, std::string> first_difference(const std::string& found, c
   throw InputError(file.string(), 0, "checkpoint of another " + what, found, expected + ", as in this run");
 }
 
-/// \throws InputError if a checkpoint and a run have different texts.
+/// Checks that a checkpoint has the texts of a run. \throws InputError naming the first text that differs.
 void require_same_run(const std::filesystem::path& file, const Checkpoint& checkpoint, const Scene& scene,
                       Backend backend) {
   for (const auto& [what, expected] : identity(scene, backend)) {

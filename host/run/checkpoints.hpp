@@ -20,10 +20,10 @@ inline constexpr const char* checkpoint_name = "checkpoint.h5";
 /// The file name of the previous checkpoint of the same run. It is used if the newest file is damaged.
 inline constexpr const char* previous_checkpoint_name = "checkpoint-previous.h5";
 
-/// Whether runs of this scene keep checkpoints. `why_not` (optional) receives the reason if they do not.
+/// Returns whether runs of this scene keep checkpoints. `why_not` (optional) receives the reason if they do not.
 bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not = nullptr);
 
-/// Whether a results folder has a checkpoint, the newest or the previous one.
+/// Returns whether a results folder has a checkpoint, the newest or the previous one.
 bool has_checkpoint(const std::filesystem::path& folder);
 
 /// A checkpoint from which a run can continue.
@@ -39,13 +39,14 @@ struct FoundCheckpoint {
 /// what differs: scene (with the first different line), version, backend, precision, form or geometry.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Scene& scene, Backend backend);
 
-/// Whether a file is an intact checkpoint of this scene on this backend.
+/// Returns whether a file is an intact checkpoint of this scene on this backend.
 bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
 
 /// Returns the CRC-32 of those data of particles and contacts that the steps use.
 std::uint32_t checksum(const Preparation& prepared);
 
-/// \throws InputError if the checkpoint was written for other particles or contacts (its specimen file was changed).
+/// Checks that a checkpoint was written for these particles and contacts. \throws InputError if not, for example
+/// because the specimen's file was changed since.
 void require_same_specimen(const std::filesystem::path& file, const Checkpoint& found, const Preparation& prepared);
 
 /// Removes the arrays of Stepper::state() from a checkpoint and returns them. The other arrays stay.
@@ -66,7 +67,7 @@ class Checkpoints {
   /// not be written.
   void look(const Content& content, const Stepper& stepper, const std::string& where);
 
-  /// Whether the file, if it exists, belongs to this run: the run has written it or continues from it.
+  /// Returns whether the file, if it exists, belongs to this run: the run has written it or continues from it.
   bool own() const { return own_; }
 
  private:

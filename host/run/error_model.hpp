@@ -27,7 +27,7 @@ double inertia_estimate(const Scene& scene, const Preparation& prepared, double 
 
 /// Quantities with which the rounding error of a run grows.
 struct RoundingScale {
-  std::int64_t steps = 0;  ///< of the whole run
+  std::int64_t steps = 0;  ///< number of steps of the whole run
   double layers = 0;       ///< Height over the mean distance of particles in contact. It is the ratio of velocities to
                            ///< relative velocities.
   double contrast = 1;     ///< largest |k*(ω)| over the smallest, of the pair types that occur

@@ -60,7 +60,7 @@ class SampledRuns {
   /// \throws DivergenceError naming the particle that first left the plausible range; InterruptedError; RunError.
   void run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry);
 
-  /// Whether the checkpoint in the folder, if there is one, belongs to this run.
+  /// Returns whether the checkpoint in the folder, if there is one, belongs to this run.
   bool own_checkpoint() const { return checkpoints_.own(); }
 
  private:

@@ -45,8 +45,8 @@ struct Forecast {
   }
 };
 
-/// \throws InputError for a specimen, or a combination of method, backend and experiment, that a run would refuse;
-/// RunError if the backend is not available.
+/// Predicts a run of the scene. \throws InputError for a specimen, or a combination of method, backend and experiment,
+/// that a run would refuse; RunError if the backend is not available.
 Forecast forecast(const Scene& scene);
 
 }  // namespace macadam

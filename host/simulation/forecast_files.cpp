@@ -20,9 +20,9 @@ constexpr double particle_line = 97, aggregate_line = 75, contact_line = 175, gr
 
 /// Sizes of one series of fields, in bytes per particle or contact.
 struct FieldSize {
-  double mesh = 0;     ///< of the mesh in a file of VTK's XML, uncompressed
-  double packed = 0;   ///< of the mesh in a VTKHDF file, whose whole numbers are compressed
-  double frame = 0;    ///< of the arrays of one frame
+  double mesh = 0;     ///< size of the mesh in a file of VTK's XML, uncompressed
+  double packed = 0;   ///< size of the mesh in a VTKHDF file, whose whole numbers are compressed
+  double frame = 0;    ///< size of the arrays of one frame
   double entries = 0;  ///< number of particles or contacts
 };
 

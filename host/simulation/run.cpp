@@ -32,7 +32,7 @@
 namespace macadam {
 namespace {
 
-/// \throws InputError if runs of this scene keep no checkpoints.
+/// Checks that runs of this scene can be resumed. \throws InputError if they keep no checkpoints.
 void require_resumable(const Scene& scene) {
   std::string why_not;
   if (!keeps_checkpoints(scene, scene.solver.backend, &why_not))

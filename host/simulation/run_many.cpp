@@ -27,13 +27,13 @@ namespace {
 /// Number of scenes that run on a device at a time.
 constexpr int at_once_on_a_device = 4;
 /// Number of specimens per device that are prepared at the same time. With more at a time, all of them would be ready
-/// late. With one at a time, preparing a specimen can take longer than the steps of the one before
+/// late. With one at a time, preparing a specimen can take longer than the steps of the previous specimen
 /// (bench/results/many.csv). With several devices, the first two specimens of each device are prepared one after the
 /// other with twice as many cores; otherwise the device would wait for its second specimen. One device is assumed until
 /// the devices are counted.
 constexpr int prepared_for_a_device = 2;
 
-/// Returns those of the devices that answer. On a device that does not answer, one scene after the other would fail.
+/// Returns the devices that answer. On a device that does not answer, one scene after the other would fail.
 DeviceList usable(const DeviceList& devices) {
   DeviceList out;
   for (const int d : devices) {
@@ -45,7 +45,7 @@ DeviceList usable(const DeviceList& devices) {
   return out;
 }
 
-/// \throws InputError if two scenes have the same folder.
+/// Checks that every scene has its own folder. \throws InputError if two scenes have the same folder.
 void require_folders_differ(const std::vector<SceneJob>& jobs) {
   std::set<std::filesystem::path> folders;
   for (const SceneJob& job : jobs) {

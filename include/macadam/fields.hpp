@@ -100,7 +100,7 @@ std::vector<FieldArray> contact_arrays(const ContactNetwork& network, const LawT
 class FieldSeries {
  public:
   virtual ~FieldSeries() = default;
-  /// Number of frames in the file.
+  /// Returns the number of frames in the file.
   virtual std::size_t size() const = 0;
   /// Adds a frame; all frames of a series have the same arrays. \throws RunError naming the file (disk full, folder
   /// missing).

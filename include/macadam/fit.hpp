@@ -153,7 +153,7 @@ struct Fit {
   bool temperatures = false;  ///< whether the data have temperatures
   bool deviations = false;    ///< whether the data have standard deviations
   std::vector<FitParameter> parameters;
-  std::vector<double> covariance;  ///< of the parameters (see FitParameter::logarithmic), row by row
+  std::vector<double> covariance;  ///< covariance of the parameters (see FitParameter::logarithmic), row by row
   std::vector<FittedPoint> points;
   std::vector<FitCandidate> candidates;  ///< chains only
   std::size_t chosen = 0;                ///< index in `candidates`
@@ -162,7 +162,7 @@ struct Fit {
   double degrees_of_freedom = 0;  ///< 2·points − parameters
   std::vector<std::string> warnings;
 
-  std::complex<double> stiffness(std::complex<double> s) const;  ///< at the reference temperature [Pa]
+  std::complex<double> stiffness(std::complex<double> s) const;  ///< complex modulus at the reference temperature [Pa]
   std::complex<double> stiffness(double) const = delete;         // deleted, so that ω cannot be passed instead of iω
   /// Returns the smallest and the largest f·a_T of the data [Hz].
   std::pair<double, double> reduced_range() const;

@@ -56,7 +56,7 @@ struct HarmonicLoad {
 
 /// Result of one problem.
 struct HarmonicResult {
-  double frequency_hz = 0, growth = 0;  ///< of the problem
+  double frequency_hz = 0, growth = 0;  ///< those of the problem, a HarmonicLoad
   Stiffness top;                        ///< from the reaction of the top wall, computed from the energy of the motion
   Stiffness bottom;                     ///< from the reaction of the bottom wall; equal to `top` without inertia
   ModulusParts parts;                   ///< their sum gives `top`

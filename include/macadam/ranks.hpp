@@ -17,13 +17,13 @@ class Ranks {
  public:
   virtual ~Ranks() = default;
 
-  /// Number of this process, from 0.
+  /// Returns the number of this process, from 0.
   virtual int number() const = 0;
-  /// Number of processes.
+  /// Returns the number of processes.
   virtual int count() const = 0;
-  /// Number of this process among those on its host, from 0.
+  /// Returns the number of this process among those on its host, from 0.
   virtual int number_on_host() const = 0;
-  /// Number of processes on this process's host.
+  /// Returns the number of processes on this process's host.
   virtual int count_on_host() const = 0;
 
   /// Copies `size` bytes from the first process to all others. Waits for all processes. \throws RunError

@@ -67,7 +67,7 @@ struct MixClass {
   double sieve_min = 0, sieve_max = 0;  ///< [m]
   double mass = 0;                      ///< fraction of the mix by mass, without absorbed binder
   double volume = 0;                    ///< fraction of the box
-  double density = 0;                   ///< of the dry aggregate [kg/m³]
+  double density = 0;                   ///< density of the dry aggregate [kg/m³]
   int line = 0;                         ///< line in MixDesign::source of the sieve that retains it
 };
 

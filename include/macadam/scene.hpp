@@ -57,7 +57,7 @@ struct SolverSpec {
   std::optional<Geometry> geometry;
   std::optional<Precision> precision;
   Backend backend = Backend::automatic;
-  LinearMethod linear = LinearMethod::automatic;  ///< for the harmonic solutions
+  LinearMethod linear = LinearMethod::automatic;  ///< method of the harmonic solutions
   int threads = 0;                                ///< 0: OpenMP's choice
   DeviceList devices;                             ///< CUDA devices; empty: run() chooses
   int side_by_side = 1;                           ///< as in StepperOptions; a scene cannot set it

@@ -120,8 +120,8 @@ struct KernelUse {
 /// Bytes that a step moves, by kind of memory.
 struct Traffic {
   std::int64_t memory = 0;
-  std::int64_t cache = 0;   ///< to and from a device's L2 cache, without device memory
-  std::int64_t shared = 0;  ///< to and from shared memories of the multiprocessors
+  std::int64_t cache = 0;   ///< bytes to and from a device's L2 cache that do not reach device memory
+  std::int64_t shared = 0;  ///< bytes to and from the shared memories of the multiprocessors
 };
 
 /// Time of a part of a step: a kernel, or the work between two blocks of steps.

@@ -19,7 +19,7 @@ namespace macadam {
 struct TwinSpec {
   /// Lower and upper corner in the scan's coordinates [m]; empty: the extent of the specimen's voxels.
   std::optional<std::array<Vec3d, 2>> box = {};
-  std::optional<double> porosity = {};  ///< porosity of the mastic, as MasticSpec::porosity; empty: that of the scene
+  std::optional<double> porosity = {};  ///< porosity of the mastic, as MasticSpec::porosity; empty: as in the scene
   /// Smallest radius of the sphere that represents a void [m]. Smaller voids are left out. 0 means two voxel edges.
   double least_void = 0;
   std::uint64_t seed = 1;

@@ -25,8 +25,8 @@ struct FitArguments {
   FitOptions fit;
 };
 
-/// \throws InputError for an option that has no effect beside the other options, because the user would believe that it
-/// has one.
+/// Refuses options that have no effect together with the other options, because the user would expect an effect.
+/// \throws InputError
 void require_uses(const CLI::App& command, const FitArguments& arguments) {
   const auto refuse = [&](const std::string& found, const char* expected, std::initializer_list<const char*> names) {
     for (const char* name : names)

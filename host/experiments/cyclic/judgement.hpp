@@ -25,7 +25,7 @@ void judge(experiments::SteppedFrequency& result, std::optional<double> stiffest
            std::vector<std::string>& warnings);
 void judge(experiments::HarmonicFrequency& result, double stiffest, std::vector<std::string>& warnings);
 
-/// \throws RunError if a tolerance was asked for and a result cannot be right.
+/// Ends a run that has a tolerance if one of its results cannot be right. \throws RunError
 void require_sense(const Scene& scene, const experiments::SteppedCyclic& result);
 
 }  // namespace macadam

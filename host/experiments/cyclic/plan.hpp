@@ -29,7 +29,7 @@ struct Plan {
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
   double geometry_error = 0;  ///< approximate largest error of |E*| if the initial geometry is kept
-  CriticalStep critical;      ///< at true mass
+  CriticalStep critical;      ///< critical time step at true mass
   std::vector<FrequencyPlan> frequencies;
   std::vector<std::string> decisions;  ///< the choices and their reasons, one sentence each
 };

@@ -24,9 +24,9 @@ struct RunState {
   double seconds_planning = 0;
   std::vector<double> seconds;          ///< wall time of each finished frequency
   double seconds_running = 0;           ///< wall time of the running frequency until now
-  std::vector<std::string> warnings;    ///< about checkpoints that could not be written
-  std::vector<ResponseSample> samples;  ///< of all frequencies until now
-  std::vector<FrequencyCracks> cracks;  ///< of each frequency of the plan; empty for those that have not begun
+  std::vector<std::string> warnings;    ///< warnings about checkpoints that could not be written
+  std::vector<ResponseSample> samples;  ///< samples of all frequencies until now
+  std::vector<FrequencyCracks> cracks;  ///< one entry per frequency of the plan; empty if it has not begun
   std::vector<StateArray> state;  ///< Stepper::state() of the running frequency; set only when read from a checkpoint
 };
 

@@ -307,12 +307,12 @@ class Steps : public PlannedExperiment {
   RunState at_;
   DeviceList devices_;                ///< devices of the stepper
   bool may_move_ = true;              ///< whether the run may move to other devices
-  std::unique_ptr<Stepper> stepper_;  ///< of the running frequency, or of the first to run
+  std::unique_ptr<Stepper> stepper_;  ///< stepper of the running frequency or of the first one
   bool used_ = false;                 ///< whether the stepper has run a frequency
   std::optional<LineWriter> cracks_writer_;
   std::size_t samples_read_ = 0;  ///< number of samples of finished frequencies
   bool owns_checkpoint_;
-  std::future<StartState> next_start_;  ///< of the next frequency; the last member, because its thread uses the others
+  std::future<StartState> next_start_;  ///< start of the next frequency; the last member, as its thread uses the others
 };
 
 }  // namespace

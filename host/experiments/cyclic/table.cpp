@@ -16,7 +16,7 @@ using experiments::SteppedFrequency;
 
 namespace {
 
-/// Whether the frequencies have temperatures.
+/// Returns whether the frequencies have temperatures.
 template <class F>
 bool warm(const std::vector<F>& frequencies) {
   return !frequencies.empty() && frequencies.front().temperature_c;

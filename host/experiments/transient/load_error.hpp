@@ -13,8 +13,8 @@ namespace macadam {
 
 /// The relaxation of the specimen, from which the answer to any load follows without steps.
 struct UnsteppedAnswer {
-  PronySeries relaxation;  ///< of the whole specimen
-  double error = 0;        ///< of E(t) and J(t), relative
+  PronySeries relaxation;  ///< relaxation of the whole specimen
+  double error = 0;        ///< relative error of E(t) and J(t)
 };
 
 /// Solves the relaxation for the times of the rows. Returns nothing if that fails, and appends the reason to the
@@ -69,7 +69,7 @@ class LoadErrors {
   bool updated_ = true, damping_given_ = false;
   bool remembers_ = false;     ///< whether a law relaxes; if none does, only the present load has an effect
   double affine_modulus_ = 0;  ///< upper bound of the instantaneous modulus [Pa]
-  double wave_ = 0;  ///< ω² of the slowest wave over the modulus: π²/(ρ·H²), with a platen a quarter of it
+  double wave_ = 0;  ///< ω² of the slowest wave over the modulus: π²/(ρ·H²); a quarter of that with a platen
 };
 
 }  // namespace macadam

@@ -16,7 +16,7 @@ struct LoadPlan {
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
-  CriticalStep critical;  ///< at true mass, with the platen
+  CriticalStep critical;  ///< critical time step at true mass, with the platen
   double density_scaling = 1;
   Damping damping_kind = Damping::none;
   double damping = 0;

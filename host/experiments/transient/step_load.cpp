@@ -188,7 +188,7 @@ class SteppedLoad : public PlannedExperiment {
                        cracks_.active() ? fmt::format(",{}", p.broken_points) : "");
   }
 
-  /// Whether the largest stress is recorded: in a strength test, not under a held load.
+  /// Returns whether the largest stress is recorded: in a strength test, not under a held load.
   bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
   /// Keeps the largest stress so far, with its time and strain.
   void follow_peak(const Observation& now) {

@@ -20,7 +20,7 @@ namespace macadam {
 /// Times at which a load grows and is removed.
 struct LoadTimes {
   double ramp = 0;                ///< time in which the load grows, and in which it is removed [s]; 0: at once
-  std::optional<double> release;  ///< when the removal begins [s]; nothing: never
+  std::optional<double> release;  ///< time at which the removal begins [s]; empty: never
 };
 
 /// Describes one of these tests. Both methods, stepped and without steps, use it.
@@ -34,7 +34,7 @@ struct TransientExperiment {
   std::function<experiments::ResponsePoint(const Spectrum&, double time, const LoadTimes& when)> unstepped;
 
   bool by_stress = false;             ///< the load is a stress; else a strain
-  LoadTimes when;                     ///< as the scene gives them
+  LoadTimes when;                     ///< times as given in the scene
   bool grows = false;                 ///< whether the load grows during the whole test; the ramp is then the whole test
   std::optional<double> platen_mass;  ///< mass of the top wall if a stress loads it [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand

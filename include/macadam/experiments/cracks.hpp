@@ -31,9 +31,9 @@ struct Cracks {
   std::vector<CrackEvent> events;              ///< by time, then by contact and point
   std::array<PairCracks, pair_types> by_pair;  ///< by PairType
 
-  /// Number of broken points.
+  /// Returns the number of broken points.
   std::int64_t points() const { return static_cast<std::int64_t>(events.size()); }
-  /// Number of points whose law can break.
+  /// Returns the number of points whose law can break.
   std::int64_t breakable() const {
     std::int64_t out = 0;
     for (const PairCracks& pair : by_pair) out += pair.breakable;

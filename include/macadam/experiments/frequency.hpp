@@ -25,7 +25,7 @@ struct Frequency {
   std::optional<double> temperature_c;  ///< empty if the scene has none
   Stiffness stiffness;                  ///< from the reaction of the top wall
   bool confined = false;                ///< whether the sides were held; the modulus is then a confined one
-  double density_scaling = 1;           ///< of the inertia included in the result
+  double density_scaling = 1;           ///< density scaling of the inertia that the result includes
   double seconds = 0;                   ///< wall time of the solution
   std::string fault;                    ///< why the result cannot be right; empty if no fault is known
 };

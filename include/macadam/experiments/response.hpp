@@ -32,7 +32,7 @@ struct SpectrumResponse {
 /// A point of a stepped test, with measures of how near it is to equilibrium. Stresses are forces over the
 /// cross-section.
 struct SteppedPoint : ResponsePoint {
-  double top_pa, bottom_pa;  ///< from the forces of the particles on the walls
+  double top_pa, bottom_pa;  ///< stresses from the forces of the particles on the top and bottom walls
   double kinetic_j;          ///< kinetic energy of the particles, density scaling included
   double error;  ///< relative difference of the stress (creep: of the strain) from the solution without time steps
   std::int64_t broken_points = 0;  ///< number of broken contact points; 0 if no law can break

@@ -42,7 +42,7 @@ struct LawFacts {
 /// @{
 template <class L>
 inline constexpr bool memoryless_law = L::template Step<double>::memoryless;
-/// Whether f is a linear function of the history of x.
+/// Returns whether f is a linear function of the history of x.
 template <class L>
 constexpr bool is_linear() {
   if constexpr (requires { L::linear; })
