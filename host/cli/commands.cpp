@@ -22,7 +22,7 @@ namespace macadam {
 void make_command_line(CLI::App& app) {
   app.description("Macadam: discrete elements for bituminous mixtures and other bonded granular solids");
   app.name("macadam");
-  app.formatter(std::make_shared<HelpFormatter>());  // commands that are added later take it over
+  app.formatter(std::make_shared<HelpFormatter>());  // commands that are added later inherit the formatter
   app.require_subcommand(1);
   app.set_help_flag("-h,--help", "print this help and exit; after a command, the help of that command");
   app.set_version_flag("--version", version(), "print the version and exit");

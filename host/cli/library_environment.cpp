@@ -25,7 +25,7 @@ bool is_address_space_limited() {
 }  // namespace
 
 void restart_with_library_environment(int argc, char** argv) {
-  // Not `macadam --version` and the like: a second start takes some hundredths of a second.
+  // Commands such as `macadam --version` do not restart, because a restart takes some hundredths of a second.
   const bool computes = argc > 2 || (argc == 2 && std::string_view(argv[1]) == "bench");
   bool changed = computes && !std::getenv("GOMP_SPINCOUNT") && set_where_missing("OMP_WAIT_POLICY", "passive");
   if (is_address_space_limited()) changed = set_where_missing("OPENBLAS_NUM_THREADS", "1") || changed;

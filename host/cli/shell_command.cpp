@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shell_command.cpp  macadam completion SHELL, macadam man
+// shell_command.cpp  Implements `macadam completion SHELL` and `macadam man`.
 #include "host/cli/shell_command.hpp"
 
 #include <memory>

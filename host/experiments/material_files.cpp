@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// material_files.cpp  Writes the same few units in four formats. Each file states units of measurement and assumptions.
+// material_files.cpp  Writes the Prony series and the Kelvin chain of a material in four file formats. Each file states
+// the units of measurement and the assumptions.
 #include "host/experiments/material_files.hpp"
 
 #include <fmt/format.h>
@@ -12,8 +13,8 @@ namespace {
 
 using experiments::Material;
 
-/// Factor on the fractions of a fluid, which has no long-term modulus. Without the factor its fractions add up to 1,
-/// which finite-element programs refuse.
+/// Factor on the fractions of the units of a fluid, which has no long-term modulus. Without this factor the fractions
+/// would add up to 1, which finite-element programs refuse.
 constexpr double of_a_fluid = 1 - 1e-8;
 
 /// Returns the comment lines at the top of every table, each after `mark`.

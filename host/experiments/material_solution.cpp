@@ -39,8 +39,8 @@ class PlannedMaterial : public PlannedExperiment {
                        std::string("true with kind \"") + kind_of(scene.experiment) + "\"",
                        "false, because relaxation is computed without inertia");
     }
-    // As in the frequency domain, the CPU replaces the reference backend, which implements time steps only, and solves
-    // for method "direct", which no device can do.
+    // The CPU replaces the reference backend, which implements time steps only, and a device if the direct solver is
+    // requested, which runs on the CPU only. The frequency domain does the same.
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = std::string("relaxation spectrum, without inertia, ") + to_string(result.backend);
     std::tie(options_.shortest, options_.longest) = history.range();
@@ -87,7 +87,7 @@ class PlannedMaterial : public PlannedExperiment {
   }
 
  private:
-  /// Builds the solver once, so that everything that it refuses about laws and network is refused now.
+  /// Builds the solver once, so that laws and networks that it cannot solve are refused during planning.
   void require_solvable(RunResult& result) const {
     if (watcher_.progress) watcher_.progress("spectrum: preconditioner", 0);
     const InPhase in(result.phases, &PhaseSeconds::preconditioner);

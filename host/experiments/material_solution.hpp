@@ -24,11 +24,12 @@ struct History {
   };
   std::vector<Ramp> ramps;
 
-  /// Returns the shortest and the longest time after a change of the load on which the response depends [s].
+  /// Returns the range of times after a change of the load for which the relaxation of the specimen must be known [s].
   std::pair<double, double> range() const;
 };
 
-/// Computes the response of an experiment from the material: writes its file and stores its result in `result`.
+/// A function that computes the response of an experiment from the material, writes the file of the experiment and
+/// stores the response in `result`.
 using Responds =
     std::function<void(const std::filesystem::path& out, experiments::Material material, RunResult& result)>;
 

@@ -11,7 +11,8 @@
 
 namespace macadam::scene {
 
-/// Returns the key that skips `kind`, which is already known when an experiment reads its section.
+/// Returns a key that accepts `kind` without reading it, because the kind is already known when an experiment reads its
+/// section.
 inline Key kind_key() {
   return {"kind", Need::required, {[](const Value&) {}, {"one of"}}, "kind of the test; it determines the other keys"};
 }
@@ -19,7 +20,7 @@ inline Key kind_key() {
 /// Sets the target to its default and returns the key `poisson_ratio` of `[loading]`.
 Key poisson_key(double& target);
 
-/// \throws InputError if the key is there without entries, or has the same entry twice.
+/// Checks a list. \throws InputError if the key is given without entries, or has the same entry twice.
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
                   const char* what);
 

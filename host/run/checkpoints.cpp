@@ -18,8 +18,9 @@ namespace {
 
 constexpr const char *specimen_text = "specimen", *state_prefix = "state ";
 
-/// Returns what a checkpoint and the run that continues from it must have in common, besides the specimen. Precision,
-/// form and geometry are compared as the scene gives them; if it does not, the checkpoint's plan holds what was chosen.
+/// Returns the texts that must be equal in a checkpoint and in the run that continues from it; the specimen is compared
+/// separately. Precision, form and geometry are compared as given in the scene. If the scene does not give them, the
+/// checkpoint's plan holds the chosen values.
 std::map<std::string, std::string> identity(const Scene& scene, Backend backend) {
   const auto asked = [](const auto& choice) { return std::string(choice ? to_string(*choice) : "not given"); };
   return {{"scene", scene.text},
@@ -37,7 +38,7 @@ std::string fingerprint(const Preparation& prepared) {
                      n.contacts.size(), n.point_area.size(), checksum(prepared));
 }
 
-/// Returns the first line in which two texts differ, first from `found`, then from `expected`.
+/// Returns the first line in which two texts differ, as it is in `found` and as it is in `expected`.
 std::pair<std::string, std::string> first_difference(const std::string& found, const std::string& expected) {
   std::istringstream a(found), b(expected);
   for (int line = 1;; ++line) {
@@ -56,7 +57,7 @@ std::pair<std::string, std::string> first_difference(const std::string& found, c
   throw InputError(file.string(), 0, "checkpoint of another " + what, found, expected + ", as in this run");
 }
 
-/// \throws InputError if a checkpoint and a run have different texts.
+/// Checks that a checkpoint has the texts of a run. \throws InputError naming the first text that differs.
 void require_same_run(const std::filesystem::path& file, const Checkpoint& checkpoint, const Scene& scene,
                       Backend backend) {
   for (const auto& [what, expected] : identity(scene, backend)) {
@@ -86,7 +87,7 @@ std::uint32_t checksum(const Preparation& prepared) {
     sum = crc32_z(sum, reinterpret_cast<const Bytef*>(list.data()), list.size() * sizeof(list[0]));
   };
   const Specimen& s = prepared.specimen;
-  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // voids are not added, because they show in the contacts
+  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // without voids, because other voids give other contacts
   const ContactNetwork& n = prepared.network;
   add(n.point_s), add(n.point_t), add(n.point_area);
   return static_cast<std::uint32_t>(sum);
@@ -180,7 +181,7 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
 }
 
 void Checkpoints::write(const Content& content, const Stepper& stepper) const {
-  std::vector<StateArray> state = stepper.state();  // first, because all ranks take part in gathering it
+  std::vector<StateArray> state = stepper.state();  // before the next line, because all ranks must take part
   if (!is_first_rank()) return;
   Checkpoint out;
   out.texts = identity(scene_, backend_);
@@ -194,8 +195,9 @@ void Checkpoints::write(const Content& content, const Stepper& stepper) const {
   write_checkpoint(file_, out);
 }
 
-/// Gives the checkpoint that is about to be replaced a second name. The second name is made aside and then renamed, so
-/// that there is one at every moment. A file system without such names (hard links) keeps one checkpoint only.
+/// Keeps the checkpoint that is about to be replaced, by a hard link with the name of the previous checkpoint. The link
+/// is made under a temporary name and then renamed, so that a previous checkpoint exists at every moment. On a file
+/// system without hard links, only one checkpoint is kept.
 void Checkpoints::keep_previous() const {
   namespace fs = std::filesystem;
   const fs::path previous = file_.parent_path() / previous_checkpoint_name, aside = previous.string() + ".part";
@@ -204,7 +206,7 @@ void Checkpoints::keep_previous() const {
     fs::remove(previous, ignored);  // it belongs to another run
     return;
   }
-  // the link exists already: the attempt before this one could not write its checkpoint
+  // the link exists already if the previous attempt to write a checkpoint failed
   if (fs::equivalent(file_, previous, ignored)) return;
   fs::remove(aside, ignored);
   std::error_code error;

@@ -20,10 +20,10 @@ inline constexpr const char* checkpoint_name = "checkpoint.h5";
 /// The file name of the previous checkpoint of the same run. It is used if the newest file is damaged.
 inline constexpr const char* previous_checkpoint_name = "checkpoint-previous.h5";
 
-/// Whether runs of this scene keep checkpoints. `why_not` (optional) receives the reason if they do not.
+/// Returns whether runs of this scene keep checkpoints. `why_not` (optional) receives the reason if they do not.
 bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not = nullptr);
 
-/// Whether a results folder has a checkpoint, the newest or the previous one.
+/// Returns whether a results folder has a checkpoint, the newest or the previous one.
 bool has_checkpoint(const std::filesystem::path& folder);
 
 /// A checkpoint from which a run can continue.
@@ -39,33 +39,35 @@ struct FoundCheckpoint {
 /// what differs: scene (with the first different line), version, backend, precision, form or geometry.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Scene& scene, Backend backend);
 
-/// Whether a file is an intact checkpoint of this scene on this backend.
+/// Returns whether a file is an intact checkpoint of this scene on this backend.
 bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
 
 /// Returns the CRC-32 of those data of particles and contacts that the steps use.
 std::uint32_t checksum(const Preparation& prepared);
 
-/// \throws InputError if the checkpoint was written for other particles or contacts (its specimen file was changed).
+/// Checks that a checkpoint was written for these particles and contacts. \throws InputError if not, for example
+/// because the specimen's file was changed since.
 void require_same_specimen(const std::filesystem::path& file, const Checkpoint& found, const Preparation& prepared);
 
-/// Takes Stepper::state() out of a checkpoint and returns it. The other arrays stay.
+/// Removes the arrays of Stepper::state() from a checkpoint and returns them. The other arrays stay.
 std::vector<StateArray> take_state(Checkpoint& from);
 
 /// Adds an experiment's own texts and arrays to a checkpoint.
 using Content = std::function<void(Checkpoint& to)>;
 
-/// Writes the checkpoints of one run when they are due. If one cannot be written (a full disk), that is a warning: the
-/// previous one stays, and the run continues.
+/// Writes the checkpoints of one run when they are due. If a checkpoint cannot be written, for example because the disk
+/// is full, the user is warned; the previous checkpoint stays, and the run continues.
 class Checkpoints {
  public:
   Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared, Backend backend,
               std::function<bool()> stop, std::function<void(const std::string&)> warn, bool resumed);
 
   /// Writes a checkpoint if one is due or the run must stop. `where` is for messages.
-  /// \throws InterruptedError if the run must stop; it says that the checkpoint was written, or why it could not be.
+  /// \throws InterruptedError if the run must stop. Its message says that the checkpoint was written, or why it could
+  /// not be written.
   void look(const Content& content, const Stepper& stepper, const std::string& where);
 
-  /// Whether the file, if it exists, belongs to this run: the run has written it or continues from it.
+  /// Returns whether the file, if it exists, belongs to this run: the run has written it or continues from it.
   bool own() const { return own_; }
 
  private:

@@ -16,7 +16,7 @@ namespace macadam {
 /// The name of the table of events in the folder of the results.
 inline constexpr const char* cracks_file = "cracks.csv";
 
-/// Whether a run of this scene counts broken points: it is stepped, and one of its laws can break.
+/// Returns whether a run of this scene counts broken points: it is stepped, and one of its laws can break.
 bool counts_cracks(const Scene& scene);
 
 /// Reads at samples which contact points are broken. For a scene without a law that can break, it reads nothing.
@@ -26,7 +26,7 @@ class CrackWatch {
   /// for an event that does not belong to this specimen.
   CrackWatch(const Scene& scene, const Preparation& prepared, const std::vector<experiments::CrackEvent>& before = {});
 
-  /// Whether there is anything to count.
+  /// Returns whether there is anything to count.
   bool active() const { return active_; }
   /// Adds an event for each point that has broken since the last call. Returns the events of this call. All processes
   /// of a run must call this together. \throws RunError as Stepper::contacts() does.

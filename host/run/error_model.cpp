@@ -56,7 +56,7 @@ double inertia_estimate(const Scene& scene, const Preparation& prepared, double 
   const double omega = 2 * std::numbers::pi * frequency;
   const double height = prepared.specimen.box.size.z;
   const double density = std::max(scene.materials.aggregate, scene.materials.mastic);
-  // E is a third of the softest stiffness, so 3·E in the denominator is the softest stiffness
+  // E is taken as a third of the softest stiffness, so 3·E in the denominator is the softest stiffness
   return omega * omega * height * height * density / stiffness_range(scene, prepared, omega).first;
 }
 
@@ -71,7 +71,7 @@ RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, do
 
 // A block takes 1/N of the shortest characteristic time. The error of a contact within a block is a saw-tooth of height
 // (2π/N)²/8 that returns to zero at the end of the block; a part of it remains at the frequency of the load. Measured:
-// at most (2π/N)²/38, for N = 30 to 4,000, both binders, 2 to 20 Hz, one to three cycles (bench/block_lengths.cpp,
+// at most (2π/N)²/38, for N = 30 to 4,000, two binders, 2 to 20 Hz and one to three cycles (bench/block_lengths.cpp,
 // bench/results/block-lengths.csv).
 double block_error(double blocks) {
   const double turn = 2 * std::numbers::pi / blocks;
@@ -79,11 +79,12 @@ double block_error(double blocks) {
 }
 double blocks_within(double error) { return std::min(4000.0, 2 * std::numbers::pi / std::sqrt(20 * error)); }
 
-// The velocities that contacts read have a relative error of u = 2⁻²⁴. They are larger than the relative velocities of
-// two layers by the number of layers, and so is the relative error of the latter. Normals, arms and moments have a
-// relative error of u. In `mixed`, states, master velocities and sums are double. But a device that steps in blocks
-// stores the change of a force within a block in single precision: where stiff walls carry inertia, a part of it is
-// lost, as a part of a velocity is in `single`. θ = u·N/2π.
+// The velocities that contacts read have a relative error of u = 2⁻²⁴. These velocities are about `layers` times as
+// large as the relative velocities of two neighbouring layers, so the relative error of relative velocities is
+// layers·u. Normals, arms and moments have a relative error of u. In `mixed`, states, master velocities and sums are
+// double. But a device that steps in blocks stores the change of a force within a block in single precision. Where
+// stiff walls carry inertia, a part of this change is lost, like the part of a velocity that `single` loses (see
+// below). θ = u·N/2π.
 double mixed_precision_error(const RoundingScale& s) {
   return roundoff * (10 + s.layers) + 2 * angle_lost(s) * s.inertia;
 }
@@ -115,15 +116,15 @@ std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured)
 }
 
 // The next two functions are based on bench/results/accuracy.csv (relative error of |E*|, error of φ in radians), with
-// a margin: a factor of 2.5 for the fixed geometry and of 40 in the tolerance for the cycles.
+// a margin: a factor of 2.5 for the fixed geometry, and a fortieth of the tolerance for the number of cycles.
 
-// Measured for t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
+// Measured for specimen t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
 double fixed_geometry_error(double strain) { return 3 * strain * strain; }
 
 // With a ramp of one cycle, the 4th cycle differs from the steady state by at most 4e-5, the 6th by 1.3e-5 and the 12th
-// by 2.3e-6 (t8 and demo, 2 and 20 Hz): the difference falls as n^−2.6. It may be a fortieth of the tolerance. Without
-// a ramp, nothing damps the waves that the start causes; they leave a random difference of 1e-5 to 1e-3, however many
-// cycles there are.
+// by 2.3e-6 (specimens t8 and demo, 2 and 20 Hz). The difference falls with the number of cycles n as n^−2.6. It may be
+// a fortieth of the tolerance. Without a ramp, nothing damps the waves that the start causes; they leave a random
+// difference of 1e-5 to 1e-3, however many cycles there are.
 int cycles_from_rest(double tolerance) {
   return std::max(4, static_cast<int>(std::ceil(4 * std::pow(4e-5 / (tolerance / 40), 1 / 2.6))));
 }

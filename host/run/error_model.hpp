@@ -21,13 +21,13 @@ double stiffness_at(const Law& law, double omega);
 
 /// Estimates the relative effect of inertia on |E*| per unit of density scaling. A bar of height H driven at one end
 /// has E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is not known beforehand. A third of the softest contact's
-/// |k*(ω)| is used in its place, which is low: mastic alone has 0.6 of this |k*(ω)|, mixtures have more than all of it.
-/// ρ is the density of the heavier material.
+/// |k*(ω)| is used in its place. This is a low estimate: |E*| of mastic alone is 0.6 of this |k*(ω)|, and |E*| of
+/// mixtures is larger than this |k*(ω)|. ρ is the density of the heavier material.
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency);
 
 /// Quantities with which the rounding error of a run grows.
 struct RoundingScale {
-  std::int64_t steps = 0;  ///< of the whole run
+  std::int64_t steps = 0;  ///< number of steps of the whole run
   double layers = 0;       ///< Height over the mean distance of particles in contact. It is the ratio of velocities to
                            ///< relative velocities.
   double contrast = 1;     ///< largest |k*(ω)| over the smallest, of the pair types that occur
@@ -58,8 +58,8 @@ std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured)
 /// Returns the error caused by updating viscoelastic states only between blocks of steps (mixed and single precision).
 /// `blocks`: number of blocks in the shortest characteristic time of the load and the laws.
 double block_error(double blocks);
-/// Returns the number of blocks in that time for which block_error() equals `error`, but at most 4,000. A run without a
-/// tolerance uses 4,000.
+/// Returns the number of blocks in the shortest characteristic time for which block_error() equals `error`, but at most
+/// 4,000. A run without a tolerance uses 4,000.
 double blocks_within(double error);
 
 /// Returns the error caused by keeping the initial normals and lever arms of the contacts at this strain.

@@ -8,7 +8,8 @@
 
 namespace macadam {
 
-/// Adds the time for which it exists to a phase. The time of phases that begin meanwhile counts for these only.
+/// Adds the lifetime of this object to the time of a phase. Time in phases that begin during this lifetime counts for
+/// those phases only.
 class InPhase {
  public:
   InPhase(PhaseSeconds& all, double PhaseSeconds::*phase) : all_(all), phase_(phase), before_(all.sum()) {}

@@ -24,7 +24,7 @@ class PlannedExperiment {
   /// naming the particle that first left the plausible range; InterruptedError; RunError as Harmonic does.
   virtual void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) = 0;
 
-  /// Whether a checkpoint in the folder belongs to this run.
+  /// Returns whether a checkpoint in the folder belongs to this run.
   virtual bool owns_checkpoint() const { return false; }
 };
 

@@ -30,7 +30,7 @@ struct Course {
   std::function<bool(std::int64_t)> taken;            ///< whether this sample is used at all
   /// Receives a sample. The stepper may already have gone beyond it.
   std::function<void(std::int64_t sample, const Observation& now)> take;
-  bool looks_at_stepper = false;     ///< `take` uses the stepper, which is then still at the sample
+  bool looks_at_stepper = false;     ///< whether `take` uses the stepper, which must then still be at the sample
   std::function<bool()> ended = {};  ///< asked after `take`: whether this sample is the last; may be empty
   /// Called after every `between_every` steps, if that is not 0, also between samples. A resumed run may call it a
   /// second time for the step from which it continues.
@@ -38,7 +38,7 @@ struct Course {
   std::int64_t between_every = 0;
   std::function<std::string(std::int64_t step, double steps_a_second)>
       shown;        ///< returns a text about the progress, to be printed
-  Content content;  ///< of a checkpoint, without the stepper's state
+  Content content;  ///< contents of a checkpoint, without the stepper's state
   /// Called after the first seconds with the predicted remaining time [s]. May be empty.
   std::function<void(double seconds)> report_remaining = {};
 };
@@ -54,13 +54,13 @@ class SampledRuns {
   /// Begins or continues the series of fields of a course. `samples`: samples per period, or of the whole test.
   void begin_fields(const std::string& name, int samples, double time);
 
-  /// Steps from where the stepper is to the last sample. If the course ends early, a frame of its last sample is
-  /// written. Between steps it checks whether a checkpoint is due or the run must stop, before it takes the sample of
-  /// the step that was reached. The point at which a run is interrupted does not change a bit of the result. \throws
-  /// DivergenceError naming the particle that first left the plausible range; InterruptedError; RunError.
+  /// Takes the steps from the stepper's current step to the last sample. If the course ends early, a frame of its last
+  /// sample is written. Between steps, this function checks whether a checkpoint is due or the run must stop. It does
+  /// so before the sample at the current step is taken. Results have the same bits wherever a run is interrupted.
+  /// \throws DivergenceError naming the particle that first left the plausible range; InterruptedError; RunError.
   void run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry);
 
-  /// Whether the checkpoint in the folder, if there is one, belongs to this run.
+  /// Returns whether the checkpoint in the folder, if there is one, belongs to this run.
   bool own_checkpoint() const { return checkpoints_.own(); }
 
  private:

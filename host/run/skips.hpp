@@ -9,8 +9,9 @@
 
 namespace macadam {
 
-/// Return those skips that the scene alone decides: the update of the geometry, if `geometry` is fixed, with its effect
-/// at the largest `strain` of the run, if that is known; and walls and files that the scene does not ask for.
+/// Return the skips that follow from the scene alone. geometry_skips(): the update of the geometry, if `geometry` is
+/// fixed; if the largest `strain` of the run is known, with the effect at this strain. asked_skips(): walls and files
+/// that the scene does not request.
 /// @{
 std::vector<Skip> geometry_skips(Geometry geometry, std::optional<double> strain);
 std::vector<Skip> asked_skips(const Scene& scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_settings.hpp  Makes the stepper options that all stepped tests have in common, and writes the settings used to
-/// summary.json.
+/// \file step_settings.hpp  Makes the stepper options that all stepped tests have in common, and writes the settings
+/// used to summary.json.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@
 
 namespace macadam {
 
-/// Returns the form that the scene asks for. Otherwise returns points if a law is not linear or if every facet has one
-/// point (three chains per facet then instead of six), else condensed.
+/// Returns the form that the scene asks for. If it asks for none, returns points if a law is not linear or if every
+/// facet has only one contact point (a facet then has three chains, not six as in condensed form), else condensed.
 ContactForm form_of(const Scene& scene);
 
 /// Returns the options that all steppers of a run have in common, from `[solver]` and the choices made for the run.

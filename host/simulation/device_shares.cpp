@@ -9,8 +9,8 @@
 namespace macadam {
 namespace {
 
-/// Least gain for which a scene moves, as a fraction of its work. Making a stepper takes some hundredths of the time
-/// that the steps of a frequency take.
+/// Smallest gain for which a scene moves to another device, as a fraction of its remaining work. Making a stepper takes
+/// some hundredths of the time that the steps of a frequency take.
 constexpr double worth_a_move = 0.125;
 
 }  // namespace

@@ -15,16 +15,17 @@ class DeviceShares {
  public:
   explicit DeviceShares(std::size_t scenes) : to_come_(scenes) {}
 
-  /// Returns the device for a new scene, one of those that it may take: an idle one, or else the one that has been
-  /// given the fewest scenes so far, but not one that runs two scenes more than another. Most scenes are alike, so all
-  /// devices end at about the same time. Returns nothing if each device runs `most` scenes.
+  /// Returns the device for a new scene, out of `may`, the devices that the scene may use. This is an idle device or,
+  /// if none is idle, the one that has been given the fewest scenes so far; a device that runs two scenes more than
+  /// another one is avoided. Most scenes are alike, so all devices end at about the same time. Returns nothing if each
+  /// of these devices runs `most` scenes.
   std::optional<int> choose(const DeviceList& may, int most) const;
   /// Records that a scene runs on `device`, and later perhaps on another one that it may take.
   void put(std::size_t scene, int device, DeviceList may);
-  /// Returns the device on which a scene continues that has this much work left. Once every scene has had a device,
-  /// that is the device whose other scenes have the least work left, if the gain is worth making a new stepper. So the
-  /// devices end together although scenes differ, and all are used although the number of scenes is not a multiple of
-  /// theirs.
+  /// Returns the device on which a scene continues with its remaining work `work`. As long as some scenes have had no
+  /// device yet, it is the scene's present device. Afterwards it is the device whose other scenes have the least work
+  /// left, if the gain is worth making a new stepper. So all devices end at about the same time, even if the scenes
+  /// differ or their number is not a multiple of the number of devices.
   int device_for_next_frequency(std::size_t scene, double work, int most);
   /// Records that a scene is done or has failed, whether or not it had a device.
   void end(std::size_t scene);

@@ -19,7 +19,7 @@
 namespace macadam {
 namespace {
 
-/// Returns the cost of the step of one contact on the scene's backend.
+/// Returns the cost of a step per contact on the scene's backend.
 StepCost step_cost(const Scene& scene, const Forecast& f) {
   constexpr int no_chain = -1;
   const auto of_law = [&](const auto& law) {
@@ -30,7 +30,7 @@ StepCost step_cost(const Scene& scene, const Forecast& f) {
   return step_cost(f.backend == Backend::cuda, f.form, f.precision, f.geometry, units.value_or(0));
 }
 
-/// Returns the names of the things that the run leaves out.
+/// Returns the names of the parts that the run leaves out.
 std::vector<std::string> skips_of(const Scene& scene, bool stepped, Geometry geometry) {
   std::vector<std::string> out;
   if (stepped)
@@ -39,8 +39,8 @@ std::vector<std::string> skips_of(const Scene& scene, bool stepped, Geometry geo
   return out;
 }
 
-/// Whether solutions end with the direct solver, because the iteration does not converge if the contrast of
-/// stiffness or the number of particles is too large.
+/// Returns whether the direct solver is used. If the scene leaves this open, it is used when the contrast of stiffness
+/// or the number of particles is so large that the iterative solver does not converge.
 bool is_factored(const Scene& scene, const Forecast& f, double contrast) {
   const auto n = f.census.particles();
   if (scene.solver.linear != LinearMethod::automatic) return scene.solver.linear == LinearMethod::direct;

@@ -20,9 +20,9 @@ constexpr double particle_line = 97, aggregate_line = 75, contact_line = 175, gr
 
 /// Sizes of one series of fields, in bytes per particle or contact.
 struct FieldSize {
-  double mesh = 0;     ///< of the mesh in a file of VTK's XML, uncompressed
-  double packed = 0;   ///< of the mesh in a VTKHDF file, whose whole numbers are compressed
-  double frame = 0;    ///< of the arrays of one frame
+  double mesh = 0;     ///< size of the mesh in a file of VTK's XML, uncompressed
+  double packed = 0;   ///< size of the mesh in a VTKHDF file, whose whole numbers are compressed
+  double frame = 0;    ///< size of the arrays of one frame
   double entries = 0;  ///< number of particles or contacts
 };
 
@@ -60,10 +60,10 @@ class FileForecast {
     return !kind.empty() && name == load_words(kind).file ? 200 + load_line * points : material_file;
   }
 
-  /// Returns the number of broken points that the run lists. The load decides it, so this is the order of magnitude for
-  /// a specimen that breaks in two.
+  /// Returns the number of broken points that the run lists. This number depends on the load. The result is the order
+  /// of magnitude for a specimen that breaks in two.
   double broken_points() const {
-    constexpr double points_per_contact = 5.9, broken_part = 0.11;  // of t8 pulled in two
+    constexpr double points_per_contact = 5.9, broken_part = 0.11;  // measured: t8 torn in two
     const auto part = mean_of_usual(scene_, [](const Law& law) {
       return std::visit([](const auto& l) { return facts_of(l).breaks ? 1.0 : 0.0; }, law);
     });

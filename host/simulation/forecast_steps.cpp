@@ -35,9 +35,10 @@ double modulus_at(const Scene& scene, double hz) {
   return logarithm ? std::exp(*logarithm) : 1e9;
 }
 
-/// Returns the critical step at true mass [s]: the step of a small sphere among the stiffest contacts that it can have.
+/// Returns the critical step at true mass [s]. This is the step of a small sphere that has the stiffest contacts it can
+/// have.
 double critical_step(const Scene& scene, const Census& census) {
-  constexpr double mastic_part = 0.377, cluster_part = 0.58;  // of radius·√(density/modulus), measured
+  constexpr double mastic_part = 0.377, cluster_part = 0.58;  // measured parts of radius·√(density/modulus)
   const auto step = [&](double part, double radius, double density, std::initializer_list<PairType> pairs) {
     double stiffest = 0;
     for (const PairType pair : pairs)
@@ -82,8 +83,8 @@ StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
   return out;
 }
 
-/// Returns the instantaneous modulus if all contacts strain alike [Pa]. Contacts point in all directions, and the sum
-/// of their areas times distances is three times the volume of the box.
+/// Returns the instantaneous modulus that the specimen would have if all contacts had the same strain [Pa]. Contacts
+/// point in all directions, and the sum of their areas times distances is three times the volume of the box.
 double affine_modulus(const Scene& scene) {
   const auto mean = mean_of_usual(scene, [](const Law& law) {
     return std::visit([](const auto& l) { return l.instantaneous() * (0.6 + 0.4 * l.alpha); }, law);

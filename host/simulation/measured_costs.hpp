@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file measured_costs.hpp  Lists the measured time and memory of the parts of a run. The forecast of a run is computed from
-/// them (docs/forecast.md).
+/// \file measured_costs.hpp  Lists the measured time and memory of the parts of a run, from which a forecast is
+/// computed (docs/forecast.md).
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@ namespace macadam {
 
 /// Costs on the CPU were measured on two cores of an AMD EPYC, by bench/forecast/run and macadam bench
 /// (bench/results/bench-cpu-…); costs on a device on an H200, by bench/steps/run (bench/results/gpu-step-…). Costs that
-/// depend on the size, and the memory of a device and of the host beside it, were measured by bench/forecast/run on
-/// machines with devices (bench/results/forecast-large.csv).
+/// depend on the size, and the memory of a device and of its host, were measured by bench/forecast/run on machines with
+/// devices (bench/results/forecast-large.csv).
 struct Cost {
   // Contacts per particle. A Laguerre cell of a mixture has about 14 facets, or 13 if the aggregates are large single
   // spheres, and two cells share a facet. Facets at free sides are not contacts.
   double contacts = 7.1, contacts_of_single_spheres = 6.5, missing_at_sides = 9;
-  // seconds of one thread, per particle (relaxing, tessellating), per aggregate, and per shape of the library
-  // (packed_shape)
+  // Seconds of one thread: per particle (`relaxing`, `tessellating`), per aggregate (`inserting`, `packing`), and per
+  // shape of the library (`packed_shape`).
   double relaxing = 0.9e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 1.5e-5;
   // Seconds per particle that more threads do not shorten: `placing` is for positions, sums and lists, `joining` puts
   // together the cells and contacts that threads found. (These and `tessellating` are from runs with 2 and with 16
@@ -43,13 +43,15 @@ struct Cost {
   // A step on a device takes at least this time, however small the specimen [s]. With fewer contacts than
   // `contacts_on_chip`, their data stay in registers and shared memory, and a step takes `on_chip` times as long.
   double least_step_on_device = 3e-6, contacts_on_chip = 420'000, on_chip = 0.4;
-  // Bytes on the host: of the program, per shape of the library, per contact of the specimen, and per contact for the
-  // solutions. Bytes on the device: without a specimen, and per contact for the solutions.
+  // Bytes on the host: `program` for the program, `a_shape` per shape of the library, `a_contact` per contact of the
+  // specimen, and `a_solved_contact` per contact for the solutions. Bytes on the device: `device` without a specimen,
+  // and `a_solved_contact_on_device` per contact for the solutions.
   double program = 33e6, a_shape = 7e5, a_contact = 650, a_solved_contact = 850;
   double device = 5.6e8, a_solved_contact_on_device = 655;
-  // Bytes on the host if a device is used: of NVIDIA's driver, and per contact for the solutions. In addition, the host
-  // holds copies of the stepper's arrays: the fraction `staged` of the bytes without chains, and `staged_chain` of the
-  // chains if they are not zero at the start.
+  // Bytes on the host if a device is used: `driver` for NVIDIA's driver, and `a_solved_contact_beside_device` per
+  // contact for the solutions. In addition, the host holds copies of a part of the stepper's arrays: the fraction
+  // `staged` of the bytes of all arrays except the chains and, if the chains are not zero at the start, the fraction
+  // `staged_chain` of the bytes of the chains.
   double driver = 2.5e8, a_solved_contact_beside_device = 220, staged = 0.55, staged_chain = 0.77;
 };
 
@@ -60,8 +62,9 @@ struct StepCost {
 };
 
 /// Returns the cost per contact. `units`: number of Kelvin units of the law that most contacts have, -1 if it has no
-/// chain. The table was measured with three units. It is in the order of ContactForm and Precision, then geometry:
-/// fixed, updated. The effect of the number of units is from bench/results/kelvin-units-cpu.csv.
+/// chain. The table was measured with three units. It is indexed by backend (CPU, device), contact form, precision
+/// (single, mixed, double) and geometry (fixed, updated). The effect of the number of units is from
+/// bench/results/kelvin-units-cpu.csv.
 inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry, double units) {
   enum { single, mixed, double_ };
   // clang-format off

@@ -33,7 +33,7 @@ nlohmann::ordered_json recipe_json(const MixDesign& design, const std::vector<Co
                               {"volume", c.volume},
                               {"density", c.density}});
   }
-  // of the classes and the mastic in the specimen, by the volumes of shapes, single spheres and mastic spheres
+  // classes and mastic as they are in the specimen, by the volumes of shapes, single spheres and mastic spheres
   double volume = composition.at(v.classes.size()).fraction, mass = volume * v.mastic_density;
   for (std::size_t k = 0; k < v.classes.size(); ++k) {
     volume += composition[k].fraction;

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// Checks a scene whose keys are each valid; the command line may have changed some since it was read.
+/// Checks a scene whose keys are each valid. The command line may have changed some of them after the scene was read.
 /// \throws InputError naming the scene, the settings that exclude each other, and settings that are possible.
 void require_combination(const Scene& scene);
 

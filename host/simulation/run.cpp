@@ -32,7 +32,7 @@
 namespace macadam {
 namespace {
 
-/// \throws InputError if runs of this scene keep no checkpoints.
+/// Checks that runs of this scene can be resumed. \throws InputError if they keep no checkpoints.
 void require_resumable(const Scene& scene) {
   std::string why_not;
   if (!keeps_checkpoints(scene, scene.solver.backend, &why_not))
@@ -50,8 +50,8 @@ void remove_results(const std::filesystem::path& out) {
   }
 }
 
-/// Removes the checkpoint of this run or of an earlier run of the same scene, because the results to which it would
-/// lead exist now. A checkpoint that cannot be removed costs only disk space.
+/// Removes the checkpoint of this run or of an earlier run of the same scene, because it is not needed any more once
+/// the results exist. A checkpoint that cannot be removed costs only disk space.
 void remove_own_checkpoint(const std::filesystem::path& out, const Scene& scene, Backend backend, bool own) {
   std::error_code ignored;
   for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
@@ -194,8 +194,8 @@ class SceneRun {
     return decision.empty() ? std::vector<std::string>{} : std::vector{decision};
   }
 
-  /// Plans the experiment. Without older results a plan without a solution is returned too, so that the specimen is
-  /// written and the user can look at it.
+  /// Plans the experiment. If the experiment cannot be solved and the folder has no older results, its plan is returned
+  /// all the same, so that the specimen is written and the user can look at it.
   Planned plan(Backend backend) {
     try {
       Planned out = plan_experiment(scene_, prepared(), watcher_, std::move(resumed_), backend);
@@ -249,7 +249,7 @@ class SceneRun {
   std::optional<FoundBackend> backend_;
   std::optional<ResultFolder> folder_;
   std::optional<Resumed> resumed_;
-  std::string damage_;  ///< of the newest checkpoint
+  std::string damage_;  ///< fault of the newest checkpoint
   std::optional<Preparation> made_;
 };
 
@@ -281,7 +281,7 @@ RunResult run_alone_or_together(const Scene& scene, const std::filesystem::path&
     if (watcher.prepared) watcher.prepared(prepared);
   };
   RunResult result = run_scene(own, folder, watching, resume, {}, given);
-  team->any(false);  // by then the first rank has written everything: a rank that ends may end the others
+  team->any(false);  // waits until the first rank has written everything, because a rank that ends may end the others
   return result;
 }
 

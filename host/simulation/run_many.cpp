@@ -26,13 +26,14 @@ namespace {
 
 /// Number of scenes that run on a device at a time.
 constexpr int at_once_on_a_device = 4;
-/// Number of specimens that all cores make for a device while it steps one. With more at a time, all of them would be
-/// ready late; one after the other they can take longer than their steps (bench/results/many.csv). With several
-/// devices, each gets its first two specimens one after the other, made by the cores that two others share; otherwise a
-/// device would wait for its second specimen. Until the devices are counted, one is assumed.
+/// Number of specimens per device that are prepared at the same time. With more at a time, all of them would be ready
+/// late. With one at a time, preparing a specimen can take longer than the steps of the previous specimen
+/// (bench/results/many.csv). With several devices, the first two specimens of each device are prepared one after the
+/// other with twice as many cores; otherwise the device would wait for its second specimen. One device is assumed until
+/// the devices are counted.
 constexpr int prepared_for_a_device = 2;
 
-/// Returns those devices that answer. A device that does not would fail one scene after the other.
+/// Returns the devices that answer. On a device that does not answer, one scene after the other would fail.
 DeviceList usable(const DeviceList& devices) {
   DeviceList out;
   for (const int d : devices) {
@@ -44,7 +45,7 @@ DeviceList usable(const DeviceList& devices) {
   return out;
 }
 
-/// \throws InputError if two scenes have the same folder.
+/// Checks that every scene has its own folder. \throws InputError if two scenes have the same folder.
 void require_folders_differ(const std::vector<SceneJob>& jobs) {
   std::set<std::filesystem::path> folders;
   for (const SceneJob& job : jobs) {
@@ -54,8 +55,8 @@ void require_folders_differ(const std::vector<SceneJob>& jobs) {
   }
 }
 
-/// Returns the devices on which some scene may be stepped. If a scene may be, counting the devices takes some tenths of
-/// a second.
+/// Returns the devices on which at least one scene may be stepped. Counts the devices, which takes some tenths of a
+/// second, only if a scene may use one.
 DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   const auto may = [](const SceneJob& job) {
     return job.scene.solver.backend == Backend::cuda || job.scene.solver.backend == Backend::automatic;
@@ -73,8 +74,8 @@ DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   return out;
 }
 
-/// Runs the scenes on worker threads. A scene waits for a part of the cores, is prepared, and then takes one device if
-/// it runs on one. It holds its cores until a device takes its steps, or to its end.
+/// Runs the scenes on worker threads. A scene waits for a part of the cores, is prepared, and then takes a device if
+/// its backend is cuda. It holds its cores until a device takes its steps, or to its end.
 class Pool {
  public:
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
@@ -97,7 +98,8 @@ class Pool {
   }
 
  private:
-  /// Divides cores and scenes among the devices, once these are counted; without devices, the cores among the scenes.
+  /// Divides cores and scenes among the devices once the devices are counted. Without devices, divides the cores among
+  /// the scenes.
   void share_out(int devices) {
     const int usual = devices == 0 ? cores_ : std::min(at_once_on_a_device * devices, cores_);
     const int number = at_most(options_.at_once > 0 ? options_.at_once : usual);
@@ -118,8 +120,8 @@ class Pool {
     return std::clamp(asked, 1, static_cast<int>(jobs_.size()));
   }
 
-  /// Raises the number of worker threads to `number`; it never falls. `shares` scenes at a time have an equal part of
-  /// `cores`.
+  /// Raises the number of worker threads to `number`; the number never falls. From now on, `shares` scenes at a time
+  /// are prepared, each with an equal part of `cores`.
   void employ(int number, int shares, int cores) {
     number = at_most(number), shares = std::min(number, shares);
     {
@@ -185,7 +187,7 @@ class Pool {
     Cores(Pool& pool, bool first_of_scene, int most) : pool_(pool), most_(most) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;
-      // half a part is enough to begin, as that is what another scene gives
+      // half a part is enough to begin, because a scene that shares its cores gives half of them
       pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= (pool_.share_ + 1) / 2; });
       --pool_.waiting_;
       number_ = std::min(pool_.share_, pool_.free_);
@@ -251,7 +253,7 @@ class Pool {
     if (waits) cores.emplace(*this, false, solver.threads);
   }
 
-  /// Returns the device on which a scene continues that has this much work left.
+  /// Returns the device on which a scene continues with its remaining work `work`.
   DeviceList devices_for_next_frequency(std::size_t job, double work) {
     const std::lock_guard lock(mutex_);
     return {devices_taken_.device_for_next_frequency(job, work, beside_)};
@@ -285,10 +287,10 @@ class Pool {
   std::mutex mutex_;  // guards the members below and the functions in the options
   std::condition_variable changed_;
   int all_ = 0, free_ = 0, share_ = 1;  // cores: of all scenes, free ones, and those for one scene
-  // turns: all and free ones; a scene needs one to begin with its part of the cores
+  // turns: all of them, and free ones; a scene needs a turn to get its part of the cores
   int all_turns_ = 0, turns_ = 0;
   int waiting_ = 0;                  // scenes that wait for cores
-  int urgent_ = 0, for_urgent_ = 0;  // scenes to come for which devices would wait, and the cores for each of them
+  int urgent_ = 0, for_urgent_ = 0;  // scenes not begun for which devices would wait; cores for each of them
   int beside_ = 0;                   // scenes on a device at a time, once the devices are counted
   std::size_t next_ = 0;
   DeviceShares devices_taken_;

@@ -23,11 +23,11 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// Returns the scene as this rank runs it: on its own device. \throws InputError for a scene that is not stepped on
-/// devices.
+/// Returns the scene with the device of this rank in place of its devices. \throws InputError for a scene that is not
+/// stepped on devices.
 Scene scene_of_rank(const Ranks& team, Scene scene);
 
-/// \throws RunError if the ranks have read different scenes.
+/// Checks that all ranks have read the same scene. \throws RunError if they have read different scenes.
 void require_same_scene(Ranks& team, const Scene& scene);
 
 /// Copies the files `names`, if they exist in the first rank's folder, to the folders of all ranks. The run continues
@@ -35,7 +35,7 @@ void require_same_scene(Ranks& team, const Scene& scene);
 /// \throws RunError
 void hand_out(Ranks& team, const std::filesystem::path& folder, const std::vector<std::string>& names);
 
-/// \throws RunError if the ranks have made different specimens.
+/// Checks that all ranks have made the same specimen. \throws RunError if their specimens differ.
 void require_same_specimen(Ranks& team, const Preparation& prepared);
 
 }  // namespace macadam

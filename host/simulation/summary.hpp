@@ -9,11 +9,12 @@
 
 namespace macadam {
 
-/// Returns the whole text. `status` is "prepared", "running", "interrupted", "done" or "failed: …".
+/// Returns the text of summary.json. `status` is "prepared", "running", "interrupted", "done" or "failed: …".
 std::string summary_json(const Scene& scene, const Preparation& preparation, const RunResult& result,
                          const std::string& status);
 
-/// \throws InputError if the folder holds a checkpoint, or a summary.json of anything but a prepared specimen.
+/// Checks that the folder holds no run. \throws InputError if it holds a checkpoint, or a summary.json that is not that
+/// of a prepared specimen.
 void require_no_run(const std::filesystem::path& out);
 
 }  // namespace macadam

@@ -58,7 +58,7 @@ struct Boundary {
     wall[w].mass = mass;
     return *this;
   }
-  /// Returns whether any axis of any wall is driven in this way.
+  /// Returns whether any axis of any wall has this kind of drive.
   bool any(DrivenBy by) const {
     for (const WallMotionSpec& w : wall) {
       for (const WallAxis& a : w.axis) {

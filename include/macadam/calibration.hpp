@@ -2,7 +2,8 @@
 /// \file calibration.hpp  Finds parameters of a scene's contact laws for which its specimen has the measured moduli.
 ///
 /// The specimen is prepared once. Every iteration solves it in the frequency domain, which also gives the derivatives
-/// by all parameters (sensitivity.hpp). The method is Levenberg–Marquardt for the natural logarithms of the parameters.
+/// with respect to all parameters (sensitivity.hpp). The method is Levenberg–Marquardt for the natural logarithms of
+/// the parameters.
 #pragma once
 
 #include <filesystem>
@@ -36,8 +37,8 @@ Measured measured_for(Misfit);
 /// Options of a calibration.
 struct CalibrationOptions {
   std::vector<FreeParameter> free;
-  /// Number of specimens, with the scene's seed and the seeds after it; E* is their mean. More than one for generated
-  /// specimens only.
+  /// Number of specimens, with the scene's seed and the seeds after it; E* is the mean over these specimens. Only
+  /// generated specimens allow more than one.
   int seeds = 1;
   Misfit misfit = Misfit::modulus_and_phase;
   /// Used for data without standard deviations, as in FitOptions.
@@ -58,8 +59,8 @@ struct CalibratedParameter {
 /// A measurement, and the result of the calibrated specimen.
 struct CalibratedPoint {
   ModulusPoint measured;
-  std::optional<double> temperature_c;  ///< of the laws; empty if neither scene nor data have a temperature
-  double e_star_pa = 0, phase_deg = 0;  ///< of the specimen; from the mean of E* over the seeds
+  std::optional<double> temperature_c;  ///< temperature of the laws; empty if neither scene nor data have one
+  double e_star_pa = 0, phase_deg = 0;  ///< results of the specimen, from the mean of E* over the seeds
   double e_star_scatter = 0;            ///< standard deviation of |E*| between seeds, relative
   double phase_scatter_deg = 0;         ///< standard deviation of φ between seeds
 };
@@ -75,7 +76,7 @@ struct Combination {
 struct Calibration {
   CalibrationOptions options;
   std::vector<CalibratedParameter> parameters;
-  std::vector<double> covariance;   ///< of the natural logarithms, row by row; NaN if something is not determined
+  std::vector<double> covariance;   ///< of the parameters' natural logarithms, row by row; NaN if not determined
   std::vector<double> correlation;  ///< row by row; NaN as in covariance
   std::vector<Combination> combinations;
   std::vector<CalibratedPoint> points;
@@ -83,7 +84,7 @@ struct Calibration {
   double misfit = 0;              ///< sum of squares, without priors
   double degrees_of_freedom = 0;  ///< number of measured values minus number of parameters that are not at a bound
   bool temperatures = false, deviations = false;  ///< whether the data have temperatures, standard deviations
-  bool moduli = true, phases = true;              ///< whether moduli, phases were measured; errors of others are NaN
+  bool moduli = true, phases = true;              ///< whether moduli, phases were measured; the errors are NaN if not
   std::vector<std::uint64_t> seeds;               ///< empty for a specimen from a file
   std::string solver;                             ///< description of the solver
   int solutions = 0;                              ///< number of solutions, over all frequencies and specimens
@@ -101,9 +102,9 @@ Calibration calibrate(const Scene& scene, const ModulusData& data, const Calibra
 /// Calibrates a scene and writes calibration.json, predicted.csv and scene.toml, the scene's text with the calibrated
 /// values, into the folder `out`.
 ///
-/// \throws InputError also if the folder has a scene.toml that no calibration wrote, which would be replaced, if
-/// another command is writing into it, and if the scene was not read from a file; RunError also if a file cannot be
-/// written, or if the written scene.toml does not give the calibrated values when it is read.
+/// \throws as calibrate(). In addition, InputError if `out` holds a scene.toml that no calibration wrote (it would be
+/// replaced), if another command is writing into `out`, or if the scene was not read from a file; RunError if a file
+/// cannot be written, or if the written scene.toml does not give the calibrated values when it is read.
 Calibration calibrate_into(const std::filesystem::path& out, const Scene& scene, const ModulusData& data,
                            const CalibrationOptions& options, const Watcher& watcher = {});
 

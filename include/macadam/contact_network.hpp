@@ -59,7 +59,7 @@ struct Contact {
   std::uint32_t point_begin = 0, point_end = 0;
 };
 
-/// The contacts of a specimen, in order of (a, b), as the facets.
+/// The contacts of a specimen, in order of (a, b) like the facets of the tessellation.
 struct ContactNetwork {
   std::vector<Contact> contacts;
   std::vector<double> point_s, point_t;  ///< local coordinates of the contact points (vertices, then centroid) [m]

@@ -34,7 +34,7 @@ struct SectionCell {
 /// Convex polygons that fill the cross-section of the box without gaps or overlaps.
 struct CrossSection {
   SectionPlane plane;
-  std::vector<SectionCell> cells;  ///< in order of particles; only cells that the plane cuts in an area
+  std::vector<SectionCell> cells;  ///< in order of particles; only cells whose section has an area
   /// [m], in the plane; the vertices of a cell are consecutive, counter-clockwise about the axis.
   std::vector<Vec3d> vertices;
 

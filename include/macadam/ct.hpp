@@ -71,7 +71,7 @@ struct ImageHeader {
 /// \throws InputError naming the file.
 ImageHeader read_image_header(const std::filesystem::path& path, const std::string& dataset = {});
 
-/// Reads an image of these formats. T is uint8, uint16, uint32 or float.
+/// Reads an image in one of the formats of read_image_header(). T is uint8, uint16, uint32 or float.
 ///
 /// \throws InputError naming the file and the first voxel that T cannot hold or that is not finite.
 template <class T>
@@ -146,7 +146,7 @@ struct ScannedGrain {
   double surface_error = 0;  ///< largest distance of the isosurface from the simplified one [m]
 };
 
-/// Artefacts removed from a scan, over the contrast between mastic and aggregate.
+/// Sizes of the artefacts that were removed from a scan, divided by the contrast between mastic and aggregate.
 struct ScanCorrections {
   double slices = 0;     ///< root mean square over the slices
   double rings = 0;      ///< root mean square over the rings
@@ -169,7 +169,7 @@ struct Segmentation {
   /// SegmentOptions::smallest.
   double in_no_grain = 0;
   double confidence_mean = 0;  ///< mean over the voxels of the specimen, 0 to 1
-  /// Edge of a voxel of these images, in voxels of the scan; greater than 1: see segment_file().
+  /// Edge of a voxel of these images, in voxels of the scan. It is greater than 1 if segment_file() averaged the scan.
   std::int64_t block = 1;
   std::size_t refined = 0;            ///< number of grains whose surfaces are finer than these images
   std::vector<std::string> warnings;  ///< points that a person should check
@@ -193,7 +193,8 @@ struct ScanFile {
 /// does not fit.
 Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory);
 
-/// Returns the memory that may be used: the free memory of the machine, or the limit of this process [bytes].
+/// Returns the memory that this process can still allocate [bytes]: the free memory of the machine or, if that is
+/// smaller, the unused part of the limits of the process and of its container.
 double memory_available();
 
 /// Returns the side of the smallest square opening that a surface passes in its best orientation [m].

@@ -28,8 +28,8 @@ class InputError : public Error {
   static std::string place(const std::string& file, int line) {
     return line > 0 ? file + ":" + std::to_string(line) : file;
   }
-  /// Replaces control characters by `?`, because names in a damaged file, and messages of libraries about it, may
-  /// contain any.
+  /// Replaces control characters by `?`, because names in a damaged file, and messages of libraries about such a file,
+  /// may contain them.
   static std::string in_one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     for (char& c : text)
@@ -38,14 +38,14 @@ class InputError : public Error {
   }
 };
 
-/// The input was correct but the run failed (exit code 1), for example by divergence, without a device, or on a full
-/// disk.
+/// The input was correct but the run failed (exit code 1), for example because it diverged, because there is no device,
+/// or because the disk is full.
 class RunError : public Error {
  public:
   using Error::Error;
 };
 
-/// The run was asked to stop, for example by a signal. The message says where its checkpoint is.
+/// The run was asked to stop, for example by a signal. The message says where the checkpoint of the run is.
 class InterruptedError : public RunError {
  public:
   using RunError::RunError;

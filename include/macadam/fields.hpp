@@ -53,7 +53,7 @@ struct FieldMesh {
   Shape shape = Shape::vertices;
   std::vector<float> points;               ///< x y z of each point [m]
   std::vector<std::int64_t> connectivity;  ///< point numbers of the cells, one cell after another
-  std::vector<std::int64_t> offsets;       ///< where each cell begins in `connectivity`, and its end
+  std::vector<std::int64_t> offsets;       ///< where each cell begins in `connectivity`; the last entry is its size
   std::vector<FieldArray> arrays;  ///< constant arrays: one item per point if the cells are vertices, else one per cell
 
   std::size_t point_count() const { return points.size() / 3; }
@@ -83,14 +83,16 @@ std::vector<FieldArray> particle_arrays(const ParticleState& state);
 FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& network, const ContactState& state);
 /// Returns normal and shear force, force, moment and relative displacement of the contacts; in condensed form also the
 /// stretch of each Kelvin unit; if a law can break also `broken`, the fraction of the contact's points that are broken.
-/// `displacement`: of the particles, by which the normals are turned; empty: normals are the initial ones.
+/// `displacement`: displacements of the particles, from which the current normals follow; if empty, the initial normals
+/// are used.
 std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNetwork& network,
                                        const ContactState& state, const std::vector<Vec3d>& displacement);
 
-/// Returns arrays of a steady state (HarmonicResult::motion) in which the top wall moves as amplitude·cos ωt: real and
-/// imaginary part of the factor of e^(iωt), amplitude and phase.
+/// Returns the arrays of the particles in a steady state (HarmonicResult::motion) in which the top wall moves as
+/// amplitude·cos ωt: real and imaginary part of the factor of e^(iωt), amplitude and phase.
 std::vector<FieldArray> particle_arrays(const std::vector<std::complex<double>>& motion, double amplitude);
-/// Returns forces from the complex stiffness of the laws at this frequency, with the initial geometry.
+/// Returns the arrays of the contacts in such a steady state: forces from the complex stiffness of the laws at this
+/// frequency, with the initial geometry.
 std::vector<FieldArray> contact_arrays(const ContactNetwork& network, const LawTable& laws, double frequency_hz,
                                        const std::vector<std::complex<double>>& motion, double amplitude);
 
@@ -98,7 +100,7 @@ std::vector<FieldArray> contact_arrays(const ContactNetwork& network, const LawT
 class FieldSeries {
  public:
   virtual ~FieldSeries() = default;
-  /// Number of frames in the file.
+  /// Returns the number of frames in the file.
   virtual std::size_t size() const = 0;
   /// Adds a frame; all frames of a series have the same arrays. \throws RunError naming the file (disk full, folder
   /// missing).
@@ -108,12 +110,12 @@ class FieldSeries {
 };
 
 /// Begins a series. `stem`: path of the file without its ending. No file exists before the first frame is added. With
-/// `until`, continues the series in an existing file and drops its frames from this time on; without a file, begins a
-/// new one. \throws InputError naming a file that exists but is not a series of this mesh.
+/// `until`, continues the series in an existing file, from which it removes the frames at this time and later; if there
+/// is no file, begins a new one. \throws InputError naming a file that exists but is not a series of this mesh.
 std::unique_ptr<FieldSeries> begin_fields(const std::filesystem::path& stem, FieldFormat format, FieldMesh mesh,
                                           std::optional<double> until = {});
 
-/// Writes a mesh without time, with these arrays and its own. \throws RunError naming the file.
+/// Writes a mesh without time, with `arrays` in addition to the arrays of the mesh. \throws RunError naming the file.
 void write_fields(const std::filesystem::path& stem, FieldFormat format, FieldMesh mesh,
                   std::vector<FieldArray> arrays = {});
 

@@ -105,8 +105,8 @@ struct FitOptions {
   std::optional<bool> flow;  ///< a dashpot in series with the chain; empty: the criterion chooses
   Criterion criterion = Criterion::aicc;
   ShiftKind shift = ShiftKind::none;
-  /// [°C]; empty: the measured temperature in the middle. Must be a measured one if the shift is free. It only rescales
-  /// time.
+  /// Reference temperature [°C]; if empty, the middle one of the measured temperatures. If the shift is free, it must
+  /// be a measured temperature. Its choice only rescales time.
   std::optional<double> reference_temperature;
   /// Used for data without standard deviations: relative standard deviation of |E*|, and standard deviation of φ
   /// [degrees]. Only their ratio matters; their size is taken from the misfit.
@@ -121,7 +121,7 @@ struct FitParameter {
   bool logarithmic = true;  ///< whether the covariance is that of its natural logarithm
 };
 
-/// A measurement, and the fitted values at it.
+/// A measurement, and the values of the fitted model at the same frequency and temperature.
 struct FittedPoint {
   ModulusPoint measured;
   double log10_a_T = 0;
@@ -135,8 +135,8 @@ struct FitCandidate {
   int parameters = 0;
   double misfit = 0;        ///< sum of squares
   double criterion = 0;     ///< the chain with the smallest value is chosen
-  bool determined = false;  ///< whether no parameter ran to the bounds; chains with such parameters are chosen only if
-                            ///< all are like that
+  bool determined = false;  ///< whether no parameter is at a bound; a chain with a parameter at a bound is chosen only
+                            ///< if every chain has one
 };
 
 /// Errors of a fit against the measurements.
@@ -153,7 +153,7 @@ struct Fit {
   bool temperatures = false;  ///< whether the data have temperatures
   bool deviations = false;    ///< whether the data have standard deviations
   std::vector<FitParameter> parameters;
-  std::vector<double> covariance;  ///< of the parameters (see FitParameter::logarithmic), row by row
+  std::vector<double> covariance;  ///< covariance of the parameters (see FitParameter::logarithmic), row by row
   std::vector<FittedPoint> points;
   std::vector<FitCandidate> candidates;  ///< chains only
   std::size_t chosen = 0;                ///< index in `candidates`
@@ -162,7 +162,7 @@ struct Fit {
   double degrees_of_freedom = 0;  ///< 2·points − parameters
   std::vector<std::string> warnings;
 
-  std::complex<double> stiffness(std::complex<double> s) const;  ///< at the reference temperature [Pa]
+  std::complex<double> stiffness(std::complex<double> s) const;  ///< complex modulus at the reference temperature [Pa]
   std::complex<double> stiffness(double) const = delete;         // deleted, so that ω cannot be passed instead of iω
   /// Returns the smallest and the largest f·a_T of the data [Hz].
   std::pair<double, double> reduced_range() const;

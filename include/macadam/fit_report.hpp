@@ -16,7 +16,7 @@ struct FitReport {
   /// Contents by name: fit.json, fit.csv, curve.csv, and law.toml if there is a chain. A report of
   /// report_conversion() has only law.toml.
   std::map<std::string, std::string> files;
-  std::string text;  ///< for people to read
+  std::string text;  ///< text that is printed
   /// Why no chain replaces the fitted 2S2P1D or Huet–Sayegh model; empty if one does. The other files are complete.
   std::string refusal;
 };

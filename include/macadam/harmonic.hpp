@@ -42,8 +42,8 @@ struct HarmonicOptions {
   double typical_growth = 0;
 };
 
-/// One problem to solve: motions e^(s·t) with s = growth + 2πi·frequency, and the inertia and viscous damping of a run;
-/// see Harmonic::solve().
+/// One problem to solve: motions proportional to e^(s·t) with s = growth + 2πi·frequency. Inertia (`density_scaling`)
+/// and viscous damping are those of a run in time; see Harmonic::solve().
 struct HarmonicLoad {
   double frequency_hz = 0, density_scaling = 0, viscous_damping = 0;
   double growth = 0;  ///< real part of s [1/s]: 0 for the steady state; positive for Laplace transforms
@@ -56,7 +56,7 @@ struct HarmonicLoad {
 
 /// Result of one problem.
 struct HarmonicResult {
-  double frequency_hz = 0, growth = 0;  ///< of the problem
+  double frequency_hz = 0, growth = 0;  ///< those of the problem, a HarmonicLoad
   Stiffness top;                        ///< from the reaction of the top wall, computed from the energy of the motion
   Stiffness bottom;                     ///< from the reaction of the bottom wall; equal to `top` without inertia
   ModulusParts parts;                   ///< their sum gives `top`
@@ -64,7 +64,8 @@ struct HarmonicResult {
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
   std::string why_factors;                        ///< why the direct solver was used although it was not asked for
-  /// Force that holds free rigid motions, over the reaction; rounding error only, if nothing is wrong.
+  /// Force that holds free rigid motions, divided by the reaction of the wall. Without a fault it is only a rounding
+  /// error.
   double held_force = 0;
   double seconds = 0;
   /// Complex displacement and rotation of each particle (ux uy uz θx θy θz) per unit displacement of the top wall.
@@ -72,10 +73,10 @@ struct HarmonicResult {
 };
 
 /// Solves one scene at any number of frequencies; the preconditioner is made once. Specimen and network must outlive
-/// it.
+/// this object.
 class Harmonic {
  public:
-  /// `typical_frequency`: one in the middle of those to be solved [Hz], for which the preconditioner is made.
+  /// `typical_frequency`: a frequency in the middle of the range to be solved [Hz]. The preconditioner is made for it.
   ///
   /// \throws InputError naming the particles of a cluster that does not touch both walls, or a pair without a law;
   /// RunError if the stiffness is singular (a mechanism), or if a device does not exist or has too little memory.
@@ -90,8 +91,8 @@ class Harmonic {
   /// \throws RunError if the residual does not reach the tolerance; InterruptedError.
   HarmonicResult solve(double frequency_hz, double density_scaling = 0, double viscous_damping = 0);
 
-  /// Solves several problems, four at a time, which share the reading of the network. `seconds` of each result is its
-  /// part of the total. \throws RunError naming the frequency.
+  /// Solves several problems, four at a time, so that each iteration reads the network once for four problems.
+  /// `seconds` of each result is its part of the total time. \throws RunError naming the frequency.
   std::vector<HarmonicResult> solve(const std::vector<HarmonicLoad>& loads);
 
  private:

@@ -52,7 +52,7 @@ struct PhantomGrain {
 /// Two grains that are near each other; a < b.
 struct GrainGap {
   std::uint32_t a = 0, b = 0;
-  double gap = 0;  ///< between their surfaces [m]
+  double gap = 0;  ///< distance between their surfaces [m]
 };
 
 /// A scan and its truth. Coordinates are the specimen's, with one corner of its box at the origin.

@@ -11,8 +11,9 @@
 namespace macadam {
 
 /// Advances a stepper in pieces that take 0.1 to 0.4 s of wall time, however long a step takes. The first piece has 16
-/// steps; then the number of steps is doubled or halved as the time of the piece before requires. Results do not depend
-/// on the length of the pieces, to the last bit. In a run of several processes all take the same pieces.
+/// steps; the number is doubled after a piece that took less than 0.1 s, and halved after a piece that took more than
+/// 0.4 s. Results do not depend on the length of the pieces, to the last bit. In a run of several processes, all
+/// processes take the same pieces.
 class PiecewiseStepper {
  public:
   /// The stepper must outlive this object.
@@ -22,9 +23,9 @@ class PiecewiseStepper {
   /// each piece. An exception of look() ends the work after a whole step.
   void advance(std::int64_t from, std::int64_t to, const std::function<void(std::int64_t step)>& look);
 
-  /// Takes the steps up to the next sample at step `to` and, as far as a piece allows, on to some of up to `times`
-  /// samples that follow at the same distance. Returns these samples, at least one. look() is not called after the last
-  /// steps.
+  /// Takes the steps up to the next sample, at step `to`. If several samples fit into one piece, also takes the steps
+  /// to the samples that follow at the same distance, at most `times` of them. Returns all samples that it reached, at
+  /// least one. look() is not called after the last of these steps.
   std::vector<Sample> sample(std::int64_t from, std::int64_t to, std::int64_t times,
                              const std::function<void(std::int64_t step)>& look);
 

@@ -17,13 +17,13 @@ class Ranks {
  public:
   virtual ~Ranks() = default;
 
-  /// Number of this process, from 0.
+  /// Returns the number of this process, from 0.
   virtual int number() const = 0;
-  /// Number of processes.
+  /// Returns the number of processes.
   virtual int count() const = 0;
-  /// Number of this process among those on its host, from 0.
+  /// Returns the number of this process among those on its host, from 0.
   virtual int number_on_host() const = 0;
-  /// Number of processes on this process's host.
+  /// Returns the number of processes on this process's host.
   virtual int count_on_host() const = 0;
 
   /// Copies `size` bytes from the first process to all others. Waits for all processes. \throws RunError
@@ -43,7 +43,7 @@ class Ranks {
   /// Enqueues messages in the stream, a cudaStream_t; they are transferred together. For each message that one rank
   /// sends there must be one of the same size that the other rank receives. \throws RunError
   virtual void queue(const std::vector<Message>& sent, const std::vector<Message>& received, void* stream) = 0;
-  /// \throws RunError if enqueued messages can no longer arrive.
+  /// Checks the connections to the other ranks. \throws RunError if enqueued messages can no longer arrive.
   virtual void require_link() = 0;
   /// Returns whether queue() may be recorded into a CUDA graph.
   virtual bool goes_into_graphs() const = 0;
@@ -62,7 +62,8 @@ class Ranks {
   }
   /// Returns whether `value` is true on any rank. Waits for all processes. \throws RunError
   bool any(bool value) { return least(value ? 0 : 1) == 0; }
-  /// \throws RunError if ranks differ: they no longer run the same scene, and would wait for each other forever.
+  /// Checks that all ranks pass the same value. \throws RunError if the values differ: the ranks then no longer run the
+  /// same scene and would wait for each other forever.
   void require_same(const std::string& what, std::int64_t value);
 };
 

@@ -3,8 +3,8 @@
 /// needs.
 ///
 /// Aggregate above the cut size becomes particles, one size class between every two sieves. Finer aggregate, filler and
-/// binder together are the mastic. Formulas: maximum density EN 12697-5 (mathematical procedure); air voids, voids in
-/// the mineral aggregate and voids filled with binder EN 12697-8. docs/model.md, section 22, gives them;
+/// binder together are the mastic. The maximum density follows EN 12697-5 (mathematical procedure); air voids, voids in
+/// the mineral aggregate and voids filled with binder follow EN 12697-8. docs/model.md, section 22, gives the formulas;
 /// docs/mix-design.md works an example.
 #pragma once
 
@@ -48,12 +48,13 @@ struct MixDesign {
   /// Density of the material that passes the finest sieve [kg/m³]; empty: the last of aggregate_density.
   std::optional<double> filler_density;
   double binder_density = 0;  ///< [kg/m³]
-  /// Binder in the pores, fraction of the aggregate's mass, which adds no volume; or ….
+  /// Binder in the pores of the aggregate, which adds no volume, as a fraction of the aggregate's mass. Either this or
+  /// maximum_density may be given; without both, no binder is absorbed.
   std::optional<double> absorbed_binder;
-  /// … measured density [kg/m³], from which it follows; if neither is given, no binder is absorbed.
+  /// Measured maximum density [kg/m³], from which the absorbed binder is computed.
   std::optional<double> maximum_density;
-  std::optional<double> air_voids;      ///< fraction of the bulk volume, or …
-  std::optional<double> bulk_density;   ///< … measured density [kg/m³], from which it follows
+  std::optional<double> air_voids;      ///< fraction of the bulk volume; either this or the next is given
+  std::optional<double> bulk_density;   ///< measured [kg/m³]; the air voids are computed from it
   std::vector<EnvelopePoint> envelope;  ///< in any order; only compared and drawn
 
   std::string source = "recipe";     ///< the scene's file, for messages
@@ -66,7 +67,7 @@ struct MixClass {
   double sieve_min = 0, sieve_max = 0;  ///< [m]
   double mass = 0;                      ///< fraction of the mix by mass, without absorbed binder
   double volume = 0;                    ///< fraction of the box
-  double density = 0;                   ///< of the dry aggregate [kg/m³]
+  double density = 0;                   ///< density of the dry aggregate [kg/m³]
   int line = 0;                         ///< line in MixDesign::source of the sieve that retains it
 };
 
@@ -82,9 +83,9 @@ struct MixVolumes {
   double absorbed_binder = 0;   ///< fraction of the aggregate by mass
 
   std::vector<MixClass> classes;  ///< classes above the cut, coarsest first, without empty ones
-  double aggregate_mass = 0;      ///< of all particles, with the binder in their pores, fraction of the mix
-  double aggregate_volume = 0;    ///< of all particles, fraction of the box
-  double aggregate_density = 0;   ///< of particles with the binder in their pores [kg/m³]; 0 without particles
+  double aggregate_mass = 0;      ///< mass of all particles with the binder in their pores, fraction of the mix
+  double aggregate_volume = 0;    ///< volume of all particles, fraction of the box
+  double aggregate_density = 0;   ///< density of particles with the binder in their pores [kg/m³]; 0 without particles
   double mastic_mass = 0;         ///< fraction of the mix
   double mastic_volume = 0;       ///< fraction of the box
   double mastic_density = 0;      ///< [kg/m³]

@@ -27,7 +27,7 @@ struct Stiffness {
 struct CyclicResult {
   Stiffness fit;             ///< from a fit of the fundamental with offset and trend over the last `fit_cycles` cycles
   Stiffness peaks;           ///< by Eq. 24–25 from the last cycle
-  double fit_rms = 0;        ///< rms of the stress that the fit leaves, over the stress amplitude
+  double fit_rms = 0;        ///< rms difference of the stress from its fit, over the stress amplitude
   double change_e_star = 0;  ///< relative change of |E*| from the last but one cycle to the last (NaN with one cycle)
   double change_phase_deg = 0;  ///< the same change of φ, as a difference
 };

@@ -37,8 +37,8 @@ struct ManyOptions {
   /// numbers of cores, unless [solver] threads says otherwise.
   int at_once = 0;
   bool resume = false;  ///< continue from checkpoints, in folders that have them
-  /// Called by one thread at a time, like the next two. `job`: position in the list. If `done` throws, no scene is
-  /// begun any more, and the exception leaves run_many() once the running scenes have ended.
+  /// Called by one thread at a time, as are `warn` and `done`. `job`: position in the list. If `done` throws, no scene
+  /// is begun any more, and the exception leaves run_many() once the running scenes have ended.
   std::function<void(std::size_t job, const std::string& stage, double share)> progress;
   std::function<void(std::size_t job, const std::string& warning)> warn;
   std::function<void(std::size_t job, const JobOutcome& outcome)> done;
@@ -46,12 +46,13 @@ struct ManyOptions {
   std::function<bool()> stop;
 };
 
-/// Calls run() for every scene, each on one device: an idle one, or the one that got the fewest scenes so far, among
-/// those that the scene's [solver] names (if it names none, all that answer). When no more scenes are to come, a cyclic
-/// test moves to the device with less work left for its next frequency. Small specimens share a device at the same
-/// time. The two larger specimens that came first take turns in short pieces. The results are the same as those of
-/// run(). An error of one scene does not end the others, unless a device fails for the whole process; scenes that are
-/// on a device together share its memory.
+/// Calls run() for every scene, each on one device. A scene may use the devices that its [solver] names or, if it names
+/// none, all usable devices. It gets an idle one of these or, if none is idle, the one that has been given the fewest
+/// scenes so far. Once all scenes have begun, a cyclic test may continue with its next frequency on another device, if
+/// the other scenes there have less work left. Several small specimens on one device are stepped at the same time.
+/// Larger specimens cannot be; the two that came first take turns in short pieces. The results are the same as those of
+/// run(). An error of one scene does not end the others, unless it makes a device unusable for the whole process.
+/// Scenes on the same device share its memory, so a scene can run out of memory because of another one.
 ///
 /// Returns the outcomes in the order of the jobs; a job that was not begun has an InterruptedError. \throws InputError
 /// if two jobs have the same folder.

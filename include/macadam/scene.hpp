@@ -46,7 +46,7 @@ enum class SolverMethod : std::uint8_t { explicit_, harmonic };
 struct SolverSpec {
   SolverMethod method = SolverMethod::explicit_;
   std::optional<double> tolerance;                     ///< largest error of |E*| (relative) and φ [rad]; explicit only
-  std::optional<std::vector<double>> density_scaling;  ///< one, or one per frequency
+  std::optional<std::vector<double>> density_scaling;  ///< one value, or one per frequency
   std::optional<double> safety;                        ///< fraction of the computed critical step
   std::optional<double> time_step;                     ///< [s]: given instead of computed
   /// Whether the scene gives a damping, even 0; otherwise tests that are not cyclic choose their own.
@@ -57,7 +57,7 @@ struct SolverSpec {
   std::optional<Geometry> geometry;
   std::optional<Precision> precision;
   Backend backend = Backend::automatic;
-  LinearMethod linear = LinearMethod::automatic;  ///< for the harmonic solutions
+  LinearMethod linear = LinearMethod::automatic;  ///< method of the harmonic solutions
   int threads = 0;                                ///< 0: OpenMP's choice
   DeviceList devices;                             ///< CUDA devices; empty: run() chooses
   int side_by_side = 1;                           ///< as in StepperOptions; a scene cannot set it
@@ -74,7 +74,7 @@ struct OutputSpec {
   std::optional<double> checkpoint;
 };
 
-/// A whole scene. `file`: where it was read from; relative paths in it have been resolved.
+/// A whole scene. `file`: the file from which the scene was read. Relative paths in the scene have been resolved.
 struct Scene {
   std::filesystem::path file;
   std::string text;  ///< text of the file, which a checkpoint stores. Empty if the scene was not read from a file
@@ -83,7 +83,7 @@ struct Scene {
   Materials materials;
   LawTable laws;            ///< at Materials::temperature or, without one, each at its own reference temperature
   Deltas deltas = all_one;  ///< already included in the laws
-  ShiftLaws shifts;         ///< of these laws
+  ShiftLaws shifts;         ///< shift laws that belong to `laws`
   NetworkSpec network;
   Experiment experiment;
   SolverSpec solver;

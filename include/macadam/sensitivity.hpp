@@ -3,7 +3,7 @@
 /// of the frequency domain: docs/model.md, section 16.
 ///
 /// E* = H/A · uᵀ·(K*(s) − inertia·M)·u at unit displacement of the top wall is stationary in u. Therefore dE*/dθ = H/A
-/// · uᵀ·(∂K*/∂θ)·u, one sum over the contacts of the solution.
+/// · uᵀ·(∂K*/∂θ)·u, which is one sum over the contacts.
 #pragma once
 
 #include <array>
@@ -26,15 +26,16 @@ struct ModulusParts {
   std::complex<double> modulus() const;
 };
 
-/// Change of |E*| and φ per unit of a parameter's natural logarithm. For a change of the parameter by one per cent,
-/// take a hundredth of it.
+/// Change of |E*| and φ per unit of a parameter's natural logarithm. A change of the parameter by one per cent changes
+/// |E*| and φ by a hundredth of these values.
 struct Sensitivity {
   std::string parameter;  ///< "M-A.E_m", "M-A.delta", "M-A.alpha", "density_scaling"
   double d_e_star_pa = 0, d_phase_deg = 0;
 };
 
-/// Returns derivatives by every parameter of every pair that is present, by δ and α (if α is not 0), and by the density
-/// scaling if there is inertia, for motions e^(s·t). δ multiplies all moduli and viscosities of a pair.
+/// Returns the derivatives of |E*| and φ for motions e^(s·t). They are taken with respect to every parameter of every
+/// pair that is present, to δ and α of these pairs (α only if it is not 0), and to the density scaling if there is
+/// inertia. δ multiplies all moduli and viscosities of a pair.
 std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
 std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
                                        double) = delete;  // deleted, so that ω cannot be passed instead of s = iω

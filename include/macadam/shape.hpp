@@ -106,8 +106,8 @@ struct ShapeMeasure {
   double volume = 0;           ///< V [m³]
   double area = 0;             ///< A [m²]
   double sphericity_true = 0;  ///< ψ^w, Eq. 22: area of the sphere with the same volume, over A
-  Vec3d centroid{};            ///< of the volume
-  double radius_bounding = 0;  ///< of the smallest enclosing sphere
+  Vec3d centroid{};            ///< centroid of the volume
+  double radius_bounding = 0;  ///< radius of the smallest enclosing sphere
   Vec3d centre_bounding{};     ///< its centre
 
   double shape_index() const { return d_long / d_short; }        ///< SI, Eq. 18
@@ -168,15 +168,15 @@ struct FillReport {
   /// The largest such distance or, if that is larger, the largest protrusion of a sphere: the Hausdorff distance
   /// between the two surfaces, without the voids between the spheres [m].
   double deviation_largest = 0;
-  double d_long = 0, d_intermediate = 0, d_short = 0;  ///< of the cluster, including the spheres' surfaces [m]
+  double d_long = 0, d_intermediate = 0, d_short = 0;  ///< dimensions of the cluster, as described above [m]
 };
 
-/// Fills a shape with spheres that touch its surface from inside: in the number that the porosity requires, placed at
-/// random and relaxed until they are evenly spread. If that is fewer than `least`, places one sphere at the centroid.
-/// Every sphere has a Laguerre cell among the others. Spheres are pressed into the surface by about a tenth of a
-/// radius; where the shape is thinner than a sphere, the sphere is in the middle and protrudes on both sides. The same
-/// surface and spec give the same bits, for any number of threads. \throws InputError for an impossible spec or a
-/// faulty surface; RunError if a sphere remains without a cell.
+/// Fills a shape with spheres that touch its surface from inside. Their number follows from the porosity. They are
+/// placed at random and relaxed until they are evenly spread. If their number is below `least`, one sphere is placed at
+/// the centroid instead. Every sphere has a Laguerre cell among the others. Spheres are pressed into the surface by
+/// about a tenth of a radius; where the shape is thinner than a sphere, the sphere is in the middle and protrudes on
+/// both sides. The same surface and spec give the same bits, for any number of threads. \throws InputError for an
+/// impossible spec or a faulty surface; RunError if a sphere remains without a cell.
 MultiSphere fill_shape(const Surface& surface, const FillSpec& spec);
 
 /// Measures how well a cluster represents its shape.

@@ -23,7 +23,7 @@ class Stepper;
 /// Particles, cells and contacts of a scene, and the time it took to make them.
 struct Preparation {
   Specimen specimen;
-  std::vector<CompositionRow> composition;  ///< empty for a specimen read from a file, like the next
+  std::vector<CompositionRow> composition;  ///< empty for a specimen read from a file, as is `aggregates`
   std::vector<Aggregate> aggregates;
   Tessellation tessellation;
   ContactNetwork network;
@@ -114,7 +114,8 @@ struct Watcher {
 };
 
 /// Does the whole job: prepares, plans, steps every frequency, writes every file. The folder is not changed until
-/// preparing and planning are done, so that a scene that is refused leaves older results alone; then they are replaced.
+/// preparing and planning are done, so a scene that is refused leaves older results unchanged. After planning, older
+/// results are replaced.
 ///
 /// At any time response.csv is complete up to the last sample, and summary.json up to the last frequency. (If a
 /// frequency takes less than ten times as long as saving, summary.json is saved less often, so that saving takes at
@@ -123,17 +124,19 @@ struct Watcher {
 /// A stepped run of a scene that was read from a file writes `checkpoint.h5` as it goes (OutputSpec::checkpoint). The
 /// file is replaced by renaming, and the previous checkpoint is kept as `checkpoint-previous.h5`. A checkpoint that
 /// cannot be written causes a warning. At the end the run removes its own checkpoints and older ones of the same scene,
-/// but no others; its first checkpoint replaces an existing one. Backend reference writes none.
+/// but no other checkpoints. The first checkpoint of a run replaces any checkpoint that is already in the folder.
+/// Backend reference writes none.
 ///
-/// `resume` continues from the checkpoint to the same bits as a run that was never interrupted. If the newest
-/// checkpoint is missing or damaged, there is a warning, and the run continues from the previous one.
+/// With `resume`, the run continues from the checkpoint. Its results have the same bits as those of a run that was
+/// never interrupted. If the newest checkpoint is missing or damaged, there is a warning, and the run continues from
+/// the previous one.
 ///
 /// \throws InputError also for a checkpoint that is missing, damaged, or of another scene, version, backend or
 /// precision, and if another command is writing into the folder; InterruptedError; RunError (DivergenceError names
-/// particle and time), also for a tolerance whose result cannot be right.
+/// particle and time), also if the scene has a tolerance and a result cannot be right.
 ///
-/// All processes that join_ranks() has joined must call this with the same scene; the first one has the files. If
-/// `watcher` calls functions of a stepper, it must call them in all processes. If one process fails, the others wait
+/// All processes that join_ranks() has joined must call this with the same scene; the first process writes the results.
+/// If `watcher` calls functions of a stepper, it must call them in all processes. If one process fails, the others wait
 /// for it until Ranks::end_all().
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
 /// Does the same with an existing preparation, of this scene or of one with the same particles.

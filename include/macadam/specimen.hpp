@@ -101,25 +101,25 @@ enum class SizeLaw : std::uint8_t { log_uniform, uniform, volume_uniform };
 /// One aggregate class: spheres whose diameters lie between two sieves.
 struct AggregateClass {
   double sieve_min = 0, sieve_max = 0;    ///< diameters [m]
-  std::optional<double> volume_fraction;  ///< fraction of the solid volume (aggregates and mastic), or …
-  std::optional<std::int64_t> count;      ///< … the number of aggregates
+  std::optional<double> volume_fraction;  ///< fraction of the volume of all solids; empty if `count` is given
+  std::optional<std::int64_t> count;      ///< number of aggregates
   int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
 /// The mastic that fills the remaining volume; radii are uniform in a range.
 struct MasticSpec {
   double radius_min = 0, radius_max = 0;  ///< [m]
-  std::optional<double> porosity;         ///< 1 − Σ volumes of solid spheres / (box − voids), or …
-  std::optional<std::int64_t> count;      ///< … the number of mastic spheres
-  int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
+  std::optional<double> porosity;  ///< 1 − Σ volumes of solid spheres / (box − voids); empty if `count` is given
+  std::optional<std::int64_t> count;  ///< number of mastic spheres
+  int line = 0;                       ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
 /// Air voids: spheres that overlap neither each other nor the aggregates. Their radii are distributed uniformly in a
 /// range.
 struct VoidSpec {
   double radius_min = 0, radius_max = 0;  ///< [m]
-  std::optional<double> fraction;         ///< Σ sphere volumes / box, or …
-  std::optional<std::int64_t> count;      ///< … the number of voids
+  std::optional<double> fraction;         ///< Σ sphere volumes / box; empty if `count` is given
+  std::optional<std::int64_t> count;      ///< number of voids
   int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
@@ -210,7 +210,7 @@ struct GeneratedSpecimen {
   std::vector<Aggregate> aggregates;  ///< in the order of their spheres
   std::vector<Surface> surfaces;      ///< templates of the shaped aggregates, centred at the centroids of their volumes
   int relaxation_iterations = 0;
-  double residual_overlap = 0;  ///< largest aggregate–aggregate overlap after relaxation [m]; 0 if aggregates are held
+  double residual_overlap = 0;  ///< largest aggregate–aggregate overlap after relaxation [m]; 0 if they are fixed
 };
 
 /// Generates a specimen: first aggregates, largest first, without overlap and inside the box (single spheres, or shapes

@@ -2,9 +2,9 @@
 /// \file spectrum.hpp  Computes relaxation and creep of a specimen at any time, without time steps.
 ///
 /// A network of springs and dashpots without inertia relaxes as a sum of exponentials, E(t) = E_∞ + Σ g_i·e^(−t/τ_i)
-/// with positive g_i. Its solutions at some real s > 0 (the Laplace variable) span a space of motions. In this space
-/// g_i and τ_i follow from one small symmetric eigenvalue problem, and creep follows from the same numbers. Solutions
-/// at further s are added until E(t) is accurate enough.
+/// with positive g_i. The solutions of the network at some real s > 0 (the Laplace variable) span a space of motions.
+/// In this space g_i and τ_i follow from one small symmetric eigenvalue problem, and creep follows from the same
+/// numbers. Solutions at further s are added until E(t) is accurate enough.
 #pragma once
 
 #include <complex>
@@ -61,11 +61,12 @@ PronySeries prony_series(const Law& law);
 /// poles. \throws InputError for a series whose moduli are all zero.
 CreepSeries creep_series(const PronySeries& relaxation);
 
-/// Returns a series of a few units of `series`, with new moduli, that reproduces E(0), and E(t) from `shortest` to
-/// `longest` [s], to a relative tolerance.
+/// Returns a series that keeps only a few units of `series`, with new moduli. Within a relative tolerance, it
+/// reproduces E(0), and E(t) from `shortest` to `longest` [s].
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance);
 
-/// Returns the largest relative difference of E(t) from `exact`, at t = 0 and between two times.
+/// Returns the largest relative difference of E(t) of `series` from E(t) of `exact`, at t = 0 and from `shortest` to
+/// `longest` [s].
 double difference(const PronySeries& series, const PronySeries& exact, double shortest, double longest);
 
 /// Range of times and accuracy of a spectrum.

@@ -60,7 +60,7 @@ struct StepperOptions {
   /// error of a block is of second order in its length. If no law has a memory and the geometry is fixed, blocks are
   /// exact, and a tenth of this number is used.
   double blocks = 4000;
-  /// Number of steps from one observe() to the next; 0: not known. Blocks end there if possible.
+  /// Number of steps from one observe() to the next; 0: not known. If possible, blocks end at these observations.
   std::int64_t observed_every = 0;
 };
 
@@ -120,8 +120,8 @@ struct KernelUse {
 /// Bytes that a step moves, by kind of memory.
 struct Traffic {
   std::int64_t memory = 0;
-  std::int64_t cache = 0;   ///< to and from a device's L2 cache, without device memory
-  std::int64_t shared = 0;  ///< to and from shared memories of the multiprocessors
+  std::int64_t cache = 0;   ///< bytes to and from a device's L2 cache that do not reach device memory
+  std::int64_t shared = 0;  ///< bytes to and from the shared memories of the multiprocessors
 };
 
 /// Time of a part of a step: a kernel, or the work between two blocks of steps.
@@ -144,8 +144,8 @@ struct DeviceMotion {
 struct ContactState {
   std::vector<Vec3d> force;   ///< on the contact's first body, at the facet's centroid x0 [N]
   std::vector<Vec3d> moment;  ///< on the contact's first body, about x0 [N·m]
-  /// Eq. 8 about x0, in the contact's current frame (n, s, t), from the current displacements and rotations: opening
-  /// [m], its slopes along s and t, slips along s and t [m], twist.
+  /// Relative displacements (Eq. 8) about x0 in the contact's current frame (n, s, t), from the current displacements
+  /// and rotations: opening [m], its slopes along s and t, slips along s and t [m], twist.
   std::vector<std::array<double, 6>> relative;
   /// Chains in the format of StartState::chain: f and the states of the Kelvin units, for the six relative
   /// displacements or, in points form, for the three of each point, one point after another. If steps are taken in
@@ -201,8 +201,8 @@ class Stepper {
   /// which has no checkpoints.
   virtual std::vector<StateArray> state() const = 0;
 
-  /// Restores what state() returned, or changes nothing. \throws RunError naming the array that does not fit, and as
-  /// state().
+  /// Restores the state that state() returned. If that is not possible, changes nothing. \throws RunError naming the
+  /// array that does not fit; also RunError for backend reference.
   virtual void set_state(const std::vector<StateArray>& arrays) = 0;
 
   /// Returns the first particle (specimen order) whose motion is not finite or that moves more than its radius in a
@@ -222,7 +222,7 @@ class Stepper {
   /// counted.
   virtual std::int64_t traffic() const { return 0; }
 
-  /// Returns these bytes by kind of memory, if they do not all come from device memory.
+  /// Returns the bytes of traffic() by kind of memory. By default, all of them count as device memory.
   virtual Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
 
   /// Does the same as advance(), slower, and returns the mean time per step of each part [s]; empty if not measured.
@@ -237,17 +237,18 @@ class Stepper {
 /// range.
 void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::function<void(const Observation&)>& f);
 
-/// Returns whether no motion of the particles can turn any of them: no pair has shear stiffness, and the centroid of
-/// every facet is on the line of its centres (first moments below 1e-12 of area × size, which is rounding).
+/// Returns whether the particles never rotate, however they move: no pair has shear stiffness, and the centroid of
+/// every facet lies on the line that joins the centres of its two particles. First moments below 1e-12 of area × size
+/// count as rounding errors.
 bool nothing_turns(const ContactNetwork& network, const FactsTable& laws);
 inline bool nothing_turns(const ContactNetwork& network, const LawTable& laws) {
   return nothing_turns(network, facts_of(laws));
 }
 
 /// Makes the stepper of a backend (resolves `automatic` first). `used`: a stepper made of the same specimen and network
-/// that is not needed any more. If the laws are of the same kinds and have the same alpha, its data that do not depend
-/// on time step, masses, loading and start are kept. The new stepper takes the same steps, to the bit, as without
-/// `used`. \throws RunError if the backend is not available; InputError if an option does not fit the backend.
+/// that is not needed any more. If the laws are of the same kinds and have the same alpha, the data of `used` that do
+/// not depend on time step, masses, loading and start are kept. The new stepper takes the same steps, to the bit, as
+/// without `used`. \throws RunError if the backend is not available; InputError if an option does not fit the backend.
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                       std::unique_ptr<Stepper> used = nullptr);

@@ -19,8 +19,8 @@ namespace macadam {
 struct TwinSpec {
   /// Lower and upper corner in the scan's coordinates [m]; empty: the extent of the specimen's voxels.
   std::optional<std::array<Vec3d, 2>> box = {};
-  std::optional<double> porosity = {};  ///< porosity of the mastic, as MasticSpec::porosity; empty: the scene's
-  /// Smallest radius of the sphere that represents a void [m], smaller voids are left out; 0: two voxel edges.
+  std::optional<double> porosity = {};  ///< porosity of the mastic, as MasticSpec::porosity; empty: as in the scene
+  /// Smallest radius of the sphere that represents a void [m]. Smaller voids are left out. 0 means two voxel edges.
   double least_void = 0;
   std::uint64_t seed = 1;
 };
@@ -41,9 +41,9 @@ struct Twin {
 
 /// Makes a specimen from a folder with labels.mha, phases.mha, library/grain_*.off and border/grain_*.off, as written
 /// by `ct segment` and, in truth/, by `ct phantom`. Grains are filled with spheres as the scene's [specimen.shapes]
-/// says, or are single spheres of the same volumes. Voids are spheres where the scan has voids. Mastic with the scene's
-/// radii is packed around them. \throws InputError for a folder without these files, or a box that is not within the
-/// specimen.
+/// says, or are single spheres of the same volumes. Voids of the scan are filled with void spheres. Mastic with the
+/// scene's radii is packed around grains and voids. \throws InputError for a folder without these files, or a box that
+/// is not within the specimen.
 Twin make_twin(const std::filesystem::path& folder, const Scene& scene, const TwinSpec& spec,
                const std::function<void(const std::string& stage, double share)>& progress = {});
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// check_command.cpp  macadam check SCENE: predicts what a run would make and take, without running.
+// check_command.cpp  Implements `macadam check SCENE`, which predicts particles, memory, time and files of a run
+// without running it.
 #include "host/cli/scene_commands/check_command.hpp"
 
 #include <fmt/format.h>

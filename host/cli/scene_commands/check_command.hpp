@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file check_command.hpp  macadam check: predicts what a run would be.
+/// \file check_command.hpp  `macadam check`: predicts particles, memory, time and files of a run.
 #pragma once
 
 #include <CLI/CLI.hpp>

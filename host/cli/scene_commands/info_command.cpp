@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// info_command.cpp  macadam info: version, backends, devices.
+// info_command.cpp  Implements `macadam info`, which prints the version, backends and devices, or every key of a scene.
 #include "host/cli/scene_commands/info_command.hpp"
 
 #include <memory>

@@ -6,7 +6,8 @@
 
 namespace macadam {
 
-/// Adds the command; it runs, and throws, when the command line is parsed.
+/// Adds the command `info` to the program. The command runs while the command line is parsed, so its errors are thrown
+/// from there.
 void add_info_command(CLI::App& app);
 
 }  // namespace macadam

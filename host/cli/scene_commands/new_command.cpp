@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_command.cpp  macadam new [--kind recipe] [--test cyclic] [FILE]
+// new_command.cpp  Implements `macadam new [--kind recipe] [--test cyclic] [FILE]`.
 #include "host/cli/scene_commands/new_command.hpp"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_command.cpp  macadam run SCENE… --out DIR
+// run_command.cpp  Implements `macadam run SCENE… --out DIR`.
 #include "host/cli/scene_commands/run_command.hpp"
 
 #include <memory>
@@ -34,7 +34,7 @@ void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   bool started = false;
   const bool speaks = is_first_rank();
   watcher.progress = [&](const std::string& stage, double share) {
-    if (started || !speaks) {  // of several processes, only the first looks for signals until all of them step
+    if (started || !speaks) {  // of several ranks, only the first reacts to signals until all take steps
       line.show(stage, share);
     } else {
       show_or_stop(line, stage, share);

@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-/// Returns the name of a scene's folder.
+/// Returns the name of the folder for the results of a scene.
 std::string name_of(const std::filesystem::path& scene) {
   const std::filesystem::path whole = std::filesystem::absolute(scene).lexically_normal();
   return (whole.stem() == "scene" ? whole.parent_path().filename() : whole.stem()).string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// specimen_command.cpp  macadam specimen SCENE --out DIR [--section x=0.025]…
+// specimen_command.cpp  Implements `macadam specimen SCENE --out DIR [--section x=0.025]…`.
 #include "host/cli/scene_commands/specimen_command.hpp"
 
 #include <memory>
@@ -18,7 +18,7 @@ struct SpecimenArguments {
   std::vector<std::string> sections;
 };
 
-/// Prints which part of the area that a plane cuts is aggregate.
+/// Prints the fraction of the area of a section that is aggregate.
 void say_section(const Preparation& prepared, const SectionPlane& plane) {
   const CrossSection section = cut(prepared.specimen, prepared.tessellation, plane);
   double all = 0, aggregate = 0;

@@ -17,8 +17,8 @@
 namespace macadam {
 namespace {
 
-/// Ends all processes after an error. The others wait before they report it, so that an error that all have is reported
-/// by the first alone, which writes what there is to write and ends the others.
+/// Ends all processes after an error. Processes other than the first wait before they report the error. If all
+/// processes have the same error, only the first one reports it, because it ends the others while they wait.
 [[noreturn]] void end_all(Ranks& team, const char* why, int code) {
   const bool first = team.number() == 0;
   if (!first) std::this_thread::sleep_for(std::chrono::seconds(10));

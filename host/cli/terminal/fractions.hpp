@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// Adds an option that takes a fraction in [low, high]: a decimal number (0.04), or text in per cent ("4 %").
+/// Adds an option that takes a fraction in [low, high], given as a decimal number (0.04) or in per cent ("4 %").
 template <class T>
 CLI::Option* add_fraction(CLI::App& app, const std::string& name, T& target, const std::string& description, double low,
                           double high) {

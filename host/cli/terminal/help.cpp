@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t width = 100, column = 32;
 const std::string examples_title = "Examples:";
 
-/// Returns `left`, then the text from the column on, wrapped to the width.
+/// Returns `left`, followed by the text, which begins at `column` and is wrapped to the width of a line.
 std::string entry(const std::string& left, const std::string& text) {
   std::string out = "  " + left;
   if (out.size() + 2 > column)

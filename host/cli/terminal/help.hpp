@@ -22,7 +22,7 @@ class HelpFormatter : public CLI::Formatter {
 /// Adds example lines for a shell, to be run from the top of the source tree.
 void add_examples(CLI::App& command, const std::vector<std::string>& lines);
 
-/// Returns the example lines of a command, without other text below its help.
+/// Returns the example lines of a command. Other text below the command's help is left out.
 std::vector<std::string> examples_of(const CLI::App& command);
 
 /// Returns what an option takes: "FILE", "FOLDER", "INT", "auto|cuda|cpu"; empty for a flag.

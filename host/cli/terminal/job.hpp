@@ -53,13 +53,14 @@ inline void add_ranks(CLI::App& command, bool& ranks) {
 /// Reads the scene and replaces its seed if the command line gives one. \throws InputError.
 Scene scene_of(const Job& job);
 
-/// Prints what follows from a recipe by mass, and the gradation that the specimen reached; nothing without a recipe.
+/// Prints the volumes and densities that follow from a recipe by mass, and the gradation that the specimen reached.
+/// Prints nothing without a recipe.
 void say_recipe(const Scene& scene, const Preparation& prepared);
 
 /// Prints composition, contacts and times of a specimen on standard output.
 void say_preparation(const Preparation& prepared);
 
-/// Shows how far the work is. \throws InterruptedError if a signal asked to stop; nothing is written by then.
+/// Shows how far the work is. \throws InterruptedError if a signal asked to stop; no file has been written by then.
 void show_or_stop(ProgressLine& line, const std::string& stage, double share);
 
 }  // namespace macadam

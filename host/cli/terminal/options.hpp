@@ -31,7 +31,7 @@ struct Value<std::optional<T>> {
 template <class T>
 using value_t = typename Value<T>::type;
 
-/// \throws CLI::ValidationError, which ends the program with exit code 2.
+/// Refuses the value of an option. \throws CLI::ValidationError, which ends the program with exit code 2.
 [[noreturn]] inline void refuse(const std::string& name, const std::string& found, const std::string& expected) {
   throw CLI::ValidationError(name, fmt::format("found \"{}\", expected {}", found, expected));
 }

@@ -17,8 +17,8 @@ class ProgressLine {
  public:
   ~ProgressLine() { clear(); }
 
-  /// Redraws at most ten times per second. A fraction that falls begins a new stage, from which the time left is
-  /// counted.
+  /// Redraws at most ten times per second. If the fraction is smaller than before, a new stage has begun. The time left
+  /// is computed from the beginning of the stage.
   void show(const std::string& stage, double share) {
     if (!terminal_) return;
     const auto now = Clock::now();

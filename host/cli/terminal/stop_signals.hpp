@@ -5,9 +5,10 @@
 
 namespace macadam {
 
-/// Installs the signal handlers. The first of these signals asks the program to stop. Signals of the next two seconds
-/// are ignored as its echo: coreutils' timeout sends one signal to its child and another to the child's group. A later
-/// signal ends the program at once. Signals that are ignored already, as under nohup, stay ignored.
+/// Installs the signal handlers. The first of these signals asks the program to stop. Signals within the next two
+/// seconds are ignored, because one request may send two signals: coreutils' timeout signals its child and then the
+/// child's group. A later signal ends the program at once. Signals that are ignored already, as under nohup, stay
+/// ignored.
 void listen_to_stop_signals();
 
 /// Returns whether a signal has asked the program to stop.

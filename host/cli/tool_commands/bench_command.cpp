@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bench_command.cpp  macadam bench [SCENE]…
+// bench_command.cpp  Implements `macadam bench [SCENE]…`.
 #include "host/cli/tool_commands/bench_command.hpp"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ void say_machine(const bench::MachineSpeed& machine) {
   say("{:64} {:>12} {:>7} {:>10} {}\n", "median", "us", "spread", "contacts/s", "share of bandwidth");
 }
 
-/// Prints what changed. Returns whether anything became slower.
+/// Prints the times before and now of each row. Returns whether any row became slower.
 bool say_changes(const std::vector<bench::BenchRow>& before, const std::vector<bench::BenchRow>& rows,
                  const std::string& file) {
   bool slower = false;

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// Adds the command to the program; it runs when the command line is parsed.
+/// Adds the command `bench` to the program. The command runs while the command line is parsed.
 void add_bench_command(CLI::App& app);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate_command.cpp  macadam calibrate SCENE --target lab.csv --free M-A.delta,M-M.delta --out DIR
+// calibrate_command.cpp  Implements `macadam calibrate SCENE --target lab.csv --free M-A.delta,M-M.delta --out DIR`.
 #include "host/cli/tool_commands/calibrate_command.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ct_phantom.cpp  macadam ct phantom SCENE --voxel "100 um" --out DIR
+// ct_phantom.cpp  Implements `macadam ct phantom SCENE --voxel "100 um" --out DIR`.
 #include "host/cli/tool_commands/ct_phantom.hpp"
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ct_segment.cpp  macadam ct segment IMAGES --voxel "25 um" --out DIR
+// ct_segment.cpp  Implements `macadam ct segment IMAGES --voxel "25 um" --out DIR`.
 #include "host/cli/tool_commands/ct_segment.hpp"
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ct_twin.cpp  macadam ct twin DIR --scene SCENE --out SCENE_DIR
+// ct_twin.cpp  Implements `macadam ct twin DIR --scene SCENE --out SCENE_DIR`.
 #include "host/cli/tool_commands/ct_twin.hpp"
 
 #include <limits>

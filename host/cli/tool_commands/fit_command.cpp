@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit_command.cpp  macadam fit DATA.csv --out DIR, or --parameters MODEL.toml in place of the data.
+// fit_command.cpp  Implements `macadam fit DATA.csv --out DIR`; `--parameters MODEL.toml` may replace the data.
 #include "host/cli/tool_commands/fit_command.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@ struct FitArguments {
   FitOptions fit;
 };
 
-/// \throws InputError for an option that has no effect beside the other options, because the user would believe that it
-/// has one.
+/// Refuses options that have no effect together with the other options, because the user would expect an effect.
+/// \throws InputError
 void require_uses(const CLI::App& command, const FitArguments& arguments) {
   const auto refuse = [&](const std::string& found, const char* expected, std::initializer_list<const char*> names) {
     for (const char* name : names)
@@ -52,7 +52,7 @@ void require_uses(const CLI::App& command, const FitArguments& arguments) {
   }
 }
 
-/// Without data: converts a model that was fitted elsewhere into a Kelvin chain.
+/// Converts a model that was fitted elsewhere into a Kelvin chain. Called if the command line has no data.
 void convert(const FitArguments& arguments) {
   const ShiftedAnalogue analogue = read_analogue(arguments.parameters);
   const FitReport report = report_conversion(analogue, arguments.from, arguments.to, arguments.error);

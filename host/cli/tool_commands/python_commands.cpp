@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns the folder of the Python package: in the build of this program, in the Python package that this program came
-/// with, in the installation, or in the source tree. The result is empty if the package is in
-/// no such folder; Python must then find it by itself.
+/// with, in the installation, or in the source tree. The result is empty if the package is in none of these folders;
+/// Python must then find it by itself.
 fs::path package_folder() {
   const fs::path program = own_program(), build = program.parent_path();
   std::error_code error;

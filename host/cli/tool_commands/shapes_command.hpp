@@ -6,7 +6,8 @@
 
 namespace macadam {
 
-/// Adds `shapes` with its own commands; they run, and throw, while the command line is parsed.
+/// Adds the command `shapes` with its subcommands to the program. They run while the command line is parsed, so their
+/// errors are thrown from there.
 void add_shapes_command(CLI::App& app);
 
 }  // namespace macadam

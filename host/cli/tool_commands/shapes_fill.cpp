@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shapes_fill.cpp  macadam shapes fill FILE --radius MIN[,MAX] --out DIR
+// shapes_fill.cpp  Implements `macadam shapes fill FILE --radius MIN[,MAX] --out DIR`.
 #include "host/cli/tool_commands/shapes_fill.hpp"
 
 #include <fmt/format.h>

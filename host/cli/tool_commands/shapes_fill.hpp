@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// Adds `fill` to the command `shapes`; it runs when the command line is parsed.
+/// Adds the command `fill` to `shapes`. The command runs while the command line is parsed.
 void add_shapes_fill(CLI::App& shapes);
 
 }  // namespace macadam

@@ -6,7 +6,8 @@
 
 namespace macadam {
 
-/// Adds `generate` to the command `shapes`; it runs when the command line is parsed. \throws InputError, RunError then.
+/// Adds the command `generate` to `shapes`. The command runs while the command line is parsed, so its errors are thrown
+/// from there.
 void add_shapes_generate(CLI::App& shapes);
 
 }  // namespace macadam

@@ -15,16 +15,16 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-/// The fundamental of a signal, and what its fit leaves.
+/// The fundamental of a signal, and the residual of its fit.
 struct Fundamental {
   std::complex<double> value;  ///< c in Re(c·exp(iωt))
   double rms = 0;              ///< rms of the fit's residual
 };
 
 /// Fits offset + trend·t + fundamental + second harmonic by least squares, so that drift and start-up offsets do not
-/// leak into the phasor. The second harmonic is fitted because it is not orthogonal to the trend: if it were not, a
-/// second harmonic of amplitude h over one cycle would add −0.78·h to the fundamental. Fits of fewer than 16 samples
-/// leave it out.
+/// leak into the phasor. The second harmonic is fitted because it is not orthogonal to the trend. Without it in the
+/// fit, a second harmonic of amplitude h over one cycle would add −0.78·h to the fundamental. Fits of fewer than 16
+/// samples leave it out.
 template <class Value>
 Fundamental fit(std::span<const ResponseSample> samples, double frequency, Value value) {
   const auto n = static_cast<Eigen::Index>(samples.size());

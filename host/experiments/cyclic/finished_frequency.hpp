@@ -13,8 +13,8 @@ namespace macadam {
 std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
                                            double frequency);
 
-/// Returns the result of frequency `number` of a plan. `samples`: of this frequency. `seconds`: wall time [s].
-/// `rupture`: why its steps ended early, if they did; its numbers are then NaN.
+/// Returns the result of frequency `number` of a plan. `samples`: the samples of this frequency. `seconds`: wall time
+/// [s]. `rupture`: why the steps of this frequency ended early, if they did; the numbers of the result are then NaN.
 experiments::SteppedFrequency finished_frequency(const Scene& scene, const Plan& whole, std::size_t number,
                                                  std::span<const ResponseSample> samples, double seconds,
                                                  const std::optional<experiments::Rupture>& rupture);

@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// Returns the entry of a steady state in `results`.
+/// Returns the entry for a steady state in `results` of summary.json.
 nlohmann::ordered_json frequency_json(const experiments::HarmonicFrequency& f, const Scene& scene);
 
 /// Returns a table: a line of titles, and a line for each steady state.

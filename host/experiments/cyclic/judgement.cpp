@@ -19,15 +19,16 @@ using experiments::SteppedFrequency;
 
 namespace {
 
-/// Springs and dashpots give a phase angle of 0 to 90 degrees; start-up waves take it a little further.
+/// Springs and dashpots give a phase angle of 0 to 90 degrees. Start-up waves can take it beyond this range by up to
+/// this margin.
 constexpr double phase_margin_deg = 1;
 /// Largest residual of the fit, rms over the amplitude. With a residual of half the amplitude the stress is plainly not
 /// a sine. The residual does not measure accuracy.
 constexpr double largest_residual = 0.5;
-/// Factor on the modulus bound. The bound holds for a static specimen; waves of the start exceed it a little.
+/// Factor on the modulus bound. The bound holds without inertia; start-up waves can exceed it a little.
 constexpr double bound_margin = 1.05;
-/// Largest relative difference of the two walls' forces, which are equal without inertia. Solutions agree to 1e-9 or
-/// better.
+/// Largest accepted relative difference between the forces on the two walls, which are equal without inertia. In
+/// correct solutions they differ by 1e-9 or less.
 constexpr double wall_difference = 1e-6;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }

@@ -11,21 +11,21 @@
 
 namespace macadam {
 
-/// Steps in time, from the beginning or from a checkpoint. Each sample is written to response.csv at once. Decisions
-/// are stored in `result`. \throws InputError, also naming the checkpoint if its state is from another machine;
-/// RunError as make_plan() and make_stepper() do.
+/// Plans a run that steps in time, from the beginning or from a checkpoint. Each sample is written to response.csv at
+/// once. Decisions are stored in `result`. \throws InputError, also naming the checkpoint if its state is from another
+/// machine; RunError as make_plan() and make_stepper() do.
 std::unique_ptr<PlannedExperiment> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                               std::optional<Resumed> resumed, RunResult& result);
 
-/// Returns those entries of a frequency's result that both methods have.
+/// Returns the part of a frequency's result that time stepping and the frequency domain have in common.
 experiments::Frequency frequency_of(const Scene& scene, double frequency_hz, std::optional<double> temperature_c,
                                     double density_scaling, const Stiffness& stiffness, double seconds);
 
-/// Returns the list in a result that receives solved steady states.
+/// A function that returns the list in a result to which solved steady states are added.
 using ListOfStates = std::vector<experiments::HarmonicFrequency>& (*)(RunResult& result);
 
-/// Solves the steady states of the experiment's frequencies and temperatures and adds them to a list in the result.
-/// \throws as the constructor of Harmonic does.
+/// Plans a run that solves the steady states of the experiment's frequencies and temperatures and adds them to a list
+/// in the result. \throws as the constructor of Harmonic does.
 std::unique_ptr<PlannedExperiment> plan_harmonic(const Scene& scene, const Preparation& prepared,
                                                  const Watcher& watcher, RunResult& result, ListOfStates states);
 

@@ -58,8 +58,7 @@ class Planner {
   bool automatic() const { return scene_.solver.tolerance.has_value(); }
   double tolerance() const { return *scene_.solver.tolerance; }
   /// Returns the residual to which solutions are computed. The error of E* is of the order of the residual squared. The
-  /// error of the motion in a steady start is the residual itself, times the condition of K, which is about 1e5 at
-  /// most.
+  /// error of the motion in a steady start is the residual times the condition number of K, which is at most about 1e5.
   double planning_residual() const {
     return automatic() ? std::clamp(1e-5 * tolerance(), HarmonicOptions{}.tolerance, 1e-8)
                        : HarmonicOptions{}.tolerance;
@@ -164,7 +163,7 @@ class Planner {
       std::move(all.begin(), all.end(), out.begin());
     } catch (const InterruptedError&) { throw; } catch (const RunError&) {
       for (std::size_t i = 0; i < loads.size(); ++i)
-        out[i] = solution(loads[i]);  // one by one, so that a failed load does not cost the others their solutions
+        out[i] = solution(loads[i]);  // one by one, so that the other loads are solved even if one fails
     }
     for (const auto& r : out) {
       if (r && !r->why_factors.empty())

@@ -28,15 +28,16 @@ struct Plan {
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
-  double geometry_error = 0;  ///< about the largest error of |E*| from keeping the initial geometry
-  CriticalStep critical;      ///< at true mass
+  double geometry_error = 0;  ///< approximate largest error of |E*| if the initial geometry is kept
+  CriticalStep critical;      ///< critical time step at true mass
   std::vector<FrequencyPlan> frequencies;
   std::vector<std::string> decisions;  ///< the choices and their reasons, one sentence each
 };
 
-/// Keeps what the scene gives. With a tolerance, chooses the rest so that |E*| and φ are expected to differ by less
-/// than the tolerance from those of true mass; otherwise takes fixed defaults. `backend` takes the steps and also
-/// solves. The time of each part is added to `phases`. \throws RunError if the step would be hopelessly small.
+/// Keeps the settings that the scene gives. With a tolerance, chooses the others so that |E*| and φ are expected to
+/// differ by less than the tolerance from those at true mass; without a tolerance, uses fixed defaults. `backend`:
+/// takes the steps and solves in the frequency domain. The time of each part is added to `phases`. \throws RunError if
+/// the step would be hopelessly small.
 Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
                Backend backend, PhaseSeconds& phases);
 

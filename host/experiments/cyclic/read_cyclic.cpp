@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read.cpp  Reads `[loading]` of the cyclic test.
+// read_cyclic.cpp  Reads `[loading]` of the cyclic test.
 #include <fmt/format.h>
 
 #include "host/experiments/experiment.hpp"
@@ -14,8 +14,8 @@ const char* to_string(Start start) { return start == Start::steady ? "steady" : 
 
 template <>
 experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& section) {
-  // below 1e-20 the increments of a step are outside the range of single precision; rounding of the geometry is far
-  // larger
+  // at a strain below 1e-20 the increments of a step are outside the range of single precision; such a strain is also
+  // far below the rounding errors of the geometry
   constexpr Rule strain{[](double v) { return v >= 1e-20 && v < 1; }, "a strain from 1e-20 to below 1"};
   constexpr std::int64_t most = 1'000'000;
   constexpr Rule ramp{[](double v) { return v >= 0 && v <= most; }, "0 to 1,000,000 cycles"};

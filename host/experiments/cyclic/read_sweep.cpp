@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read.cpp  Reads `[loading]` of kind "sweep".
+// read_sweep.cpp  Reads `[loading]` of kind "sweep".
 #include "host/experiments/experiment.hpp"
 #include "host/experiments/read_points.hpp"
 #include "host/scene/shift_keys.hpp"

@@ -14,19 +14,19 @@ namespace macadam {
 struct FrequencyCracks {
   std::vector<experiments::CrackEvent> events;
   std::optional<experiments::Rupture> rupture;  ///< why the steps of this frequency ended early, if they did
-  double time_s = 0, strain = 0;                ///< at the sample at which the points were looked at last
+  double time_s = 0, strain = 0;                ///< at the last sample at which broken points were counted
 };
 
 /// Everything that a stepped run needs to continue with the same bits. The results of finished frequencies follow from
 /// plan and samples.
 struct RunState {
-  Plan plan;  ///< decided once: the harmonic solutions behind it are not needed again
+  Plan plan;  ///< decided once, so its harmonic solutions are not needed again
   double seconds_planning = 0;
   std::vector<double> seconds;          ///< wall time of each finished frequency
-  double seconds_running = 0;           ///< of the running frequency, until now
-  std::vector<std::string> warnings;    ///< about checkpoints that could not be written
-  std::vector<ResponseSample> samples;  ///< of all frequencies until now
-  std::vector<FrequencyCracks> cracks;  ///< of each frequency of the plan; empty for those that have not begun
+  double seconds_running = 0;           ///< wall time of the running frequency until now
+  std::vector<std::string> warnings;    ///< warnings about checkpoints that could not be written
+  std::vector<ResponseSample> samples;  ///< samples of all frequencies until now
+  std::vector<FrequencyCracks> cracks;  ///< one entry per frequency of the plan; empty if it has not begun
   std::vector<StateArray> state;  ///< Stepper::state() of the running frequency; set only when read from a checkpoint
 };
 

@@ -112,7 +112,7 @@ class PlannedHarmonic : public PlannedExperiment {
         const std::optional<std::vector<HarmonicResult>> solved = try_to_solve(i, end);
         if (solved) {
           take(*solved, result, save);
-        } else {  // one of them has no solution; those before it must not be lost for that
+        } else {  // one frequency has no solution; those before it are solved one by one and kept
           for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
         }
       } catch (const InterruptedError&) {
@@ -123,7 +123,8 @@ class PlannedHarmonic : public PlannedExperiment {
     }
   }
 
-  /// Returns nothing if one of several frequencies has no solution. \throws RunError if a single frequency has none.
+  /// Solves a range of frequencies together. Returns nothing if one of several frequencies has no solution. \throws
+  /// RunError if a single frequency has none.
   std::optional<std::vector<HarmonicResult>> try_to_solve(std::size_t first, std::size_t end) {
     try {
       return solve(first, end);

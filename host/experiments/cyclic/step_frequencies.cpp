@@ -45,7 +45,7 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   return options;
 }
 
-/// Reports the length of blocks among the decisions, if a tolerance decides it, the backend may step in blocks and
+/// Reports the length of blocks among the decisions if it follows from a tolerance, the backend may step in blocks, and
 /// blocks are not exact.
 void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
   const SolverSpec& solver = scene.solver;
@@ -94,7 +94,7 @@ class Steps : public PlannedExperiment {
         devices_(scene.solver.devices),
         owns_checkpoint_(resumed) {}
 
-  /// Makes the first stepper now, so that it refuses the scene before a file is touched.
+  /// Makes the first stepper before any file is changed, so that a scene that it refuses leaves all files as they were.
   void make_first(RunResult& result, const std::filesystem::path& checkpoint) {
     if (at_.seconds.size() == at_.plan.frequencies.size()) return;
     const bool resumed = !at_.state.empty();
@@ -151,8 +151,8 @@ class Steps : public PlannedExperiment {
     if (watcher_.warn) watcher_.warn(warning);
   }
 
-  /// Makes the stepper of a frequency, out of the stepper of another frequency if there is one. The run may move to
-  /// other devices here.
+  /// Makes the stepper of a frequency. If there is a stepper of another frequency, reuses its data. At this point the
+  /// run may move to other devices.
   std::unique_ptr<Stepper> make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const auto& all = at_.plan.frequencies;
@@ -248,7 +248,7 @@ class Steps : public PlannedExperiment {
   }
 
   /// Returns the course of a frequency. Every sample is stored in `at_` and written at once. Without a writer, only the
-  /// fitted cycles and the cycle before them are kept; this cycle shows the change from cycle to cycle.
+  /// fitted cycles and the cycle before them are kept. This cycle is needed for the change from cycle to cycle.
   Course course_of(std::size_t i, LineWriter* writer, CrackWatch& cracks, const Content& content) {
     const FrequencyPlan& p = at_.plan.frequencies[i];
     const std::int64_t per_cycle = scene_.cyclic().samples_per_cycle, per_period = p.loading.steps_per_period;
@@ -272,7 +272,7 @@ class Steps : public PlannedExperiment {
       if (looks(k)) look_for_cracks(i, cracks, now);
       if (k < kept) return;
       const Specimen& specimen = prepared_.specimen;
-      // particles pull a wall that moves away from them
+      // in tension the particles pull the top wall down, so the force on it is negative
       at_.samples.push_back({p.loading.frequency, now.time, now.top_displacement() / gauge_length(specimen),
                              -now.top_force() / section_area(specimen)});
       if (writer) writer->add(line_of(at_.samples.back()));
@@ -307,12 +307,12 @@ class Steps : public PlannedExperiment {
   RunState at_;
   DeviceList devices_;                ///< devices of the stepper
   bool may_move_ = true;              ///< whether the run may move to other devices
-  std::unique_ptr<Stepper> stepper_;  ///< of the running frequency, or of the first to run
+  std::unique_ptr<Stepper> stepper_;  ///< stepper of the running frequency or of the first one
   bool used_ = false;                 ///< whether the stepper has run a frequency
   std::optional<LineWriter> cracks_writer_;
   std::size_t samples_read_ = 0;  ///< number of samples of finished frequencies
   bool owns_checkpoint_;
-  std::future<StartState> next_start_;  ///< of the next frequency; the last member, because its thread uses the others
+  std::future<StartState> next_start_;  ///< start of the next frequency; the last member, as its thread uses the others
 };
 
 }  // namespace

@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, {"phase_rad", error.phase_rad}}; }
 
-/// Adds the derivatives by the logarithms of the parameters, and the part of the modulus that each pair carries.
+/// Adds the derivatives with respect to the logarithms of the parameters, and the part of the modulus that each pair
+/// carries.
 void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Json& out) {
   out["sensitivities"] = Json::array();
   for (const Sensitivity& s : sensitivities(f.parts, laws, {0, 2 * std::numbers::pi * f.frequency_hz})) {

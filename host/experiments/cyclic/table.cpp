@@ -16,7 +16,7 @@ using experiments::SteppedFrequency;
 
 namespace {
 
-/// Whether the frequencies have temperatures.
+/// Returns whether the frequencies have temperatures.
 template <class F>
 bool warm(const std::vector<F>& frequencies) {
   return !frequencies.empty() && frequencies.front().temperature_c;
@@ -27,7 +27,7 @@ bool confined(const std::vector<F>& frequencies) {
   return !frequencies.empty() && frequencies.front().confined;
 }
 
-/// Returns the symbol of the modulus. |E*| is the modulus of a specimen with free sides only.
+/// Returns the symbol of the modulus: |M*| if the sides are held, |E*| if they are free.
 const char* symbol(bool confined) { return confined ? "|M*|" : "|E*|"; }
 
 template <class F>

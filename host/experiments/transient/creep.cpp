@@ -13,7 +13,7 @@ using experiments::ResponsePoint;
 
 namespace {
 
-/// Returns the part of the stress that acts at time t.
+/// Returns the fraction of the held stress that acts at time t.
 double loaded(const LoadTimes& when, double t) {
   const auto grown = [&](double since) { return since < 0 ? 0 : when.ramp > 0 ? std::min(1.0, since / when.ramp) : 1; };
   return grown(t) - (when.release ? grown(t - *when.release) : 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error.cpp  Computes the differences from the answer without steps; without it, bounds from the ramp, the
-// damping and the walls.
+// load_error.cpp  Computes the errors of a stepped test as differences from the answer without time steps. If there is
+// no such answer, estimates them from the ramp, the damping and the forces on the walls.
 #include "host/experiments/transient/load_error.hpp"
 
 #include <fmt/format.h>
@@ -22,9 +22,10 @@ namespace {
 
 /// Tolerance of E(t) if errors are measured against it.
 constexpr double spectrum_tolerance = 1e-5;
-/// Up to this strain, updating the geometry changes stresses by less than 1 %: about three times the strain.
+/// Largest strain at which the update of the geometry may be neglected. The update changes stresses by about three
+/// times the strain, that is 0.3 % at this strain.
 constexpr double small_strain = 1e-3;
-/// A row with a larger error is named in a warning.
+/// A row of the result with a larger error than this is named in a warning.
 constexpr double largest_error = 1e-2;
 
 /// Returns the times of a load with the release rounded to a whole step, as in the run. A load that is removed at once
@@ -37,7 +38,8 @@ LoadTimes on_steps(const LoadTimes& asked, double ramp, double dt) {
   return out;
 }
 
-/// Returns the range of times after a change of load that the rows need, for the load as asked and as in the run.
+/// Returns the range of times after a change of the load for which the relaxation must be known to compute the rows of
+/// the result. The range covers both the ramp of the scene and the ramp of the run.
 std::pair<double, double> range_of(const TransientExperiment& test, const LoadPlan& plan) {
   std::vector<double> times;
   for (const double t : test.history.times) times.push_back(static_cast<double>(plan.step_at(t)) * plan.dt);
@@ -128,15 +130,16 @@ bool LoadErrors::is_known(const SteppedPoint& row, const std::vector<SteppedPoin
   return !updated_ || strain <= small_strain;  // a larger strain turns contacts, which the spectrum does not contain
 }
 
-/// Returns the parts of the error that is measured against the answer without steps.
+/// Returns the error of a row as a difference from the answer without steps, in two parts: the effect of the run's
+/// ramp, and the remainder.
 LoadErrors::Parts LoadErrors::measured(const SteppedPoint& row) const {
   const double asked = value(test_.unstepped(*spectrum_, row.time_s, asked_)),
                run = value(test_.unstepped(*spectrum_, row.time_s, run_));
   return {std::abs(run - asked), std::abs(value(row) - run)};
 }
 
-/// Returns the relative difference between the stresses of the two walls, or for a load by stress the largest relative
-/// difference between the load and these two.
+/// Returns the relative difference between the stresses on the two walls. If the load is a stress, returns the largest
+/// relative difference among this stress and the stresses on the two walls.
 double LoadErrors::walls(const SteppedPoint& row) const {
   const double apart = std::abs(row.top_pa - row.bottom_pa);
   if (test_.by_stress) {
@@ -151,8 +154,8 @@ double LoadErrors::walls(const SteppedPoint& row) const {
   return smaller > 0 ? apart / smaller : 0;
 }
 
-/// Returns stress over strain at the row; after a release, the held stress over the largest strain. At most the affine
-/// modulus.
+/// Returns stress over strain at the row; after a release, the held stress over the largest strain. The result is at
+/// most the affine modulus.
 double LoadErrors::modulus(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {
   double strain = std::abs(row.strain);
   if (is_released(row.time_s)) {
@@ -163,7 +166,8 @@ double LoadErrors::modulus(const SteppedPoint& row, const std::vector<SteppedPoi
 }
 
 /// Returns the largest relative rate of change [1/s] that the answer can have had over the last `window` seconds. E(t)
-/// is convex and J(t) concave: over the last part of a time they change less than on the average of all of it.
+/// is convex and J(t) is concave, so over the last part of a time they change more slowly than on average over the
+/// whole time.
 double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>& before, double modulus,
                         double window) const {
   if (test_.grows) return 1 / row.time_s;

@@ -13,8 +13,8 @@ namespace macadam {
 
 /// The relaxation of the specimen, from which the answer to any load follows without steps.
 struct UnsteppedAnswer {
-  PronySeries relaxation;  ///< of the whole specimen
-  double error = 0;        ///< of E(t) and J(t), relative
+  PronySeries relaxation;  ///< relaxation of the whole specimen
+  double error = 0;        ///< relative error of E(t) and J(t)
 };
 
 /// Solves the relaxation for the times of the rows. Returns nothing if that fails, and appends the reason to the
@@ -23,7 +23,8 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
                                                const Preparation& prepared, const Watcher& watcher, Backend backend,
                                                LoadPlan& plan);
 
-/// Errors of the rows of one stepped test, relative: of the stress, or, if the load is a stress, of the strain.
+/// Relative errors of the rows in the result of one stepped test: errors of the stress or, if the load is a stress, of
+/// the strain.
 class LoadErrors {
  public:
   /// `heavy_density`: mean density, including the density scaling [kg/m³]. The plan must outlive this object.
@@ -37,7 +38,7 @@ class LoadErrors {
   /// not known or zero.
   std::string ramp_words() const;
 
-  /// Describes what `error` of a table is.
+  /// Describes the meaning of the column `error` in the table of results.
   std::string meaning() const;
 
   /// Returns a warning that names the row with the largest error, its cause and what reduces it; empty if no error is
@@ -68,7 +69,7 @@ class LoadErrors {
   bool updated_ = true, damping_given_ = false;
   bool remembers_ = false;     ///< whether a law relaxes; if none does, only the present load has an effect
   double affine_modulus_ = 0;  ///< upper bound of the instantaneous modulus [Pa]
-  double wave_ = 0;  ///< ω² of the slowest wave over the modulus: π²/(ρ·H²), with a platen a quarter of it
+  double wave_ = 0;  ///< ω² of the slowest wave over the modulus: π²/(ρ·H²); a quarter of that with a platen
 };
 
 }  // namespace macadam

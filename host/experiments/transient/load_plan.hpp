@@ -16,7 +16,7 @@ struct LoadPlan {
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
-  CriticalStep critical;  ///< at true mass, with the platen
+  CriticalStep critical;  ///< critical time step at true mass, with the platen
   double density_scaling = 1;
   Damping damping_kind = Damping::none;
   double damping = 0;
@@ -28,9 +28,9 @@ struct LoadPlan {
   std::int64_t step_at(double time) const;  ///< the nearest step, at least 1
 };
 
-/// Keeps what the scene gives and chooses the rest; docs/relaxation.md explains how. \throws InputError for settings
-/// that do not apply to stepped tests of a load; RunError if the step is hopelessly small, or if the top wall touches
-/// nothing.
+/// Keeps the settings that the scene gives and chooses the others; docs/relaxation.md explains how. \throws InputError
+/// for settings that do not apply to stepped tests of a load; RunError if the step is hopelessly small, or if the top
+/// wall touches nothing.
 LoadPlan make_load_plan(const TransientExperiment& test, const Scene& scene, const Preparation& prepared,
                         const Inertia& inertia);
 

@@ -46,9 +46,10 @@ double ramp_of(const TransientExperiment& test, double slowest) {
   return given > 0 ? given : slowest;
 }
 
-// Weak damping leaves waves, and strong damping delays the slow motion: β is the least that the points need. A ramp
-// causes waves; their part of the stress is the time that a wave takes through the specimen over the duration of the
-// ramp. After a time t, viscous damping leaves e^(−β·t/2) of them.
+// Weak damping leaves waves, and strong damping delays the slow motion. Therefore β is the smallest value with which
+// the waves have decayed at the points. A ramp causes waves. Their amplitude relative to the stress is the time that a
+// wave takes through the specimen, divided by the duration of the ramp. After a time t, viscous damping leaves the
+// fraction e^(−β·t/2) of this amplitude.
 LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, double ramp, double slowest) {
   LoadDamping out{solver.damping_kind, solver.damping};
   if (solver.damping_given) return out;

@@ -20,7 +20,8 @@ struct LoadDamping {
   Damping kind = Damping::none;
   double value = 0;       ///< χ, or β [1/s]
   bool chosen = false;    ///< chosen by these rules, not by the scene; then it is viscous
-  bool critical = false;  ///< critical for the slowest wave: less would leave waves at the first points
+  bool critical = false;  ///< whether it is the critical damping of the slowest wave; weaker damping would leave waves
+                          ///< at the first points
   double pause = 0;       ///< shortest time from a change of the load's rate to the next point of the result [s]
 };
 

@@ -13,11 +13,11 @@ namespace macadam {
 struct LoadState {
   LoadPlan plan;
   experiments::Peak peak;                         ///< largest stress until now
-  std::optional<UnsteppedAnswer> unstepped;       ///< errors are measured against it; nothing: they are estimates
+  std::optional<UnsteppedAnswer> unstepped;       ///< errors are measured against it; if empty, they are estimates
   double seconds_planning = 0, seconds = 0;       ///< wall time [s]; `seconds`: of the stepping until now
-  std::vector<std::string> warnings;              ///< about checkpoints that could not be written
-  std::vector<experiments::SteppedPoint> points;  ///< until now
-  std::vector<experiments::CrackEvent> cracks;    ///< until the last of the points
+  std::vector<std::string> warnings;              ///< warnings about checkpoints that could not be written
+  std::vector<experiments::SteppedPoint> points;  ///< points reached until now
+  std::vector<experiments::CrackEvent> cracks;    ///< broken contact points until the last of `points`
   std::vector<StateArray> state;                  ///< Stepper::state(); set only when it is read from a checkpoint
 };
 

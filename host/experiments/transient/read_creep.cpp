@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read.cpp  Reads `[loading]` of kind "creep".
+// read_creep.cpp  Reads `[loading]` of kind "creep".
 #include <fmt/format.h>
 
 #include "host/experiments/transient/transient_experiment.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read.cpp  Reads `[loading]` of kind "relaxation".
+// read_relaxation.cpp  Reads `[loading]` of kind "relaxation".
 #include <cmath>
 
 #include "host/experiments/transient/transient_experiment.hpp"

@@ -188,7 +188,7 @@ class SteppedLoad : public PlannedExperiment {
                        cracks_.active() ? fmt::format(",{}", p.broken_points) : "");
   }
 
-  /// Whether the largest stress is recorded: in a strength test, not under a held load.
+  /// Returns whether the largest stress is recorded: in a strength test, not under a held load.
   bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
   /// Keeps the largest stress so far, with its time and strain.
   void follow_peak(const Observation& now) {
@@ -253,7 +253,7 @@ class SteppedLoad : public PlannedExperiment {
     SteppedPoint out{};
     out.time_s = now.time;
     out.strain = now.top_displacement() / gauge_length(prepared_.specimen);
-    out.top_pa = -now.top_force() / area;  // particles pull a wall that moves away from them
+    out.top_pa = -now.top_force() / area;  // in tension the particles pull the top wall down: negative force
     out.bottom_pa = now.wall_force[wall_index(wall_z_lo)].z / area;
     out.kinetic_j = at_.plan.density_scaling * kinetic_energy(stepper_->particles(), inertia_);
     const double none = std::numeric_limits<double>::quiet_NaN();
@@ -290,7 +290,7 @@ class SteppedLoad : public PlannedExperiment {
   void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
     if (found.rupture && !test_.grows) return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
     std::vector<SteppedPoint> whole = found.points;
-    if (found.rupture && !whole.empty()) whole.pop_back();  // the last point found the specimen in two pieces
+    if (found.rupture && !whole.empty()) whole.pop_back();  // at the last point the specimen was in two pieces
     if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
   }
 

@@ -23,8 +23,8 @@ double experiments::SteppedResponse::error() const {
 
 namespace {
 
-/// Whether the peak is the strength: the specimen broke, or points broke and the stress has fallen by more than 1 %
-/// from it.
+/// Returns whether the peak counts as the strength of the specimen: the specimen broke, or contact points broke and the
+/// stress then fell by more than 1 % below the peak.
 bool passed_peak(const SteppedResponse& found) {
   if (found.rupture) return true;
   constexpr double fallen = 0.99;

@@ -20,7 +20,7 @@ namespace macadam {
 /// Times at which a load grows and is removed.
 struct LoadTimes {
   double ramp = 0;                ///< time in which the load grows, and in which it is removed [s]; 0: at once
-  std::optional<double> release;  ///< when the removal begins [s]; nothing: never
+  std::optional<double> release;  ///< time at which the removal begins [s]; empty: never
 };
 
 /// Describes one of these tests. Both methods, stepped and without steps, use it.
@@ -34,17 +34,17 @@ struct TransientExperiment {
   std::function<experiments::ResponsePoint(const Spectrum&, double time, const LoadTimes& when)> unstepped;
 
   bool by_stress = false;             ///< the load is a stress; else a strain
-  LoadTimes when;                     ///< as the scene gives them
+  LoadTimes when;                     ///< times as given in the scene
   bool grows = false;                 ///< whether the load grows during the whole test; the ramp is then the whole test
-  std::optional<double> platen_mass;  ///< of a wall under a stress [kg]
+  std::optional<double> platen_mass;  ///< mass of the top wall if a stress loads it [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand
   double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
-  /// Returns the load in steps, [m] or [N]. `unit`: the load at a strain or a stress of 1. `dt` and `ramp` are the
-  /// run's.
+  /// Returns the load as a drive, [m] or [N]. `unit`: the displacement at a strain of 1, or the force at a stress of 1
+  /// Pa. `dt` and `ramp`: time step and ramp of the run.
   std::function<std::shared_ptr<const Drive>(double unit, double dt, double ramp)> drive;
 };
 
-/// Return the description of a test; each is defined in its own folder.
+/// Return the description of a test. Each function is defined in the source file of its test.
 /// @{
 TransientExperiment load_test(const experiments::Relaxation& spec);
 TransientExperiment load_test(const experiments::Creep& spec);
@@ -53,19 +53,20 @@ TransientExperiment load_test(const experiments::Monotonic& spec);
 /// Returns the description of the scene's test; an empty one for other experiments.
 TransientExperiment load_test_of(const Scene& scene);
 
-/// Names and units of a kind's numbers.
+/// Names and units of the numbers in the results of one kind of test.
 struct LoadWords {
   const char *kind, *file, *ratio;  ///< ratio: the name of ResponsePoint::ratio in files
-  const char* comment;              ///< in the file of a run without steps
+  const char* comment;              ///< comment in the file of a run without steps
   bool stress_first;                ///< whether the load's column comes before the response's
   const char* shown;                ///< the ratio's name for people, with its unit
   const char* shown_stepped;        ///< the same in a stepped run, for the ratio of strain and stress of a row
   double unit;                      ///< unit in which people see the ratio
 };
-/// Returns the names of a kind's numbers. \throws RunError for a kind that is not a test of a load.
+/// Returns the names and units for a kind of test. \throws RunError for a kind that is not a test of a load.
 const LoadWords& load_words(const std::string& kind);
 
-/// Return a point for the kind's file, for summary.json and for people, and the lines that stand above points.
+/// Return a point as text for the kind's file, for summary.json and for the terminal, and the header lines of the file
+/// and the terminal's table.
 /// @{
 std::string csv_head(const LoadWords& words);
 std::string csv_line(const LoadWords& words, const experiments::ResponsePoint& point);

@@ -35,14 +35,15 @@ struct Cyclic final : Drive {
   double rate(std::int64_t k) const override {
     const double half_step = std::numbers::pi / static_cast<double>(steps_per_period);
     double v = 2 * ramp(k, 1) * std::sin(half_step) * std::cos(phase(k, 1));
-    if (ramping(k)) {  // the sine at mid-step times the rise of r over the step; exact to second order in Δt
+    if (ramping(k)) {  // adds the rise of r over the step times the sine at mid-step; second order in Δt
       v += (ramp(k + 1, 0) - ramp(k, 0)) * std::sin(phase(k, 1));
     }
     return -amplitude * v / dt();
   }
 
  private:
-  /// A start in motion asks for step k = −1; no ramp precedes step 0.
+  /// Returns whether step k is within the ramp. A run that starts from a state of motion also asks for step −1, which
+  /// is not within the ramp.
   bool ramping(std::int64_t k) const { return k >= 0 && k < ramp_steps; }
   double phase(std::int64_t k, int half) const {
     const double in_period = static_cast<double>(k % steps_per_period) + 0.5 * half;

@@ -6,9 +6,10 @@
 
 namespace macadam {
 
-/// Prescribes a displacement [m] or a force [N] of a wall along one axis, at whole steps. boundary.hpp decides which of
-/// the two it is. Steppers read drives on the host, in tables of some thousand steps, so a drive of your own may take a
-/// microsecond per step. To add a drive: a header here, a line in all.hpp, a test.
+/// Prescribes a displacement [m] or a force [N] of a wall along one axis, at whole steps. The Boundary (boundary.hpp)
+/// decides whether the values are displacements or forces. Steppers read drives on the host, in tables of some thousand
+/// steps, so a drive of your own may take a microsecond per step. To add a drive, write a header here, a line in
+/// all.hpp and a test.
 class Drive {
  public:
   virtual ~Drive() = default;
@@ -25,11 +26,11 @@ class Drive {
   virtual double dt() const = 0;
 
   /// Returns the shortest time in which the value changes much [s]: a period, or the length of a ramp; ∞ if it never
-  /// does. In a run with blocks of steps, viscoelastic states are updated many times within it.
+  /// does. In a run with blocks of steps, viscoelastic states are updated many times within this time.
   virtual double shortest_time() const = 0;
 
   /// Returns whether the drive changes its form at step 0, for example by a ramp. A run that starts from a state of
-  /// motion needs drives that do not.
+  /// motion needs drives for which this is false.
   virtual bool begins() const { return true; }
 
   /// Returns the largest absolute rate [m/s] or [N/s].

@@ -12,14 +12,15 @@
 
 namespace macadam::drives {
 
-/// Rises over `ramp_steps` (at least one step, a jump), holds for `hold_steps`, and falls to 0 over `ramp_steps`.
+/// Rises over `ramp_steps` (at least one step; one step is a jump), holds for `hold_steps`, and falls to 0 over
+/// `ramp_steps`.
 struct Ramp final : Drive {
   static constexpr std::int64_t forever = std::numeric_limits<std::int64_t>::max();
   double height = 0;            ///< [m] or [N]
   double step = 0;              ///< Δt [s]
   std::int64_t ramp_steps = 1;  ///< at least 1
   std::int64_t hold_steps = forever;
-  bool smooth = false;  ///< a half cosine instead of a line, which causes smaller waves
+  bool smooth = false;  ///< whether the ramp is a half cosine, which causes smaller waves than a line
 
   Ramp() = default;
   Ramp(double height, double step, std::int64_t ramp_steps = 1, std::int64_t hold_steps = forever, bool smooth = false)

@@ -14,10 +14,11 @@
 
 namespace macadam::drives {
 
-/// Before the first time it has the first value, after the last time the last value.
+/// Values between the given times are interpolated linearly. Before the first time the drive has the first value, and
+/// after the last time it has the last value.
 class Table final : public Drive {
  public:
-  /// `times` [s] must ascend, at least two; one of `values` [m] or [N] for each. \throws InputError naming the row.
+  /// `times` [s]: at least two, ascending. `values` [m] or [N]: one for each time. \throws InputError naming the row.
   Table(double step, std::vector<double> times, std::vector<double> values)
       : step_(step), times_(std::move(times)), values_(std::move(values)) {
     if (times_.size() != values_.size() || times_.size() < 2) {

@@ -15,16 +15,17 @@
 
 namespace macadam {
 
-/// The `[loading]` of a scene: one of these, by its `kind`.
+/// The experiment that `[loading]` of a scene requests. Its `kind` selects one of these types.
 using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
                                 experiments::Monotonic>;
 
-/// The result of an experiment, by the method that ran; monostate before a run.
+/// The result of an experiment. Its type depends on the experiment and on the method that ran; it is monostate before a
+/// run.
 using ExperimentResult =
     std::variant<std::monostate, experiments::SteppedCyclic, experiments::HarmonicCyclic, experiments::SweepResult,
                  experiments::SpectrumResponse, experiments::SteppedResponse>;
 
-/// Returns `kind` in `[loading]`.
+/// Returns the name of the experiment, which is the value of `kind` in `[loading]`.
 inline const char* kind_of(const Experiment& experiment) {
   return std::visit([](const auto& spec) { return spec.kind; }, experiment);
 }

@@ -13,7 +13,7 @@ namespace macadam::experiments {
 
 /// A contact point that was intact at one sample and broken at the next.
 struct CrackEvent {
-  std::uint32_t contact = 0, point = 0;  ///< index in ContactNetwork::contacts and in its point arrays
+  std::uint32_t contact = 0, point = 0;  ///< indices in `contacts` and in the point arrays of ContactNetwork
   Break how = Break::none;
   double time_s = 0;  ///< time of the first sample at which the point is broken
 };
@@ -31,9 +31,9 @@ struct Cracks {
   std::vector<CrackEvent> events;              ///< by time, then by contact and point
   std::array<PairCracks, pair_types> by_pair;  ///< by PairType
 
-  /// Number of broken points.
+  /// Returns the number of broken points.
   std::int64_t points() const { return static_cast<std::int64_t>(events.size()); }
-  /// Number of points whose law can break.
+  /// Returns the number of points whose law can break.
   std::int64_t breakable() const {
     std::int64_t out = 0;
     for (const PairCracks& pair : by_pair) out += pair.breakable;
@@ -41,10 +41,11 @@ struct Cracks {
   }
 };
 
-/// Why a test ended before its last point: no path of intact contacts connected the bottom and top walls.
+/// The rupture that ended a test before its last point: no path of intact contacts connected the bottom and top walls
+/// any more.
 struct Rupture {
-  double time_s = 0, strain = 0;                ///< at the sample at which this was found
-  double time_before_s = 0, strain_before = 0;  ///< at the sample before it
+  double time_s = 0, strain = 0;                ///< at the first sample after the rupture
+  double time_before_s = 0, strain_before = 0;  ///< at the last sample before the rupture
 };
 
 }  // namespace macadam::experiments

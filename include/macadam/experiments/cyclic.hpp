@@ -28,7 +28,8 @@ struct Cyclic {
   static constexpr std::array files = {"response.csv"};  ///< files that a run may write
 
   std::vector<double> frequencies;  ///< [Hz]
-  /// [°C]; every frequency is solved at each; harmonic method only; empty: Materials::temperature.
+  /// [°C]; every frequency is solved at each temperature. Harmonic method only. If empty, Materials::temperature is
+  /// used.
   std::vector<double> temperatures;
   double strain_amplitude = 1e-4;  ///< relative to the height of the specimen
   std::optional<Start> start;
@@ -37,8 +38,8 @@ struct Cyclic {
   std::optional<int> fit_cycles;      ///< number of cycles at the end that are fitted
   int samples_per_cycle = 500;        ///< samples per cycle in response.csv
 
-  /// Returns how many cycles at the end are fitted out of `of_cycles`: as given, otherwise two of four or more,
-  /// otherwise one.
+  /// Returns the number of cycles that are fitted at the end of a test of `of_cycles` cycles: `fit_cycles` if it is
+  /// given, otherwise two if the test has at least four cycles, else one.
   int fitted(int of_cycles) const { return fit_cycles.value_or(of_cycles >= 4 ? 2 : 1); }
 };
 
@@ -51,14 +52,14 @@ struct SteppedFrequency : Frequency {
   Start start = Start::rest;
   /// Whether the requested tolerance was kept; empty without a harmonic solution to compare with.
   std::optional<bool> kept;
-  /// Relative to the harmonic solution at true mass, if there is one.
+  /// Predicted and measured difference from the harmonic solution at true mass; empty without such a solution.
   std::optional<ErrorEstimate> predicted, achieved;
   /// Contact points that broke; empty if no law of the scene can break. Each frequency begins with an intact specimen.
   std::optional<Cracks> cracks = {};
   /// Why the steps of this frequency ended early, if they did. |E*| and φ are then NaN.
   std::optional<Rupture> rupture = {};
 
-  double residual() const { return cyclic.fit_rms; }  ///< rms of the stress that the fit leaves, over its amplitude
+  double residual() const { return cyclic.fit_rms; }  ///< rms difference of the stress from its fit, over its amplitude
 };
 
 /// Result of a cyclic test by method "explicit".

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file frequency.hpp  Defines the result at one frequency, found by stepping or as the steady state of the frequency
-/// domain.
+/// \file frequency.hpp  Defines the result at one frequency. It is computed by time stepping or as a steady state in
+/// the frequency domain.
 #pragma once
 
 #include <optional>
@@ -24,20 +24,20 @@ struct Frequency {
   double frequency_hz = 0;
   std::optional<double> temperature_c;  ///< empty if the scene has none
   Stiffness stiffness;                  ///< from the reaction of the top wall
-  bool confined = false;                ///< whether the sides were held, so that it is a confined modulus
-  double density_scaling = 1;           ///< of the inertia included in the result
+  bool confined = false;                ///< whether the sides were held; the modulus is then a confined one
+  double density_scaling = 1;           ///< density scaling of the inertia that the result includes
   double seconds = 0;                   ///< wall time of the solution
   std::string fault;                    ///< why the result cannot be right; empty if no fault is known
 };
 
-/// Result of the frequency domain.
+/// Result of a solution in the frequency domain.
 struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
   ModulusParts parts;   ///< parts of E*; |E*| and φ belong to their sum
   Stiffness bottom;     ///< from the reaction of the bottom wall
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
-  double held_force = 0;                          ///< force that holds free rigid motions, over the reaction
+  double held_force = 0;                          ///< force that holds free rigid motions, over the wall's reaction
 };
 
 }  // namespace experiments

@@ -17,11 +17,12 @@ namespace macadam::experiments {
 struct ResponsePoint {
   double time_s, strain, stress_pa;
   /// Relaxation: E(t) after a step of strain [Pa]. Creep: J(t) after a step of stress [1/Pa]. Constant rate: stress
-  /// over strain [Pa]. In stepped tests it is the ratio of this strain and this stress; NaN while the load is off.
+  /// over strain [Pa]. In stepped tests it is computed from the strain and the stress of this point; NaN while the load
+  /// is off.
   double ratio;
 };
 
-/// Result from the relaxation spectrum, method "harmonic".
+/// Result of method "harmonic", which computes the response from the relaxation spectrum.
 struct SpectrumResponse {
   std::string kind;  ///< kind of the test
   Material material;
@@ -31,7 +32,7 @@ struct SpectrumResponse {
 /// A point of a stepped test, with measures of how near it is to equilibrium. Stresses are forces over the
 /// cross-section.
 struct SteppedPoint : ResponsePoint {
-  double top_pa, bottom_pa;  ///< from the forces of the particles on the walls
+  double top_pa, bottom_pa;  ///< stresses from the forces of the particles on the top and bottom walls
   double kinetic_j;          ///< kinetic energy of the particles, density scaling included
   double error;  ///< relative difference of the stress (creep: of the strain) from the solution without time steps
   std::int64_t broken_points = 0;  ///< number of broken contact points; 0 if no law can break
@@ -42,12 +43,12 @@ struct Peak {
   double time_s = 0, strain = 0, stress_pa = 0;
 };
 
-/// Result by method "explicit".
+/// Result of method "explicit".
 struct SteppedResponse : Stepped {
   std::string kind;
   bool confined = false;  ///< whether the sides were held
   std::vector<SteppedPoint> points;
-  double ramp_s = 0;          ///< duration of the rise of the load; constant rate: of the whole test
+  double ramp_s = 0;          ///< duration of the rise of the load; for a constant rate, of the whole test
   double platen_mass_kg = 0;  ///< mass of the top wall, without density scaling; 0: its displacement was prescribed
   double density_scaling = 1;
   Damping damping_kind = Damping::none;

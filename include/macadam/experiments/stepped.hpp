@@ -9,8 +9,8 @@
 
 namespace macadam::experiments {
 
-/// Whether an experiment is stepped: never; only if the scene asks for it; unless the scene asks for another
-/// method.
+/// Whether an experiment is stepped. `never`: it cannot be stepped. `if_asked`: only if the scene asks for it. `usual`:
+/// unless the scene asks for another method.
 enum class Stepping : std::uint8_t { never, if_asked, usual };
 
 /// Report on how an experiment was stepped.

@@ -16,7 +16,7 @@ namespace macadam {
 /// Any one law. To add a law, add its type here.
 using Law = std::variant<laws::Elastic, laws::GeneralisedKelvin, laws::BrittleBond>;
 
-/// One law for each pair type, by PairType; otherwise empty.
+/// The law of each pair type, indexed by PairType; empty for pair types without a law.
 using LawTable = std::array<std::optional<Law>, pair_types>;
 
 }  // namespace macadam

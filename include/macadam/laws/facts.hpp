@@ -32,9 +32,9 @@ struct LawFacts {
   double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
   int units = 0;                                                   ///< state numbers per component besides f
   int only_units = -1;                                     ///< the number of units, if fixed at compile time; −1: any
-  bool memoryless = false, linear = true, blocks = false;  ///< see law.hpp, also for the next two
-  bool coupled = false;                                    ///< whether normal and shear of a point act on one another
-  bool stiffness = true;                                   ///< whether it can be solved in the frequency domain
+  bool memoryless = false, linear = true, blocks = false;  ///< see law.hpp
+  bool coupled = false;                                    ///< whether opening and slips of a point act on one another
+  bool stiffness = true;                                   ///< whether the law can be used in the frequency domain
   bool breaks = false;                                     ///< whether its contact points can break
 };
 
@@ -42,7 +42,7 @@ struct LawFacts {
 /// @{
 template <class L>
 inline constexpr bool memoryless_law = L::template Step<double>::memoryless;
-/// Whether f is a linear function of the history of x.
+/// Returns whether f is a linear function of the history of x.
 template <class L>
 constexpr bool is_linear() {
   if constexpr (requires { L::linear; })
@@ -89,7 +89,7 @@ constexpr int units_of() {
 }
 /// @}
 
-/// Returns the properties of a law; of each law in a table.
+/// Returns the properties of a law. The overload below does so for each law of a table.
 template <class L>
 LawFacts facts_of(const L& law) {
   return {L::name,       law.alpha,      law.instantaneous(), law.shortest_time(),
@@ -109,7 +109,7 @@ FactsTable facts_of(const std::array<std::optional<std::variant<L...>>, pair_typ
   return out;
 }
 
-/// Returns whether a law of the table can break.
+/// Returns whether the table has a law whose contact points can break.
 inline bool can_break(const FactsTable& laws) {
   for (const auto& law : laws) {
     if (law && law->breaks) return true;

@@ -139,10 +139,10 @@ struct GeneralisedKelvin {
     static constexpr int most_units = max_units;
     double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]
     double recover[max_units];   ///< r_l [1]
-    double ahead[max_units];     ///< (M − 1)·Δt/(2·a_l·η_l): what f adds to x_l until the middle [1/Pa]
-    double back[max_units];      ///< (M − 1)/2·r_l: the fraction of x_l lost until the middle [1]
-    double lost[max_units];      ///< 1 − (1 − r_l)^M [1]
-    double gain[max_units];      ///< Δt/(2·a_l·η_l) times the mean of (1 − r_l)^k over k < M [1/Pa]
+    double ahead[max_units];  ///< (M − 1)·Δt/(2·a_l·η_l): growth of x_l until the block's middle, per f [1/Pa]
+    double back[max_units];   ///< (M − 1)/2·r_l: fraction of x_l lost until the middle of the block [1]
+    double lost[max_units];   ///< 1 − (1 − r_l)^M [1]
+    double gain[max_units];   ///< Δt/(2·a_l·η_l) times the mean of (1 − r_l)^k over k < M [1/Pa]
     int n;
 
     /// Takes the coefficients of settle() from the block that ends.

@@ -18,9 +18,9 @@
 ///     `template <int L, class S, class Units> S advance(S f, S dx, Units&& x) const`, which returns f(t+Δt) for the
 ///     displacement increment dx and updates the unit states x(0)…x(L−1) (references). L = −1 means that the number of
 ///     units is only known at run time. `static constexpr bool memoryless` says whether f is a function of x alone;
-///     then `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state.
-/// The concept SteppableLaw below checks these members, and steppers require it by name. A law of the library's own
-/// list (all.hpp) also has
+/// then `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state. The
+/// concept SteppableLaw below checks these members. Code that makes steppers requires this concept of its laws. A law
+/// of the library's own list (all.hpp) also has
 ///   - `template <class F> void each_key(F&& f)` — calls f(key, member, ValueKind, ValueNeed) for each value that a
 ///     scene may set, a double or a std::vector<double>, in the order in which the scene file names them.
 /// All of the following members are optional:
@@ -60,8 +60,8 @@
 /// S is a number or, on the CPU, a packet of numbers. So a law must not branch; it uses select().
 ///
 /// Laws do not own memory and do not depend on arrays or threads. A law may use its units for states of any kind:
-/// damage, slip, plasticity. To add a law: a header here, a line in all.hpp, a reference implementation in
-/// host/reference, a test. A program may also have laws of its own (examples/own_law).
+/// damage, slip, plasticity. To add a law, write a header here, a line in all.hpp, a reference implementation in
+/// host/reference and a test. A program may also have laws of its own (examples/own_law).
 #pragma once
 
 #include <concepts>
@@ -77,7 +77,7 @@ namespace macadam::laws {
 /// Kind of a value, in [Pa], [Pa·s], [Pa]. The factor `delta` of a scene applies to moduli and viscosities, not to
 /// strengths.
 enum class ValueKind : std::uint8_t { modulus, viscosity, strength };
-/// A value that may be infinite is also optional.
+/// Whether a scene must give a value. A value that may be infinite is also optional.
 enum class ValueNeed : std::uint8_t { required, optional, may_be_infinite };
 
 /// A value of a law that is valid by itself but does not fit the others.

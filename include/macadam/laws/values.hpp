@@ -40,7 +40,7 @@ inline bool usable(const Law& law) {
   return good;
 }
 
-/// Returns whether a law has viscosities, which temperature shifts.
+/// Returns whether a law has viscosities. Only these change with temperature.
 inline bool flows(const Law& law) {
   bool out = false;
   std::visit(
