@@ -44,8 +44,8 @@ struct Case {
 
 /// The result after a number of cycles.
 struct Outcome {
-  int cycles = 0,
-      fit_cycles = 0;  ///< fit_cycles: number of cycles that are fitted: the last two of four or more, otherwise one
+  int cycles = 0, fit_cycles = 0;  ///< fit_cycles: number of the last cycles that are fitted; two if there are four or
+                                   ///< more, otherwise one
   Stiffness found;
   Stiffness truth;              ///< frequency-domain solution of the same network with true mass
   Stiffness own;                ///< frequency-domain solution with the inertia and viscous damping of the run

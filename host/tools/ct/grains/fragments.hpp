@@ -23,10 +23,11 @@ struct Fragments {
   std::vector<Face> faces;
 };
 
-/// Adds voxels in the order of falling distance. A voxel without a labelled neighbour starts a basin, others join the
-/// basin of their highest neighbour. Two basins that meet are merged if the distance there is above `ratio` times the
-/// smaller one's maximum, or within half a voxel of it. The criterion is relative because with an absolute depth the
-/// number of grains would depend on the depth chosen.
+/// Adds voxels in the order of decreasing distance from the surface. A voxel without a labelled neighbour starts a
+/// basin; any other voxel joins the basin of its neighbour with the largest distance. Where two basins meet, they are
+/// merged if the distance at the meeting voxel is above `ratio` times the smaller one of the two basins' largest
+/// distances, or less than half a voxel below it. The criterion is relative because with an absolute depth the number
+/// of grains would depend on the depth chosen.
 Fragments flood(const Image<float>& distance, const Image<float>& grey, double ratio);
 
 }  // namespace macadam::ct
