@@ -56,8 +56,8 @@ MAKINGS = [OURS, Choice(voids=1), Choice(test="spheres"), Choice(voids=1, test="
            Choice(test="spheres", hold_out=3), Choice(voids=0.5, test="spheres")]
 CONTACTS = [OURS, Choice(inner_gap=0.0), Choice(inner_gap=-0.05), Choice(inner_gap=-0.1), Choice(inner_gap=-0.15),
             Choice(inner_modulus=0.5), Choice(area_min=0.026), Choice(inner_gap=-0.1, area_min=0.026)]
-# Radii of the coarse spheres for `narrow` [m]. The mean volume of these spheres is 0.82 times the mean volume of spheres
-# with radii uniform in 1 to 2 mm; 0.82 is the smallest such ratio in Table 3.
+# Radii of the coarse spheres for `narrow` [m]. The mean volume of these spheres is 0.82 times the mean volume of
+# spheres with radii uniform in 1 to 2 mm; 0.82 is the smallest such ratio in Table 3.
 NARROW = (1.35e-3, 1.55e-3)
 
 
