@@ -61,8 +61,8 @@ std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& ta
                                 const std::vector<double>& temperatures) {
   if (u.shift == ShiftKind::none) return {};
   std::vector<double> log_a = master_curve_shift(targets, temperatures);
-  // Shifts log_a so that it is 0 at the reference temperature. If that temperature was not measured, log_a is
-  // interpolated linearly.
+  // Adds a constant to log_a so that it is 0 at the reference temperature. If that temperature was not measured, log_a
+  // is interpolated linearly.
   const auto above = std::clamp<std::ptrdiff_t>(
       std::lower_bound(temperatures.begin(), temperatures.end(), u.reference_temperature) - temperatures.begin(), 1,
       std::ssize(temperatures) - 1);

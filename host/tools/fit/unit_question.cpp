@@ -52,9 +52,9 @@ void ask_about_moduli(const ModulusData& data, const ColumnsRead& columns, Compl
                              smallest, column.substr(0, column.size() - 3)));
 }
 
-/// Returns whether the moduli rise too steeply with frequency for the phases. A slope d ln|E*|/d ln f goes with a phase
-/// of about 90 degrees times the slope (Kramers–Kronig relation). So phases that are in radians look 57 times too
-/// small.
+/// Returns whether the moduli rise too steeply with frequency for the phases. The phase of a material is about 90
+/// degrees times the slope d ln|E*|/d ln f (Kramers–Kronig relation). If phases are in radians, they are 57 times too
+/// small for the slope.
 bool moduli_contradict_phases(const ModulusData& data) {
   std::map<double, std::pair<const ModulusPoint*, const ModulusPoint*>> ends;  // slowest and fastest by temperature
   for (const ModulusPoint& p : data.points) {

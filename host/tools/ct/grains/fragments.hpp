@@ -24,10 +24,10 @@ struct Fragments {
 };
 
 /// Adds voxels in the order of decreasing distance from the surface. A voxel without a labelled neighbour starts a
-/// basin; any other voxel joins the basin of its neighbour with the largest distance. Where two basins meet, they are
-/// merged if the distance at the meeting voxel is above `ratio` times the smaller one of the two basins' largest
-/// distances, or less than half a voxel below it. The criterion is relative because with an absolute depth the number
-/// of grains would depend on the depth chosen.
+/// basin; any other voxel joins the basin of its neighbour with the largest distance. Let d be the distance of a voxel
+/// at which two basins meet, and m the smaller one of the two basins' largest distances. The basins are merged if d is
+/// above `ratio`·m or less than half a voxel below m. The criterion is relative because with an absolute depth the
+/// number of grains would depend on the depth chosen.
 Fragments flood(const Image<float>& distance, const Image<float>& grey, double ratio);
 
 }  // namespace macadam::ct

@@ -156,7 +156,7 @@ ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
     origin[axis] = io.GetOrigin(axis);
     known = known || spacing[axis] != 1;
   }
-  known = known && !is_tiff(file);  // TIFF has a resolution only for printing and only for two axes
+  known = known && !is_tiff(file);  // the resolution in a TIFF file is for printing, and for two axes only
   header.notes = facts.notes;
   note_directions(io, header.notes);
   const double unit = facts.unit.value_or(0);
