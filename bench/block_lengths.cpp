@@ -3,8 +3,8 @@
 // Writes CSV to standard output.
 //
 // The program repeats the stepping in blocks of the GPU backend (kernels/cuda/tiles/tile_blocks.hpp) in simple code and
-// in double precision, for small networks of spheres with fixed geometry, from the steady state. Each row compares with
-// blocks of one step at the same time step and masses. It takes some minutes.
+// in double precision. It steps small networks of spheres with fixed geometry from the steady state. Each row compares
+// a block length with blocks of one step at the same time step and masses. The program takes some minutes.
 #include <fmt/format.h>
 
 #include "host/run/error_model.hpp"
@@ -136,8 +136,8 @@ Stiffness stepped(const test::TestScene& scene, const StartState& start, const d
   return evaluate_cyclic(response, loading.frequency, 1).fit;
 }
 
-/// Prints one row for each block length. The length is given as the number of blocks in the shortest time of load and
-/// laws.
+/// Prints one row for each block length. The length is given as the number of blocks in the shortest time scale of the
+/// case: the period of the load or 2π times the shortest relaxation time of the laws.
 void run(const Case& c) {
   auto scene = test::make_scene(test::random_specimen(3, c.cells, c.cells, c.cells * 3 / 2), {},
                                 std::string(c.binder) == "AM2" ? test::am2_laws() : test::am1_laws());

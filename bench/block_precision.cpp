@@ -4,8 +4,8 @@
 //
 // Changes of force within a block, and their sums, are in single precision. The program steps the specimen t8 with
 // fixed geometry through one cycle of 20 Hz from the steady state. The period has enough steps that blocks can be as
-// long as kernels::longest_block allows. It compares with the same steps in double precision, which does not use
-// blocks. It takes some minutes.
+// long as kernels::longest_block allows. The result is compared with the same steps in double precision, which does not
+// use blocks. The program takes some minutes.
 //
 // usage: block_precision [cpu|cuda]
 #include <fmt/format.h>

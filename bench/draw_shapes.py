@@ -17,7 +17,7 @@ from PIL import Image  # noqa: E402
 COLUMNS = 12
 VIEW = np.array([[0.80, -0.60, 0.0], [0.21, 0.28, 0.936], [-0.562, -0.749, 0.351]])  # rows: directions right, up,
                                                                                      # towards the viewer
-LIGHT = np.array([-0.45, 0.65, 0.61])  # direction of the light in that frame
+LIGHT = np.array([-0.45, 0.65, 0.61])  # direction of the light in the frame of VIEW
 
 
 def read_off(path):

@@ -33,7 +33,8 @@ std::vector<ShapeTemplate> shapes_of(const std::string& folder) {
   return shapes;
 }
 
-/// Places one recipe and prints what was reached per size class.
+/// Places the aggregates of one recipe and prints, for each size class, how many were placed and how many were asked
+/// for.
 void run(const char* name, const std::vector<ShapeTemplate>& shapes, PlacementMethod method, std::uint64_t seed,
          std::int64_t attempts) {
   SpecimenSpec recipe = test::design_formulation();

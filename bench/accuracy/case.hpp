@@ -15,7 +15,7 @@ namespace macadam::accuracy {
 
 /// Settings of a run. The defaults are the base case, about which one factor is varied at a time.
 struct Case {
-  std::string study;             ///< study for which it is run; names the figure or table that it belongs to
+  std::string study;             ///< study to which the run belongs; also the name of its figure or table
   std::string scene = "t8";      ///< specimen: "t8", "demo", "full", "seed N" (another mixture in a smaller box),
                                  ///< "clusters", "few clusters", "grid NxNxN" (spheres of all pair types at jittered
                                  ///< grid points)
@@ -25,7 +25,7 @@ struct Case {
   double frequency = 20;         ///< [Hz]
   double density_scaling = 1;    ///< multiplies mass and inertia
   std::int64_t cycle_steps = 0;  ///< steps per cycle; if not 0, it determines the density scaling
-  double step_share = 0.95;      ///< time step over critical_step()
+  double step_share = 0.95;      ///< time step divided by critical_step()
   Backend backend = Backend::cpu;
   Precision precision = Precision::mixed;
   ContactForm form = ContactForm::condensed;
@@ -34,8 +34,8 @@ struct Case {
   double damping = 0;  ///< χ of local damping, or β of viscous damping [1/s]
   Start start = Start::steady;
   double ramp_cycles = 0;
-  std::vector<int> cycles{1};  ///< numbers of cycles to evaluate; there is one run up to the last of them, and one line
-                               ///< of the table for each
+  std::vector<int> cycles{1};  ///< numbers of cycles after which the result is evaluated. There is one run, up to the
+                               ///< last of them; each number gives one line of the table.
   Quadrature quadrature = Quadrature::lumped;
   std::optional<double> gap_max, area_min;
   double strain = 1e-4;             ///< amplitude of the strain
@@ -44,7 +44,8 @@ struct Case {
 
 /// The result after a number of cycles.
 struct Outcome {
-  int cycles = 0, fit_cycles = 0;  ///< fit_cycles: number of cycles fitted; the last two of four or more, otherwise one
+  int cycles = 0, fit_cycles = 0;  ///< fit_cycles: number of the last cycles that are fitted; two if there are four or
+                                   ///< more, otherwise one
   Stiffness found;
   Stiffness truth;              ///< frequency-domain solution of the same network with true mass
   Stiffness own;                ///< frequency-domain solution with the inertia and viscous damping of the run
@@ -57,7 +58,7 @@ struct Outcome {
                                 ///< meet the tolerance
   double dt = 0, step_share = 0;
   std::int64_t steps = 0, bytes = 0, contacts = 0;
-  std::string status = "done";  ///< otherwise the reason of the failure
+  std::string status = "done";  ///< "done", or the reason why the run failed
 };
 
 /// Writes the CSV of all runs: one line per outcome, with every setting in a column of its own. Each line is flushed.

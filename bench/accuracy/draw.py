@@ -118,7 +118,7 @@ class Drawing:
         self.save(figure, f"front-{name}")
 
     def front_clusters(self):
-        """Draws the same for clusters and for binder AM2, for the steady start only."""
+        """Draws the error against the run time for clusters and for binder AM2, for the steady start only."""
         groups = {("clusters", "AM1"): "tab:purple", ("clusters", "AM2"): "tab:red", ("seed 101", "AM2"): "tab:brown"}
         found = {group: [r for r in done(select(self.rows, scene=group[0], mix=group[1], **USUAL))
                          if r["study"] in ("front", "tolerance")] for group in groups}
@@ -155,8 +155,8 @@ class Drawing:
                         fontsize=7, color="0.3")
 
     def drift_differences(self):
-        """Yields (row, difference from double precision at the same settings). If double was not run, the
-        difference is taken from the frequency-domain solution."""
+        """Yields (row, difference from double precision at the same settings). If there is no run in double precision
+        at these settings, the difference from the frequency-domain solution is taken instead."""
         rows = done(select(self.rows, study="drift"))
         def key(r):
             return tuple(r[k] for k in ("scene", "mix", "frequency_hz", "density_scaling", "cycles", "geometry"))

@@ -57,7 +57,8 @@ class List {
     return c;
   }
 
-  /// The stiffer the contacts, the more steps, so that the error of inertia stays small.
+  /// Adds runs with stiffened contacts. The stiffer the contacts, the more steps a run has, so that the error of
+  /// inertia stays small.
   void stiffer() {
     const auto add_stiff = [&](const char* scene, const char* what, double factor, std::int64_t steps) {
       Case& c = add(scene, "AM1", 20, steps);
@@ -72,7 +73,7 @@ class List {
     }
   }
 
-  /// Adds runs with updated geometry, with points, from rest, and over several cycles.
+  /// Adds runs with updated geometry, with contact points, from rest, and over several cycles.
   void otherwise() {
     for (const char* scene : {"t8", "few clusters", "grid 2x2x30"}) {
       add(scene, "AM1", 20, 100'000).geometry = Geometry::updated;
@@ -89,7 +90,7 @@ class List {
 
 constexpr const char* first_columns = "backend,scene,mix,stiff,factor,";
 
-/// Returns the comment lines and the rows that a table has for other backends.
+/// Returns the comment lines and the rows of an existing table that belong to other backends.
 std::pair<std::string, std::string> of_others(const std::filesystem::path& csv, const std::string& backend) {
   std::pair<std::string, std::string> out;
   std::ifstream in(csv);

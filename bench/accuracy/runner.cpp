@@ -54,8 +54,8 @@ Preparation prepare_case(const std::string& name, const Scene& scene) {
 
 }  // namespace
 
-/// A specimen with its contacts for one choice of quadrature and filters, and its frequency-domain solutions, which are
-/// kept.
+/// A specimen with its contacts for one choice of quadrature and filters. It keeps the frequency-domain solutions that
+/// were computed for it.
 struct Runner::Network {
   Preparation prepared;
   LawTable laws;
@@ -247,7 +247,7 @@ std::vector<Outcome> Runner::run_asked(Case& c) {
 /// Returns the stepping time of the best settings that an expert who knows the exact result would find: single
 /// precision, fixed geometry, one cycle from the steady start, a time step beyond the proven limit, and the density
 /// scaling raised until the error is just below the tolerance. Only the stepping counts, because the steady start needs
-/// the frequency-domain solution in both cases. Infinite if no run meets the tolerance.
+/// the frequency-domain solution in both cases. Returns infinity if no run meets the tolerance.
 double Runner::seconds_by_hand(const Case& asked) {
   Case hand = asked;
   hand.tolerance = std::nullopt;

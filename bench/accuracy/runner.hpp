@@ -10,7 +10,7 @@
 
 namespace macadam::accuracy {
 
-/// Runs cases and keeps what several of them need.
+/// Runs cases and keeps the specimens, networks and frequency-domain solutions that several cases need.
 class Runner {
  public:
   /// `root` is the folder of the repository, which contains tests/data and examples/demo. run() writes its files into

@@ -38,7 +38,8 @@ class List {
     return c;
   }
 
-  /// Error against run time from the steady start: all combinations of form, precision, geometry and density scaling.
+  /// Adds runs that compare error and run time from the steady start, for combinations of contact form, precision,
+  /// geometry and density scaling.
   void front() {
     for (const double scaling : quick_ ? std::vector{1e4, 1e3} : std::vector{1e4, 1e3, 1e2, 1e1}) {
       for (const ContactForm form : forms) {
@@ -73,8 +74,9 @@ class List {
     add("front", "full", 2, 1e6);
   }
 
-  /// Rounding error against the number of steps, down to true mass. The figure uses differences from double precision
-  /// at the same settings.
+  /// Adds runs that show how the rounding error grows with the number of steps. Lower density scalings have more steps;
+  /// a scaling of 1 is true mass. bench/accuracy/draw.py draws the differences from double precision at the same
+  /// settings.
   void drift() {
     for (const double frequency : {20.0, 2.0}) {
       std::vector<double> scalings{1e4, 1e3, 1e2};
@@ -82,7 +84,7 @@ class List {
       for (const double scaling : scalings) {
         if (quick_ && frequency == 2 && scaling < 1e3) continue;
         for (const Precision precision : precisions) {
-          // takes minutes and adds little
+          // these runs take minutes and add little
           if (frequency == 2 && scaling == 10 && precision == Precision::double_) continue;
           add("drift", "t8", frequency, scaling).precision = precision;
         }
@@ -101,8 +103,9 @@ class List {
     }
   }
 
-  /// Numbers of cycles from rest until the steady state is reached, compared with the frequency-domain solution of the
-  /// same inertia. The density scalings are about those that tolerances of 1e-2, 1e-3 and 1e-4 choose.
+  /// Adds runs from rest over many cycles. They show after how many cycles the steady state is reached, by comparison
+  /// with the frequency-domain solution of the same inertia. The density scalings are about those that tolerances of
+  /// 1e-2, 1e-3 and 1e-4 choose.
   void rest() {
     std::vector<int> cycles;
     for (int n = 1; n <= (quick_ ? 8 : 40); n += n < 16 ? 1 : 4) cycles.push_back(n);
@@ -122,7 +125,8 @@ class List {
     add("rest", scene, frequency, scaling);  // a steady start for comparison
   }
 
-  /// Error against the time step as a fraction of the computed critical step, which is about 0.71 of the true limit.
+  /// Adds runs with different time steps, given as fractions of the computed critical step. The computed critical step
+  /// is about 0.71 of the true limit.
   void step_share() {
     for (const double share : {0.3, 0.5, 0.7, 0.8, 0.95, 1.1, 1.2, 1.3, 1.35, 1.4, 1.45}) {
       if (quick_ && share != 0.5 && share != 0.95 && share != 1.3) continue;
@@ -152,7 +156,8 @@ class List {
     }
   }
 
-  /// Strain amplitudes. At the largest, fixed geometry and the linear solution itself are inaccurate.
+  /// Adds runs with different strain amplitudes. At the largest amplitude both fixed geometry and the linear solution
+  /// are inaccurate.
   void strain() {
     for (const char* scene : {"t8", "demo"}) {
       const bool demo = scene[0] == 'd';
@@ -205,7 +210,7 @@ class List {
     }
   }
 
-  /// Runs in which `[solver] tolerance` chooses the settings.
+  /// Adds runs in which `[solver] tolerance` chooses the settings.
   void tolerance() {
     for (const char* scene : {"t8", "seed 101", "seed 102", "demo"}) {
       if (quick_ && scene[0] != 't') break;

@@ -13,11 +13,12 @@ WALL = "wall"
 def phases_of(summary, wall, processor=None):
     """Returns the seconds of each phase of a run that took `wall` seconds from process start to exit.
 
-    The phase "rest" is the wall time that the phases of summary.json do not cover. It must be small, otherwise a
-    phase is missing from summary.json or counted twice: at most 5 % of the wall time, or 0.3 s if that is more,
-    which starting and ending a process may take. `processor` is the processor time of the process [s], if known. The
-    time that a process with one thread waited for a core may all be in the rest, so it is added to the limit: a busy
-    machine fails no run. Raises ValueError with the sum of the phases, the wall time and the limit."""
+    The phase "rest" is the wall time that the phases of summary.json do not cover. A large rest shows that a phase is
+    missing from summary.json or counted twice. Its limit is 5 % of the wall time, or 0.3 s if that is more, because
+    a process needs some time to start and to end. `processor` is the processor time of the process [s], if known. The
+    difference of wall time and processor time, in which a process of one thread waited for a core, is added to the
+    limit, so that a busy machine does not make a run fail. Raises ValueError with the sum of the phases, the wall time
+    and the limit."""
     if summary.get("status") != "done":
         raise ValueError(f"summary.json: status '{summary.get('status')}', expected 'done'")
     timing = summary["timing_s"]
@@ -38,8 +39,8 @@ def phases_of(summary, wall, processor=None):
 
 
 def collected(runs):
-    """Returns (phase, median, smallest, largest) over several runs, each a dictionary of phases, and the same for
-    the wall time at the end."""
+    """Returns (phase, median, smallest, largest) for each phase over several runs, each a dictionary of phases. The
+    last entry is for the wall time."""
     named = [*((phase, [run[phase] for run in runs]) for phase in PHASES),
              (WALL, [sum(run.values()) for run in runs])]
     return [(name, statistics.median(values), min(values), max(values)) for name, values in named]

@@ -39,10 +39,11 @@ float noise_of(std::uint64_t voxel) {
   z ^= z >> 31;
   float sum = 0;
   for (int part = 0; part < 4; ++part, z >>= 16) sum += static_cast<float>(z & 0xffff) / 65536.0f - 0.5f;
-  return sum * 1.7320508f;  // a uniform number of width 1 has a variance of 1/12, so the sum has 1/3
+  return sum * 1.7320508f;  // the variance of a uniform number of width 1 is 1/12, so the sum of four has a standard
+                            // deviation of 1/√3
 }
 
-/// Writes the enlarged scan: interpolates along y and z per coarse row, then along x.
+/// Writes the enlarged scan. It first interpolates along y and z for each row of coarse voxels, then along x.
 void enlarge(const Image<std::uint16_t>& scan, const std::string& file, std::int64_t factor, float noise) {
   const auto n = [factor](std::int64_t size) { return size * factor; };
   const auto [nx, ny, nz] = std::array{n(scan.size[0]), n(scan.size[1]), n(scan.size[2])};

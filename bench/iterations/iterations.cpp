@@ -63,7 +63,7 @@ class Case {
   void solve() const {
     const std::size_t usual = usual_boxes(specimen_.size());
     for (const std::size_t boxes : {std::size_t{0}, usual, many_boxes}) {
-      // boxes would have fewer than 40 particles
+      // with this many boxes a box would have fewer than 40 particles
       if (boxes == many_boxes && specimen_.size() < 40 * many_boxes) continue;
       const auto start = Clock::now();
       const auto solver = make_iterative_solver(specimen_, network_, stiffness_, inertia_, free_, backend_, {}, boxes);

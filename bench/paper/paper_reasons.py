@@ -33,8 +33,8 @@ class Facts:
         return sum(size * spheres for size, spheres in of) / sum(spheres for _, spheres in of)
 
     def void(self, name, classes):
-        """Returns what follows from the paper's number of aggregates for the void in its clusters, if its sizes and
-        shapes are the same as ours."""
+        """Returns estimates of the void in the paper's clusters from its number of aggregates. The estimates assume
+        that the paper's sizes and shapes are the same as ours."""
         paper, shapes, shapes_of_size, squares, spheres = PAPER[name], 0, 0, 0, 0
         for k in classes:
             found = sum(run.particles[k] for run in self.runs[name])  # aggregates of all seeds

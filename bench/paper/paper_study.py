@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, replace
 from paper_data import mean
 from paper_tables import CLUSTERS, DEVIATION, PAIRS, PAPER
 
-SHORT = [2, 20]  # Hz: the mean deviation at these two frequencies is within 0.3 points of that at all four
+SHORT = [2, 20]  # Hz: the mean deviation at these two is within 0.3 points of the mean deviation at all four
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Choice:
 
 
 OURS = Choice()
-# the most promising choices first, so that a study that is stopped has these
+# the most promising choices first, so that a study that is stopped has their results
 MAKINGS = [OURS, Choice(voids=1), Choice(test="spheres"), Choice(voids=1, test="spheres"), Choice(hold_out=3),
            Choice(narrow=True), Choice(spacing_mm=0.2), Choice(voids=1.3, test="spheres"),
            Choice(voids=1, test="spheres", narrow=True), Choice(voids=1, test="spheres", hold_out=1),
@@ -56,13 +56,14 @@ MAKINGS = [OURS, Choice(voids=1), Choice(test="spheres"), Choice(voids=1, test="
            Choice(test="spheres", hold_out=3), Choice(voids=0.5, test="spheres")]
 CONTACTS = [OURS, Choice(inner_gap=0.0), Choice(inner_gap=-0.05), Choice(inner_gap=-0.1), Choice(inner_gap=-0.15),
             Choice(inner_modulus=0.5), Choice(area_min=0.026), Choice(inner_gap=-0.1, area_min=0.026)]
-# radii [m]: their mean volume is 0.82 times the mean volume of radii uniform in 1 to 2 mm, the least ratio in Table 3
+# Radii of the coarse spheres for `narrow` [m]. The mean volume of these spheres is 0.82 times the mean volume of
+# spheres with radii uniform in 1 to 2 mm; 0.82 is the smallest such ratio in Table 3.
 NARROW = (1.35e-3, 1.55e-3)
 
 
 def makings_of(name):
-    """Returns the choices of making that are tried for a specimen. Single spheres have no voids, no cover and no
-    filling."""
+    """Returns the choices of making that are tried for a specimen. For single spheres only the spacing is varied,
+    because single spheres contain no clusters."""
     if name == "SS":
         return [m for m in MAKINGS if m == Choice(spacing_mm=m.spacing_mm)]
     own = [m for m in MAKINGS if not m.narrow or "coarse" in name]
@@ -100,7 +101,7 @@ def with_fractions(text, fractions):
     return re.sub(r"^volume_fraction = .*", lambda _: f"volume_fraction = {next(fraction):.4f}", text, flags=re.M)
 
 
-# Returns the void inside the clusters for a choice: its multiple of the void that the specimen's volumes imply.
+# Returns the void inside the clusters for a choice: `choice.voids` times the void that the specimen's volumes imply.
 def porosity(name, choice):
     return round(choice.voids * PAPER[name].void_of_mastic, 2) if choice.voids else 0
 
@@ -158,8 +159,8 @@ Judged = namedtuple("Judged", "ratios deviations misfits")
 
 
 def judged(row, ss):
-    """Compares a row of the study with that of SS with the same contacts. Returns ratios of numbers of contacts,
-    deviations of |E*| and phi in %, and each misfit divided by its scale."""
+    """Compares a row of the study with the row of SS that has the same choices of contacts. Returns ratios of numbers
+    of contacts, deviations of |E*| and phi in %, and each misfit divided by its scale."""
     paper, base = PAPER[row["specimen"]], PAPER["SS"]
     own, theirs = ([float(r[p]) for p in PAIRS] for r in (row, ss))
     ratios = [a / b for a, b in zip([*own, sum(own)], [*theirs, sum(theirs)])]

@@ -33,12 +33,12 @@ class Specimen:
 
     @property
     def to_box(self):
-        """Volume of all spheres over the volume of the box, if the mastic's radii are uniformly distributed."""
+        """The volume of all spheres divided by the volume of the box, if the mastic's radii are uniform."""
         # the printed shares are rounded; the mastic has the remainder to 100 %, as in the scenes
         return self.volume(4) / (1 - sum(self.share[:4]) / 100)
 
     def volume(self, k):
-        """Returns the volume of the spheres of a class over the volume of the box."""
+        """Returns the volume of the spheres of a class divided by the volume of the box."""
         return self.particles[4] * mean_sphere(MASTIC) / BOX if k == 4 else self.share[k] / 100 * self.to_box
 
     def sphere(self, k):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// hostile_networks.cpp  Networks with extreme stiffness ratios, size ratios and slivers: is the computed time step
-// safe, and is the result right?
+// hostile_networks.cpp  Checks whether the computed time step is safe and the result is right for networks with extreme
+// stiffness ratios, size ratios and slivers.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,9 +13,10 @@ namespace macadam::stability {
 namespace {
 
 /// Checks what every such network must give: a safe time step, a run at 0.95 of it that stays bounded, and a modulus on
-/// which two solvers agree. `conditioning`: ratio of the largest to the smallest stiffness, with which the rounding of
-/// both solvers grows. `residual`: required of the frequency-domain solution. `compared`: whether to compare with the
-/// reference solver, which requires a residual of 1e-12 of itself and cannot reach it for every network.
+/// which two solvers agree. `conditioning`: ratio of the largest to the smallest stiffness; the rounding errors of both
+/// solvers grow with it. `residual`: residual that the frequency-domain solver must reach. `compared`: whether to
+/// compare with the reference solver. That solver stops with an error unless it reaches a residual of 1e-12, which is
+/// not possible for every network.
 void judge(Rows& rows, const std::string& name, const test::TestScene& scene, Effort effort, double conditioning,
            double residual = 1e-11, bool compared = true) {
   const double limit = true_limit(scene);
@@ -42,7 +43,7 @@ void judge(Rows& rows, const std::string& name, const test::TestScene& scene, Ef
                   std::abs(found.top.e_star_pa / expected - 1)});
 }
 
-/// Returns the area of the smallest facet over the mean area.
+/// Returns the area of the smallest facet as a fraction of the mean area.
 double smallest_share(const ContactNetwork& network) {
   double least = INFINITY, sum = 0;
   for (const Contact& c : network.contacts) least = std::min(least, c.area), sum += c.area;
@@ -56,8 +57,9 @@ Rows stiffness_ratios(Effort effort) {
   for (const double ratio : {1e0, 1e2, 1e4, 1e6}) {
     judge(rows, fmt::format("A–A over M–M {:.0e}", ratio), stiff_aggregates(ratio), effort, ratio);
   }
-  // K·u rounds by 2⁻⁵³ of its stiffest part, while the wall's load acts on the softest. So no solver reaches a residual
-  // below that product, which exceeds 1e-12 at a ratio of 1e6.
+  // Rounding changes K·u by 2⁻⁵³ of its stiffest part, while the load of the wall acts on the softest part. So no
+  // solver reaches a residual below 2⁻⁵³ times the stiffness ratio. At a ratio of 1e6 that is 1e-10, more than the
+  // 1e-12 that the reference solver needs.
   for (const double ratio : by_effort(effort, std::vector{1e6}, {1e2, 1e6}, {1e0, 1e2, 1e4, 1e6})) {
     judge(rows, fmt::format("clusters, inner over all others {:.0e}", ratio), stiff_clusters(ratio), effort, ratio,
           1e-11 + 0x1p-53 * ratio, ratio < 1e5);

@@ -74,7 +74,7 @@ void driven_run(Rows& rows, const std::string& name, const test::TestScene& scen
   options.boundary = moving_top(loading);
   const auto stepper = make(setting, scene, options);
   const std::int64_t cycles = steps / loading.steps_per_period;
-  // long enough for the ramp and 50 times the law's relaxation time of 300 steps
+  // the first cycle that is evaluated: after the ramp and 50 times the law's relaxation time of 300 steps
   const std::int64_t first = std::max(20000 / loading.steps_per_period, cycles / 20);
   const Stiffness early = fundamental(last_cycle(*stepper, scene.specimen, loading, first));
   const Stiffness late = fundamental(last_cycle(*stepper, scene.specimen, loading, cycles - first));
@@ -112,8 +112,9 @@ Stiffness column_stiffness(const test::TestScene& scene, const laws::Generalised
   return {std::abs(e_star), std::arg(e_star) * 180 / std::numbers::pi};
 }
 
-/// Returns the number of steps for a setting: all of them in double precision on the CPU. On cuda a hundredth, because
-/// a launch takes longer than a small step on the CPU; in single precision a tenth, because drift shows sooner.
+/// Returns the number of steps for a setting: `steps` in double precision on the CPU. On CUDA it is a hundredth of
+/// `steps`, because a launch takes longer than a small step on the CPU. In single precision it is a tenth, because
+/// drift shows sooner.
 std::int64_t steps_of(const Setting& setting, std::int64_t steps) {
   if (setting.backend == Backend::cuda) return steps / 100;
   return setting.precision == Precision::single ? steps / 10 : steps;

@@ -32,8 +32,9 @@ laws::GeneralisedKelvin test_law(double step, bool flows) {
   return {1e10, flows ? 1e10 * 2000 * step : INFINITY, {0.5e10, 2e10}, {0.5e10 * 500 * step, 2e10 * 100 * step}, 0.3};
 }
 
-/// Exact solution of the stages: y' = f/C_m, x_l' = (f − E_l·x_l)/C_l, f = E_m·(x − y − Σ x_l). x' is constant in a
-/// stage, so that (y, x_1, x_2, x, x') follows a linear system with a constant matrix. The largest displacement is 1.
+/// The exact solution of the stages. It solves y' = f/C_m, x_l' = (f − E_l·x_l)/C_l, f = E_m·(x − y − Σ x_l). x' is
+/// constant in a stage, so (y, x_1, x_2, x, x') follows a linear system with a constant matrix. The largest
+/// displacement is 1.
 struct Exact {
   std::vector<double> force;  ///< f/E_m at the end of each stage
   double flow = 0;            ///< y at the release
@@ -69,8 +70,8 @@ struct Measured {
   std::vector<Vec3d> left;    ///< displacements at the end [m]
 };
 
-/// Moves every particle along its own `direction`, which is its displacement where the stages have 1, and then releases
-/// it.
+/// Moves every particle along its own `direction`, and then releases it. `direction` is the displacement of the
+/// particle when the displacement of the stages is 1.
 Measured run(Stepper& stepper, const test::TestScene& scene, const std::vector<Vec3d>& direction, std::size_t observed,
              double dt, double step, double settle) {
   const std::size_t n = scene.specimen.size();
@@ -130,7 +131,8 @@ void pair_rows(Rows& rows, const Setting& setting, bool flows, Effort effort) {
     const auto stepper = make(setting, scene, options);
     const Measured found = run(*stepper, scene, {Vec3d{}, Vec3d{0, 0, largest}}, 1, options.dt, step, relaxing);
     const double left = found.left[1].z / largest;
-    // rounding errors add up like a random walk over the steps; single states of size 1 lose half an ulp per step
+    // Rounding errors add up like a random walk over the steps. In single precision each step changes a state of size 1
+    // by up to half an ulp (2⁻²⁴).
     const double steps = (5500 + relaxing) / fraction;
     const double rounding = setting.precision == Precision::single  ? 10 * 0x1p-24 * std::sqrt(steps)
                             : setting.precision == Precision::mixed ? 0x1p-24
@@ -178,8 +180,9 @@ double beyond_rigid(const test::TestScene& scene, std::vector<Vec3d> delta, cons
   return test::largest(delta);
 }
 
-/// Checks a free assembly with one law everywhere that is stretched and sheared uniformly. All contacts have the same
-/// history, so the dashpots' displacements are compatible, and the assembly keeps y(t₃) times the imposed displacement.
+/// Stretches and shears a free assembly uniformly and then releases it. All its contacts have the same law and the same
+/// history, so the displacements of the dashpots are compatible. The assembly therefore keeps y(t₃) times the imposed
+/// displacement.
 void assembly_rows(Rows& rows, const Setting& setting, bool flows) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;

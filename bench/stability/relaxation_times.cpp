@@ -37,18 +37,18 @@ Complex discrete_stiffness(const laws::GeneralisedKelvin& law, double dt) {
   return 1.0 / compliance;
 }
 
-/// Number of cycles of the smooth start, and a bound for the error that it leaves if the response rings without dying
-/// out. Over R steps of the start the velocity begins as 3·(π/2R)²·k²/2 of its peak at step k. A quarter of its second
-/// difference alternates from step to step; the fit of one cycle takes 8.0 over the steps of a cycle of that (4.9 if it
-/// did not fit the second harmonic). The bound is 2·1.5·(π/2R)² over the steps of a cycle, which was set for a fit
-/// without the second harmonic, times 8.0/4.9.
+/// `ramp_cycles`: number of cycles of the smooth start. `smooth_start`: bound for the error that the start leaves if
+/// the response oscillates without dying out. The start has R steps; at step k of its beginning the velocity is
+/// 3·(π/2R)²·k²/2 of its peak. A quarter of the second difference of the velocity alternates from step to step. The fit
+/// of one cycle of n steps turns an alternating signal of size 1 into an error of 8.0/n (4.9/n without the second
+/// harmonic). For a fit without the second harmonic the bound is 2·1.5·(π/2R)²/n; it is multiplied by 8.0/4.9 here.
 constexpr std::int64_t ramp_cycles = 10;
 constexpr double smooth_start =
     2 * 1.5 * 2.4674 * (8.0 / 4.9) / (ramp_cycles * per_cycle * ramp_cycles * per_cycle) / per_cycle;
 
-/// Checks a sudden start of a Maxwell unit with τ far below the time step. The rule multiplies the deviation from η·v
-/// by −(1 − 2τ/Δt)/(1 + 2τ/Δt) in each step. So f, which should equal η·v immediately but starts from 0, alternates
-/// about it for Δt/4τ steps.
+/// Checks a sudden start of a Maxwell unit with τ far below the time step. In each step the trapezoidal rule multiplies
+/// the deviation of the force f from η·v by −(1 − 2τ/Δt)/(1 + 2τ/Δt). f should equal η·v immediately but starts from 0,
+/// so it alternates about η·v for Δt/4τ steps.
 void ringing(Rows& rows, double dt) {
   for (const double tau : {1e-6, 1e-4, 1e-2}) {
     const auto scene = one_contact({modulus, modulus * tau * dt, {}, {}, 0});
@@ -115,8 +115,9 @@ Rows relaxation_times(Effort effort) {
     options.dt = loading.dt();
     options.geometry = Geometry::fixed;
     options.boundary = moving_top(loading);
-    // The start decays with the slowest relaxation time, and as (1 − 4τ/Δt)^k for a τ below the step. The smooth start
-    // hardly excites the latter. The fit removes offset and trend of the former; the curvature remains.
+    // The effect of the start has two parts. One decays with the slowest relaxation time; the fit removes its offset
+    // and trend, so only its curvature remains. The other belongs to a τ below the time step and decays as (1 −
+    // 4τ/Δt)^k; the smooth start hardly excites it.
     const double memory = std::max({slowest, 1 / fastest, 10.0});
     const std::int64_t cycles = std::min(most, static_cast<std::int64_t>(40 * memory)) / per_cycle + 20;
     const double settled = static_cast<double>(cycles * per_cycle);

@@ -20,7 +20,6 @@ test::TestScene free_assembly() {
   return test::make_scene(test::random_specimen(41, 3, 3, 3), spec, elastic_laws());
 }
 
-/// The axis of the turn.
 const Vec3d oblique = (1 / std::sqrt(14.0)) * Vec3d{1, -2, 3};
 
 Vec3d turned(const Vec3d& v, double by, const Vec3d& axis = oblique) {  // rotation by Rodrigues' formula
@@ -49,8 +48,8 @@ Vec3d principal_axis(const test::TestScene& scene, const Vec3d& centre) {
   return {axis.x(), axis.y(), axis.z()};
 }
 
-/// Returns half the box's diagonal over the smallest distance of a contact. The velocities are larger than the relative
-/// velocities at a contact by this factor, and so is their rounding error.
+/// Returns half the box's diagonal divided by the smallest distance of a contact. The velocities and their rounding
+/// errors are larger than the relative velocities at a contact by this factor.
 double extent(const test::TestScene& scene) {
   double least = INFINITY;
   for (const Contact& c : scene.network.contacts) least = std::min(least, c.distance);
@@ -86,8 +85,8 @@ void led(Rows& rows, const Setting& setting, ContactForm form, std::int64_t step
   double area = 0;
   for (const Contact& c : scene.network.contacts) area = std::max(area, c.area);
   // Particles move along the chord 2·sin(θ/2)·d but rotate by the arc θ·d, which causes a slip of d·θ³/24 in each step.
-  // Velocities round by ε times the assembly's extent: a random walk in double and mixed. In single precision
-  // displacements, and therefore normals, round too.
+  // The rounding error of velocities is ε times the assembly's extent. In double and mixed precision these errors add
+  // up like a random walk; in single precision displacements, and therefore normals, are rounded too.
   const double slip = full_turn * angle * angle / 24;
   const double walk = setting.rounding() * extent(scene) * std::sqrt(static_cast<double>(steps)) *
                       (setting.precision == Precision::single ? full_turn : 10 * angle);
@@ -97,7 +96,7 @@ void led(Rows& rows, const Setting& setting, ContactForm form, std::int64_t step
                   force / (3e10 * area)});
 }
 
-/// Lets a free assembly rotate once. It stretches by ρω²R²/E and oscillates about that.
+/// Lets a free assembly rotate once. The assembly stretches by ρω²R²/E and oscillates about the stretched state.
 void spun(Rows& rows, const Setting& setting, std::int64_t steps) {
   const test::TestScene scene = free_assembly();
   StepperOptions options;
@@ -131,8 +130,8 @@ void spun(Rows& rows, const Setting& setting, std::int64_t steps) {
   rows.push_back({name, setting.name(), "kinetic energy / initial kinetic energy − 1", -4 * strain - rounding,
                   4 * strain + rounding, "what stretches it is taken from the motion: of the order of the strain",
                   kinetic_energy(scene, after) / energy - 1});
-  // The half-step angular momentum belongs to the middle of the step's chord. Both values are taken at its end, so both
-  // have the same error.
+  // Velocities belong to the middle of a step, positions to its end. Both angular momenta are computed with the
+  // positions at the end of the step, so both have the same error.
   const Momenta first = momenta(scene, before), last = momenta(scene, after, true);
   rows.push_back({name, setting.name(), "angular momentum gained, relative", 0,
                   2 * setting.rounding() * std::sqrt(static_cast<double>(steps * static_cast<std::int64_t>(n))),

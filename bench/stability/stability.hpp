@@ -107,9 +107,9 @@ double kinetic_energy(const test::TestScene& scene, const ParticleState& state);
 /// Returns a stepper with a setting.
 std::unique_ptr<Stepper> make(const Setting& setting, const test::TestScene& scene, StepperOptions options);
 
-/// Returns the largest kinetic energy of a run over the bound for leapfrog. The run starts from random velocities
-/// without deformation. Leapfrog keeps H = ½·v(k−½)·M·v(k+½) + ½·q·K·q ≥ (1 − (Δt/limit)²)·kinetic energy, and
-/// initially H is the kinetic energy, so the result must be at most 1.
+/// Returns the largest kinetic energy of a run, divided by the bound for leapfrog. The run starts from random
+/// velocities without deformation. Leapfrog keeps H = ½·v(k−½)·M·v(k+½) + ½·q·K·q ≥ (1 − (Δt/limit)²)·kinetic energy,
+/// and initially H is the kinetic energy, so the result must be at most 1.
 double energy_over_bound(const Setting& setting, const test::TestScene& scene, const StepperOptions& options,
                          double limit, std::int64_t steps, double speed = 1e-3);
 

@@ -26,7 +26,7 @@ std::string processor() {
   return "unknown processor";
 }
 
-/// Prints the verdict of a case and its main rows; details only if they fail.
+/// Prints the verdict of a case and its main rows. Rows with details are printed only if they fail.
 void print(const Outcome& outcome) {
   std::string text = fmt::format("{}: {} lines, {} failed, {:.1f} s\n", outcome.of.name, outcome.rows.size(),
                                  outcome.failed(), outcome.seconds);
@@ -47,7 +47,7 @@ void run_case(Outcome& out, Effort effort) {
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Runs `jobs` cases in parallel, the longest first; each steps on one thread.
+/// Runs `jobs` cases in parallel, the longest first. Each case steps on one thread.
 void run_all(std::vector<Outcome>& outcomes, Effort effort, int jobs) {
   std::vector<Outcome*> order;
   for (Outcome& outcome : outcomes) order.push_back(&outcome);

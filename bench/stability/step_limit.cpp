@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_limit.cpp  Time steps around the true limit 2/ω_max, and critical_step() compared with that limit.
+// step_limit.cpp  Tests time steps around the true limit 2/ω_max, and compares critical_step() with that limit.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -59,8 +59,8 @@ double growth(const Setting& setting, const test::TestScene& scene, const Steppe
   return 0.5 * std::log(after / before) / static_cast<double>(second);
 }
 
-/// Returns the largest time step without growth, as a fraction of the limit, by bisection between 0.9 and 1.1 of
-/// `expected`. A run counts as unstable if its kinetic energy has grown a thousandfold.
+/// Returns the largest time step without growth, as a fraction of the limit. It is found by bisection between 0.9 and
+/// 1.1 times `expected`. A run counts as unstable if its kinetic energy has grown a thousandfold.
 double onset(const Setting& setting, const test::TestScene& scene, StepperOptions options, double limit,
              double expected, std::int64_t steps) {
   double stable = 0.9 * expected, unstable = 1.1 * expected;

@@ -42,7 +42,7 @@ Rows strain_amplitudes(Effort effort) {
 
   for (const Setting& setting : settings()) {
     if (effort != Effort::full && setting.precision != Precision::double_) continue;
-    // a random walk of about ten roundings per step of the contact geometry
+    // rounding adds up like a random walk, with about ten rounding errors of the contact geometry per step
     const double rounding = 10 * setting.rounding() * std::sqrt(4.0 * static_cast<double>(loading.steps_per_period));
     std::vector<double> of_modulus, of_stress;
     Stiffness smallest, largest;  // E* with fixed geometry

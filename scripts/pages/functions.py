@@ -104,7 +104,7 @@ class Aggregate:
 
 
 class One(Aggregate):
-    """one(x): the value of the only row. Refused without a row, and with several."""
+    """one(x): the value of the only row. The query is refused if there is no row or more than one."""
 
     def finalize(self):
         if len(self.found) != 1:
@@ -133,12 +133,12 @@ class Listed(Aggregate):
 
 
 class Joined(Listed):
-    """joined(x), joined(x, key): "a, b, c", as listed()."""
+    """joined(x), joined(x, key): "a, b, c", in the same order as listed()."""
     join = staticmethod(", ".join)
 
 
 class Errors(Aggregate):
-    """errors(e, phi): upper bounds of both magnitudes, "1.7e-6 and 0.0052°"."""
+    """errors(e, phi): upper bounds of |e| and |phi| over all rows, "1.7e-6 and 0.0052°"."""
 
     def finalize(self):
         if not self.found:
@@ -148,7 +148,7 @@ class Errors(Aggregate):
 
 
 class Median(Aggregate):
-    """median(x): the middle value, the mean of two if their number is even."""
+    """median(x): the middle value, or the mean of the two middle values if the number of values is even."""
 
     def finalize(self):
         ordered = sorted(x for x, *_ in self.found)

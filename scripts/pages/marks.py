@@ -29,7 +29,8 @@ WITHIN = re.compile(r"<!--(?:(?!-->).)*?<!--", re.S)
 
 @dataclass
 class Page:
-    """A document with its marks filled. outside: its lines, those of blocks empty; written: text and its query."""
+    """A document with its marks filled. outside: lines of the document, in which the lines of blocks are empty.
+    written: the query of each text that a mark wrote."""
     name: str
     text: str = ""
     outside: list = field(default_factory=list)
@@ -63,8 +64,8 @@ def asked(page, number, ask, query):
 
 
 def block(page, results, lines, k, check):
-    """Fills the block that begins at line k. Returns its new lines and the number of its old ones, None if it does not
-    end."""
+    """Fills the block that begins at line k. Returns the new lines of the block and the number of its old lines; None
+    if the end of the block is missing."""
     indent, kind = BLOCK.match(lines[k]).groups()
     close = next((j for j in range(k + 1, len(lines)) if CLOSE.match(lines[j])), len(lines))
     end = next((j for j in range(close + 1, len(lines)) if END.match(lines[j]) or BLOCK.match(lines[j])), len(lines))

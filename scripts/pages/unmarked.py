@@ -43,7 +43,7 @@ def plain(text):
 
 
 def is_number(cell):
-    """Whether a cell contains a digit, and other than numbers only units."""
+    """Returns whether a cell contains a digit and, apart from numbers, only units."""
     cell = plain(cell)
     if not re.search(r"\d", cell):
         return False

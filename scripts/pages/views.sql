@@ -19,7 +19,7 @@ WHERE CASE WHEN status = 'done' THEN 1
            ELSE fail(text('{} of {}, {:g} Hz, scaling {:g}: {}', study, name, frequency_hz, density_scaling,
                           status)) END;
 
-CREATE VIEW accuracy_scaled AS  -- error over density scaling, with the settings of most runs
+CREATE VIEW accuracy_scaled AS  -- errors at different density scalings, with the settings of most runs
 SELECT * FROM accuracy_runs WHERE study = 'front' AND form = 'condensed' AND precision = 'mixed' AND geometry = 'fixed'
 AND frequency_hz = 20 AND mix = 'AM1' AND backend = 'cpu';
 
@@ -41,13 +41,13 @@ SELECT r.*, r.true_e - b.true_e AS e, r.true_phi - b.true_phi AS phi FROM accura
   UNION ALL SELECT 'steady', true_e, true_phi FROM accuracy_scaled WHERE scene = 't8' AND density_scaling = 1e4) b
 ON r.start = b.start WHERE r.study = 'damping' AND r.scene = 't8' AND r.mix = 'AM1' AND r.density_scaling = 1e4;
 
-CREATE VIEW accuracy_tolerance AS  -- the larger of both errors, achieved and beside the prediction
+CREATE VIEW accuracy_tolerance AS  -- achieved: the larger of both errors; off: the same for error − prediction
 SELECT *, max(abs(true_e), abs(radians(true_phi))) AS achieved,
   max(abs(true_e - ((1 + true_e) / (1 + own_e) - 1)), radians(abs(own_phi))) AS off,
   iif(seconds_by_hand > 0 AND finite(seconds_by_hand), seconds / seconds_by_hand, NULL) AS over_hand
 FROM accuracy_runs WHERE study = 'tolerance';
 
-CREATE VIEW accuracy_kept AS  -- runs with a tolerance: tried, failed, and those that kept it
+CREATE VIEW accuracy_kept AS  -- numbers of runs with a tolerance: tried, failed, and within the tolerance
 SELECT count(*) AS tried, sum(status <> 'done') AS failed,
   (SELECT sum(achieved <= tolerance) FROM accuracy_tolerance) AS kept FROM accuracy_tried WHERE study = 'tolerance';
 
@@ -69,13 +69,13 @@ SELECT p.e_star_pa / c.e_star_pa - 1 AS e, p.phase_deg - c.phase_deg AS phi FROM
 USING (study, name, precision, geometry, density_scaling, frequency_hz)
 WHERE study = 'front' AND precision = 'double' AND p.form = 'points' AND c.form = 'condensed';
 
-CREATE VIEW accuracy_steps AS  -- fraction of the computed step: the largest stable one, the smallest that failed
+CREATE VIEW accuracy_steps AS  -- fractions of the computed step: the largest stable one, the smallest that failed
 SELECT name, min(n) AS n, failed,
   max(iif(status = 'done' AND step_share < coalesce(failed, 99), step_share, NULL)) AS stable
 FROM (SELECT *, min(iif(status <> 'done', step_share, NULL)) OVER (PARTITION BY name) AS failed
       FROM accuracy_tried WHERE study = 'step_share') GROUP BY name;
 
-CREATE VIEW accuracy_filters AS  -- contacts dropped and time saved against the scene without a filter; e: of the model
+CREATE VIEW accuracy_filters AS  -- contacts dropped and time saved by a filter; e: error of |E*| of the model
 SELECT r.name, r.gap_max, r.area_min, 1 - r.contacts / b.contacts AS dropped,
   1 - r.seconds / r.steps / (b.seconds / b.steps) AS saved, r.model_e_star AS e
 FROM accuracy_runs r JOIN accuracy_runs b USING (study, name)
@@ -84,7 +84,7 @@ WHERE study = 'filter' AND b.gap_max IS NULL AND b.area_min IS NULL;
 CREATE VIEW precision_runs AS  -- the larger of both errors, as the program estimates it
 SELECT rowid AS n, *, max(abs(e_star), abs(phase_rad)) AS off FROM "precision.csv";
 
-CREATE VIEW stable_limits AS  -- computed step over the true limit; usual: of usual specimens
+CREATE VIEW stable_limits AS  -- computed step divided by the true limit; usual: for usual specimens only
 SELECT measured, iif("case" = 'step_bound' AND quantity = 'computed / true limit', measured, NULL) AS usual
 FROM "stability-intel-xeon.csv"
 WHERE quantity LIKE '%computed / true limit' AND quantity NOT LIKE 'mean%';
@@ -126,7 +126,7 @@ SELECT spheres, filling, avg(walls_gpa) AS walls, avg(gauge_gpa) AS gauge, avg(u
   avg(contact_for_walls_gpa) AS contact_walls, avg(contact_for_gauge_gpa) AS contact_gauge
 FROM cubes_20 GROUP BY spheres, filling;
 
-CREATE VIEW fillings AS  -- means of the seeds; long, intermediate, short: dimension of the cluster over the shape's
+CREATE VIEW fillings AS  -- means of the seeds; long, intermediate, short: cluster's dimension / shape's
 SELECT shape, radius_min_mm AS low, radius_max_mm AS high, avg(spheres) AS spheres, avg(covered) AS covered,
   avg(outside) AS outside, avg(deviation_mean_mm) AS deviation, avg(d_long_mm / shape_d_long_mm) AS long,
   avg(d_intermediate_mm / shape_d_intermediate_mm) AS intermediate, avg(d_short_mm / shape_d_short_mm) AS short
@@ -162,13 +162,13 @@ SELECT m.*, (SELECT sum((e_star_mpa / m.e - 1) * (e_star_mpa / m.e - 1)) / (coun
   WHERE s.air_voids_percent = m.air_voids_percent AND s.binder_percent = m.binder_percent) AS variance
 FROM (SELECT air_voids_percent, binder_percent, avg(e_star_mpa) AS e FROM "study.csv" GROUP BY 1, 2) m;
 
-CREATE VIEW twin_differences AS  -- twin and source: e (%) and phi (degrees). Seeds of repacked twins have 1000 more
+CREATE VIEW twin_differences AS  -- difference of twin and source: e (%), phi (degrees). Repacked twins have seed + 1000
 SELECT s."case", s.seed, t.kind, t.frequency_hz, 100 * (t.e_star_pa / s.e_star_pa - 1) AS e,
   t.phase_deg - s.phase_deg AS phi
 FROM "ct-twin.csv" s JOIN "ct-twin.csv" t ON t."case" = s."case" AND t.frequency_hz = s.frequency_hz
 AND t.seed = s.seed + iif(t.kind = 'repacked', 1000, 0) WHERE s.kind = 'source' AND t.kind <> 'source';
 
-CREATE VIEW twin_phases AS  -- twins of the segmentation at the lowest frequency: mean of the seeds, its standard error
+CREATE VIEW twin_phases AS  -- phi of segmented twins at the lowest frequency: mean of the seeds and its standard error
 SELECT "case", avg(phi) AS mean,
   sqrt((sum(phi * phi) - count(*) * avg(phi) * avg(phi)) / (count(*) - 1) / count(*)) AS error FROM twin_differences
 WHERE kind = 'segmented' AND frequency_hz = (SELECT min(frequency_hz) FROM "ct-twin.csv") GROUP BY "case";
@@ -185,7 +185,7 @@ JOIN "mastic-contact.csv" c ON c.frequency_hz = m.hz;
 CREATE VIEW printed_lines AS  -- the lines that runs printed about their specimens, with those of the size classes
 SELECT 'demo' AS scene, line FROM "demo-output.txt" UNION ALL SELECT 'ac14_ss_am1', line FROM "paper-output.txt";
 
-CREATE VIEW printed_sizes AS  -- their numbers of particles and contacts
+CREATE VIEW printed_sizes AS  -- the numbers of particles and contacts in printed_lines
 SELECT p.scene, cast(part(line, '^(\d+) particles') AS REAL) AS particles,
   cast(part(line, '(\d+) contacts') AS REAL) AS contacts,
   cast(part(line, '(\d+) contact points') AS REAL) AS points, cast(part(line, 'M-M (\d+)') AS REAL) AS mm,

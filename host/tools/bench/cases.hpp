@@ -18,8 +18,9 @@ struct BenchCase {
 };
 
 /// Returns about `particles` spheres of 1 mm diameter in a jittered face-centred cubic lattice. The pair types have the
-/// proportions of specimen SS of [1], the laws are those of binder AM1. For the condensed form only, because the facets
-/// have no points. With `walls`, the lowest and the highest layer touch a wall.
+/// proportions of specimen SS of [1], the laws are those of binder AM1. The lattice can be stepped only in the
+/// condensed contact form, because its facets have no points. With `walls`, the lowest and the highest layer touch a
+/// wall.
 BenchCase lattice(std::size_t particles, bool walls);
 
 /// Returns the specimen that a text names: "lattice:1e5"; the file of a scene, whose specimen is generated or read,

@@ -28,8 +28,8 @@ struct Comparison {
 };
 
 /// Compares the rows with equal names. A row counts as slower if its median is more than 2 % larger and every
-/// repetition is slower than every repetition before. With seven repetitions each of the same program that happens by
-/// chance once in 3,432 comparisons.
+/// repetition is slower than every repetition before. If both files have seven repetitions of the same program, the
+/// second condition is met by chance once in 3,432 comparisons, the number of ways to choose 7 of 14.
 std::vector<Comparison> compare(const std::vector<BenchRow>& before, const std::vector<BenchRow>& now);
 
 }  // namespace macadam::bench

@@ -28,7 +28,7 @@ double seconds_of(const std::function<void()>& f) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Returns the copy rate of nine copies of 256 MiB by `threads` threads [byte/s]. The best of them counts, because any
+/// Copies 256 MiB nine times with `threads` threads. Returns the rate of the fastest copy [byte/s], because any
 /// disturbance only makes a copy slower.
 double processor_copy(int threads) {
   constexpr std::size_t size = std::size_t{256} << 20;
@@ -89,7 +89,7 @@ class Measured {
       row.seconds.push_back(seconds_of([&] { stepper->advance(row.iterations); }) /
                             static_cast<double>(row.iterations));
     }
-    // times of each repetition, whose median is used, because one repetition may be disturbed
+    // times of each part in each repetition; the median is used, because one repetition may be disturbed
     std::map<std::string, std::vector<double>> parts;
     for (int k = 0; k < axes_.repetitions; ++k) {
       for (const PartTime& part : stepper->advance_timed(std::min<std::int64_t>(row.iterations, 2000)))
@@ -100,7 +100,7 @@ class Measured {
     told_(row);
   }
 
-  /// Times iterative solutions of `loads` frequencies at the same time: 20 Hz and its halves.
+  /// Times iterative solutions of `loads` frequencies at the same time: 20, 10, 5, … Hz.
   void harmonic(int loads, int threads) {
     BenchRow row = row_of(fmt::format("harmonic/{}/{}/loads:{}", case_.name, to_string(backend_), loads), threads);
     if (devices_.size() > 1) row.name += fmt::format("/devices:{}", devices_.size());

@@ -12,7 +12,7 @@
 
 namespace macadam::bench {
 
-/// Values to be measured for each specimen. Each combination of them gives one row.
+/// Values of the settings for which each specimen is measured. Each combination of the values gives one row.
 struct BenchAxes {
   Backend backend = Backend::automatic;
   DeviceList devices;

@@ -39,8 +39,8 @@ constexpr double two_sided = 1.96;
 /// The error of a modulus or phase that was not measured.
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-/// Largest change of a parameter's logarithm in one round, and the change below which the search ends. That near to a
-/// solution, the error of an estimate is about the square of the change, below 1e-12.
+/// Largest change of a parameter's logarithm in one round, and the change below which the search ends. The error of an
+/// estimate is about the square of the change, so at the end it is below 1e-12.
 constexpr double farthest = 2, least_move = 1e-6;
 /// Decrease of the misfit below which the search ends, in squared standard deviations. The parameters then move by
 /// about 1e-3 of their standard deviations.
@@ -164,8 +164,8 @@ class Calibrator {
     }
   }
 
-  /// Returns the state of least misfit. The search ends when the estimates, which are exact at the best solution and
-  /// have its derivatives, find nothing better.
+  /// Returns the state of least misfit. The estimates and their derivatives are exact at the best solution so far; the
+  /// search ends when they predict no better state.
   State find(Specimens& specimens) {
     std::vector<double> theta;
     for (const CalibratedParameter& p : out_.parameters)

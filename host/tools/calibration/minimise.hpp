@@ -9,7 +9,7 @@
 
 namespace macadam::calibration {
 
-/// Computes residuals and, row by row, their derivatives by θ. Returns false if θ has none.
+/// Computes residuals and, row by row, their derivatives by θ. Returns false if they cannot be computed at θ.
 using Residuals = std::function<bool(const std::vector<double>& theta, std::vector<double>& residuals,
                                      std::vector<double>& jacobian)>;
 

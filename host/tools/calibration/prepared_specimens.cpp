@@ -49,8 +49,9 @@ Loading loading_of(const Scene& scene) {
   return {};
 }
 
-/// Returns whether every reading has its own laws: all shifts of the scene are formulas of temperature (WLF,
-/// Arrhenius). The entries of a table are isotherms, and so are the readings without any shift.
+/// Returns whether the laws are evaluated at the temperature of every reading. This is the case if all shifts of the
+/// scene are formulas of temperature (WLF, Arrhenius). Otherwise readings are grouped into isotherms, because a shift
+/// table only has entries for isotherms, and a scene without shifts has one set of laws.
 bool follows_each_reading(const Scene& scene) {
   const auto is_table = [](const laws::Shift& shift) { return std::holds_alternative<laws::ShiftTable>(shift); };
   return std::any_of(scene.shifts.begin(), scene.shifts.end(), shifts) &&
@@ -69,8 +70,8 @@ double temperature_of_laws(const Scene& scene, const fitting::Isotherm& isotherm
   return isotherm.temperature;
 }
 
-/// Returns the temperature at which the laws are evaluated for each measurement, which has a temperature. Readings
-/// that differ by tenths of a kelvin are one isotherm, as in a fit with a free shift.
+/// Returns the temperature at which the laws are evaluated for each measurement. All measurements must have a
+/// temperature. Readings that differ by tenths of a kelvin are one isotherm, as in a fit with a free shift.
 std::vector<std::optional<double>> measured_temperatures(const Scene& scene, const ModulusData& data) {
   std::vector<double> readings;
   for (const ModulusPoint& p : data.points) readings.push_back(p.temperature_c);
@@ -207,7 +208,7 @@ Specimens::Answers Specimens::solve(Body& body, const LawTable& laws, const std:
     for (const std::size_t p : places) frequencies.push_back(places_[p].frequency);
     Harmonic harmonic(body.specimen, body.network, at, body.inertia,
                       harmonic_options(scene_, backend_, watcher_.stop, residual), geometric_mean(frequencies));
-    constexpr std::size_t block = 4;  // places solved side by side
+    constexpr std::size_t block = 4;  // number of places that are solved at the same time
     for (std::size_t begin = 0; begin < places.size(); begin += block) {
       if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
       const std::size_t count = std::min(block, places.size() - begin);

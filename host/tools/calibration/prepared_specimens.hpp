@@ -22,8 +22,8 @@ struct Predicted {
 
 /// Returns the temperature at which the laws are evaluated for each measurement, empty if neither scene nor data have
 /// one. If all shifts of the scene are WLF or Arrhenius laws, this is the reading itself, otherwise the temperature of
-/// its isotherm. \throws InputError if the
-/// scene has no valid laws at a measured temperature, or does not say which of its temperatures is meant.
+/// its isotherm. \throws InputError if the scene has no valid laws at a measured temperature, or does not say which of
+/// its temperatures is meant.
 std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data);
 
 /// The specimens, one per seed. Each has a reduced model, to which every solution adds its motions.
@@ -38,8 +38,9 @@ class Specimens {
   /// has no effect in the specimen.
   std::vector<Predicted> solve(const LawTable& laws, const std::vector<Parameter>& free);
 
-  /// Returns estimates of the same from the motions of all solutions so far. At the laws of a solution they and their
-  /// derivatives are exact; elsewhere they are approximate. Takes milliseconds. \throws RunError, InterruptedError.
+  /// Returns estimates of E* of every measurement from the motions of all solutions so far. At the laws of a solution
+  /// the estimates and their derivatives are exact; elsewhere they are approximate. Takes milliseconds. \throws
+  /// RunError, InterruptedError.
   std::vector<Predicted> estimate(const LawTable& laws, const std::vector<Parameter>& free) const;
 
   const std::vector<std::uint64_t>& seeds() const { return seeds_; }

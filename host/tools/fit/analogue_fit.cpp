@@ -83,8 +83,8 @@ std::vector<std::vector<double>> usual_starts(const Unknowns& u, const std::vect
   return out;
 }
 
-/// Returns starts of 2S2P1D from a fitted Huet–Sayegh model, with dashpots of several sizes. At its upper limit the
-/// dashpot has no effect, so the start has the same misfit.
+/// Returns starts of 2S2P1D from a fitted Huet–Sayegh model, with dashpots of several sizes. A dashpot at its upper
+/// limit has no effect, so this start has the misfit of the Huet–Sayegh model.
 std::vector<std::vector<double>> with_dashpot(const std::vector<double>& huet_sayegh,
                                               const std::vector<Limits>& limits) {
   constexpr std::ptrdiff_t beta = 6;  // position of ln β in θ

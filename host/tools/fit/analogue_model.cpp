@@ -42,8 +42,8 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
   if (!(largest_error >= 1e-6 && largest_error <= 0.5)) {
     refuse("largest error", fmt::format("{}", largest_error), "a number from 1e-6 to 0.5");
   }
-  // Times are in units of the middle of the range, rounded to 10 digits of their logarithm. So the same curve at
-  // another reference temperature gives the same chain, although a_T has rounded its constants differently.
+  // Times are in units of the middle of the range, and their logarithms are rounded to 10 digits. If the same curve is
+  // given at another reference temperature, its constants have other rounding errors, but the chain stays the same.
   const double middle = std::sqrt(lowest_hz) * std::sqrt(highest_hz);
   const auto rounded = [](double value) { return std::exp(std::round(std::log(value) * 1e10) / 1e10); };
   AnalogueModel scaled = model;

@@ -12,8 +12,8 @@
 namespace macadam::fitting {
 namespace {
 
-/// Returns θ of the same curve as a chain that `unknowns` contains: the missing elements are as stiff as the limits
-/// allow.
+/// Converts a fitted chain to θ of the larger chain `unknowns`, which must contain it. The curve stays the same,
+/// because the additional elements are as stiff as the limits allow.
 std::vector<double> embedded(const Unknowns& unknowns, const std::vector<Limits>& limits, const Chain& chain) {
   const std::vector<double>& theta = chain.minimum.theta;
   std::vector<double> out{theta[0]};

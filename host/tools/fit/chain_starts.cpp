@@ -81,8 +81,8 @@ std::vector<double> spaced(double low, double high, std::size_t count) {
   return out;
 }
 
-/// Returns the retardation times of a fine grid that carry a compliance. The nearest two are merged until `count` are
-/// left.
+/// Returns the retardation times of a fine grid that carry a compliance. If there are more than `count`, merges the
+/// nearest two until `count` are left.
 std::vector<double> merged(Linear grid, std::size_t count) {
   std::vector<std::pair<double, double>> peaks;  // ln τ, compliance
   const double largest = *std::max_element(grid.unit.begin(), grid.unit.end());

@@ -27,9 +27,9 @@ class ChainSeries {
         deviations_(deviations),
         shift_(start_shift(problem.unknowns, problem.targets, problem.temperatures)) {}
 
-  /// Fits all chains up to the length at which the criterion has risen twice in a row. `known` has chains with shift
-  /// laws that this one contains, converted to these unknowns. A chain also starts from the known chains of the same
-  /// length, and the series continues while a longer known chain has a smaller criterion.
+  /// Fits all chains up to the length at which the criterion has risen twice in a row. `known` holds chains that were
+  /// fitted with simpler shift laws and converted to the shift law of this series. A chain also starts from the known
+  /// chains of the same length, and the series continues while a longer known chain has a smaller criterion.
   Chains fit(const std::vector<Chains>& known) {
     const int longest = options_.units.value_or(options_.most_units);
     for (int units = 0; units <= longest; ++units)
@@ -53,8 +53,8 @@ class ChainSeries {
     int worse = 0;
   };
 
-  /// Returns whether a known chain of at least this length would have a smaller criterion than `best` with these
-  /// unknowns.
+  /// Returns whether a known chain of at least `units` units, converted to the shift law of this series, has a smaller
+  /// criterion than `best`.
   bool is_longer_one_better(int units, bool flow, const std::vector<Chains>& known, double best) const {
     for (const Chains& chains : known) {
       for (const auto& [of, chain] : chains)
@@ -101,7 +101,7 @@ class ChainSeries {
   Chains chains_;
 };
 
-/// Returns the same chains with the shift law of `problem`, which must contain theirs.
+/// Converts chains to the shift law of `problem`, which must contain their shift law.
 Chains converted(Chains chains, const Problem& problem) {
   for (auto& [of, chain] : chains) {
     Minimum& minimum = chain.minimum;
@@ -112,8 +112,8 @@ Chains converted(Chains chains, const Problem& problem) {
   return chains;
 }
 
-/// Fits chains with every shift law that the problem's shift contains, each law also from the laws before it. Returns
-/// them converted to the problem's shift.
+/// Fits chains with every shift law that the problem's shift law contains. The fits with a law also start from the
+/// chains of all laws before it. Returns the chains converted to the problem's shift law.
 std::vector<Chains> fit_contained_laws(const Problem& problem, const FitOptions& options, bool deviations) {
   std::vector<Chains> fitted;
   const auto converted_to = [&](const Problem& larger) {

@@ -205,8 +205,8 @@ std::string conversion_text(const KelvinConversion& conversion, std::pair<double
       conversion.law.units(), range_hz.first, range_hz.second, 100 * conversion.largest_error);
 }
 
-/// Returns the frequency range of that chain [Hz]: as given, or the range of the data. \throws InputError when there is
-/// neither.
+/// Returns the frequency range of the chain that replaces a fitted model [Hz]: the given limits or, without them, the
+/// range of the data. \throws InputError when there is neither.
 std::pair<double, double> chain_range(std::optional<double> from, std::optional<double> to,
                                       std::optional<std::pair<double, double>> data) {
   if (!data && !(from && to)) {

@@ -38,8 +38,8 @@ struct Minimum {
 /// `near_enough` ends it early.
 inline constexpr double to_rounding = 1e-13, near_enough = 1e-5;
 
-/// Minimises the misfit from a start, which is first moved between the limits. The misfit of the result is infinite if
-/// the misfit of the start is not finite.
+/// Minimises the misfit from a start, whose values are first moved into their limits. The misfit of the result is
+/// infinite if the misfit of the start is not finite.
 Minimum refine(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
                std::vector<double> theta, double tolerance = to_rounding);
 

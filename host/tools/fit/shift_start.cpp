@@ -43,8 +43,9 @@ std::vector<double> master_curve_shift(const std::vector<Target>& targets, const
   for (const Target& t : targets) curves[t.place.isotherm].emplace_back(std::log10(t.place.omega), t.log_modulus);
   for (Curve& curve : curves) std::sort(curve.begin(), curve.end());
   std::vector<double> out{0};
-  // Decades per kelvin: as usual for binders at room temperature, and more than any polymer has. Flat curves far apart
-  // would otherwise be laid thousands of decades apart. All steps together stay within the range of a double.
+  // `usual`: decades per kelvin of a usual binder at room temperature, for flat curves. `largest_rate`: more decades
+  // per kelvin than any polymer has; without this limit, flat curves far apart would be laid thousands of decades
+  // apart. `range`: limit of all steps together [decades], so that every a_T is within the range of a double.
   constexpr double usual = 0.1, largest_rate = 1, range = 150;
   for (std::size_t i = 1; i < curves.size(); ++i) {
     const double kelvins = temperatures[i] - temperatures[i - 1];
@@ -60,7 +61,8 @@ std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& ta
                                 const std::vector<double>& temperatures) {
   if (u.shift == ShiftKind::none) return {};
   std::vector<double> log_a = master_curve_shift(targets, temperatures);
-  // log_a is made 0 at the reference temperature; if that was not measured, by linear interpolation
+  // Adds a constant to log_a so that it is 0 at the reference temperature. If that temperature was not measured, log_a
+  // is interpolated linearly.
   const auto above = std::clamp<std::ptrdiff_t>(
       std::lower_bound(temperatures.begin(), temperatures.end(), u.reference_temperature) - temperatures.begin(), 1,
       std::ssize(temperatures) - 1);
@@ -81,7 +83,8 @@ std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& ta
     }
     return {std::log(std::max(product / square, 1e4))};
   }
-  // WLF as a linear system, y·d = −C1·d − C2·y; if the result is not sensible, a usual C2 and the C1 that fits best
+  // Solves WLF as a linear system, y·d = −C1·d − C2·y, with y = log10 a_T and d = T − T_r. If the result is not
+  // plausible, takes a usual C2 and the C1 that fits best.
   const double coldest = u.reference_temperature - temperatures.front();
   const auto n = static_cast<Eigen::Index>(log_a.size());
   Eigen::MatrixXd A(n, 2);

@@ -14,11 +14,11 @@ namespace {
 
 /// Larger moduli are questioned [Pa]: no solid is stiffer than diamond, 1.2e12 Pa.
 constexpr double stiffest_solid = 2e12;
-/// Returns the modulus, |E*| or |G*| [Pa], below which the largest modulus of a file is questioned, for its phase.
-/// Bitumen, mastics, mixtures and other polymers are stiffer than that at their stiffest measurement: 1e8 Pa and more
-/// below their glass transition, where phases are below 10 degrees, 1e6 Pa and more below 45 degrees, and less the
-/// nearer they come to a fluid. Rubber, gels and hot oils are softer, but their moduli can be given in kPa or MPa,
-/// which is not questioned.
+/// Returns the modulus, |E*| or |G*| [Pa], below which the user is asked about the unit. `phase_deg` is the phase of
+/// the stiffest measurement of the file. For bitumen, mastics, mixtures and other polymers this measurement is 1e8 Pa
+/// or more at phases below 10 degrees (below the glass transition), 1e6 Pa or more below 45 degrees, and less for
+/// larger phases, which are those of fluids. Rubber, gels and hot oils are softer. Their moduli can be given in kPa or
+/// MPa, which are not questioned.
 double smallest_modulus(double phase_deg) {
   if (phase_deg < 10) return 1e8;
   if (phase_deg < 45) return 1e6;
@@ -52,9 +52,9 @@ void ask_about_moduli(const ModulusData& data, const ColumnsRead& columns, Compl
                              smallest, column.substr(0, column.size() - 3)));
 }
 
-/// Returns whether the moduli rise too steeply with frequency for the phases. A phase φ
-/// goes with a slope d ln|E*|/d ln f of about φ/90 degrees (the Kramers–Kronig relation between both), so phases that
-/// are radians look 57 times too small.
+/// Returns whether the moduli rise too steeply with frequency for the phases. The phase of a material is about 90
+/// degrees times the slope d ln|E*|/d ln f (Kramers–Kronig relation). If phases are in radians, they are 57 times too
+/// small for the slope.
 bool moduli_contradict_phases(const ModulusData& data) {
   std::map<double, std::pair<const ModulusPoint*, const ModulusPoint*>> ends;  // slowest and fastest by temperature
   for (const ModulusPoint& p : data.points) {
@@ -67,12 +67,13 @@ bool moduli_contradict_phases(const ModulusData& data) {
     if (!(fast->frequency_hz >= 2 * slow->frequency_hz)) continue;
     const double slope =
         std::log(fast->e_star_pa / slow->e_star_pa) / std::log(fast->frequency_hz / slow->frequency_hz);
-    // 5 degrees: a scatter of the moduli of some per cent does not reach this slope
+    // the lower limit is 5 degrees, which a scatter of the moduli of some per cent does not reach
     if (90 * slope > std::max(5.0, 10 * std::max(slow->phase_deg, fast->phase_deg))) return true;
   }
   const auto less = [](const ModulusPoint& a, const ModulusPoint& b) { return a.e_star_pa < b.e_star_pa; };
   const auto [softest, stiffest] = std::minmax_element(data.points.begin(), data.points.end(), less);
-  // a material of such small phases in degrees is nearly elastic, at any temperature and frequency
+  // If phases this small are in degrees, the material is nearly elastic at any temperature and frequency, so its moduli
+  // hardly differ.
   return stiffest->e_star_pa > 2 * softest->e_star_pa;
 }
 

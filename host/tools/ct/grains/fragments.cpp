@@ -34,8 +34,8 @@ class Joined {
   std::vector<float> peak_;
 };
 
-/// Returns the voxels inside from the largest distance to the smallest, in order of their index where they fall in the
-/// same bin of width `step`. Counting sort.
+/// Returns the voxels inside from the largest distance to the smallest, by a counting sort. Voxels in the same bin of
+/// width `step` are in the order of their index.
 std::vector<std::uint32_t> from_inside_out(const Image<float>& distance, double step) {
   float top = 0;
   for (const float d : distance.voxels) top = std::max(top, d);

@@ -23,9 +23,10 @@ struct Fragments {
   std::vector<Face> faces;
 };
 
-/// Adds voxels in the order of falling distance. A voxel without a labelled neighbour starts a basin, others join the
-/// basin of their highest neighbour. Two basins that meet are merged if the distance there is above `ratio` times the
-/// smaller one's maximum, or within half a voxel of it. The criterion is relative because with an absolute depth the
+/// Adds voxels in the order of decreasing distance from the surface. A voxel without a labelled neighbour starts a
+/// basin; any other voxel joins the basin of its neighbour with the largest distance. Let d be the distance of a voxel
+/// at which two basins meet, and m the smaller one of the two basins' largest distances. The basins are merged if d is
+/// above `ratio`·m or less than half a voxel below m. The criterion is relative because with an absolute depth the
 /// number of grains would depend on the depth chosen.
 Fragments flood(const Image<float>& distance, const Image<float>& grey, double ratio);
 

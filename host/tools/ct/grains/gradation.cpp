@@ -141,8 +141,8 @@ double trust_in_sizes(const std::vector<ScannedGrain>& grains, const std::vector
     below += g->measure.volume;
   }
   const double largest = by_size.back()->sieve;
-  // With a few dozen grains the median differs by a fifth by chance. A sieve also lets through grains somewhat larger
-  // than its mesh: long grains, worn wires.
+  // With a few dozen grains the median may differ by a fifth by chance. Grains somewhat larger than the mesh of a sieve
+  // may also pass, because they are long or the wires are worn.
   if (middle > 0.7 * high && middle < 1.4 * high && largest < 1.25 * laboratory.back().size) return 1;
   warnings.push_back(
       fmt::format("half of the grains' volume in the scan is below {:.3g} mm, and in the laboratory's gradation below "

@@ -15,8 +15,8 @@ namespace macadam::ct {
 double passing_at(const std::vector<SievePassing>& gradation, double size, double from = 0);
 
 /// Returns a table of the fraction of the grains' volume that passes each sieve, by D^I and by the square mesh. If a
-/// laboratory's gradation is given, the table also has that gradation, in full and for the part that a scan can show,
-/// which is above half of `smallest` [m].
+/// laboratory's gradation is given, the table also has this gradation: in full, and for the part above half of
+/// `smallest` [m], which is the part that a scan can show.
 std::string gradation_csv(const std::vector<ScannedGrain>& grains, const std::vector<SievePassing>& laboratory = {},
                           double smallest = 0);
 

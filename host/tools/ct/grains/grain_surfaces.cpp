@@ -47,8 +47,8 @@ Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, st
               const std::uint32_t label = scan.labels.at(x, y, z);
               const bool foreign = label != id && scan.phases.at(x, y, z) == aggregate;
               const float above = (scan.grey.at(x, y, z) - static_cast<float>(thresholds.aggregate)) * scale;
-              // labels of single voxels form steps, which even_out(own) smooths below; with blocks of voxels the
-              // average smooths it
+              // A cut between labels has steps of one voxel. If nodes are voxels, even_out(own) below smooths these
+              // steps. If nodes are blocks of voxels, the average over a block smooths them.
               if (paper || (foreign && edge > 1)) {
                 sum += label == id ? 0.5f : -0.5f;
               } else {
@@ -69,8 +69,8 @@ Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, st
   return grey;
 }
 
-/// Does what [1], section 3.2.1, does to a surface of voxels: the Delaunay triangulation of its points, whose boundary
-/// is the convex hull.
+/// Replaces a surface of voxels as [1], section 3.2.1, does: by the boundary of the Delaunay triangulation of its
+/// points, which is their convex hull.
 Surface rebuilt(const Surface& surface) {
   Surface hull{surface.name, {}, convex_hull(surface.points)};
   std::vector<std::int32_t> number(surface.points.size(), -1);
@@ -128,7 +128,7 @@ Simplified fit_surface(const Surface& fine, const SegmentOptions& options, doubl
     out = simplified(fine, facets, std::max(facets, most), error);
     if (check_surface(out.surface).good()) return out;
   }
-  // may wrap the grain in a new surface, which is better than losing the grain
+  // repair_surface() may wrap the grain in a new surface, which is better than losing the grain
   out.surface = repair_surface(out.surface, nullptr, {}, true);
   return out;
 }
@@ -185,7 +185,7 @@ std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds
       const Surface fine = isosurface(field_of(scan, thresholds, static_cast<std::uint32_t>(id), box, edge, paper));
       if (fine.facets.empty()) throw RunError("its grey values enclose no volume");
       ScannedGrain grain;
-      // largest error: half a node of the field from which the surface is made
+      // largest error: half the node spacing of the field from which the surface is made
       Simplified fewer = fit_surface(fine, options, 0.5 * voxel * static_cast<double>(edge));
       grain.surface = paper ? rebuilt(fewer.surface) : std::move(fewer.surface);
       grain.surface.name = fmt::format("grain_{:04}", id);

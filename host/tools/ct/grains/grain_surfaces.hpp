@@ -8,8 +8,8 @@
 namespace macadam::ct {
 
 inline constexpr std::int64_t margin = 2;   ///< extra nodes around a grain's box
-inline constexpr std::int64_t across = 32;  ///< nodes along a grain's intermediate side; fewer, one per voxel, if the
-                                            ///< grain has fewer voxels there
+inline constexpr std::int64_t across = 32;  ///< nodes along a grain's intermediate side; a grain with fewer voxels
+                                            ///< there has one node per voxel
 
 /// Bounding box of a grain in voxels, from low to high inclusive, and sums over its voxels.
 struct GrainBox {

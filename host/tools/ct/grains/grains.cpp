@@ -152,11 +152,13 @@ double margin_of(double neck, double solidity, double valley) {
   return std::tanh(0.5 * score);
 }
 
-// Greedy joining, the most certain pair first. After each joining only the faces of the new piece are measured again.
+// Joins greedily: first the pair that most certainly belongs together. After each joining only the faces of the new
+// piece are measured again.
 Decision decide(const Fragments& fragments) {
   std::vector<Piece> pieces = pieces_of(fragments);
   Groups groups(pieces.size());
-  // faces between the pieces as they are after joining; several original faces may lie between the same two pieces
+  // Faces between the pieces that exist after each joining. Several faces between fragments may lie between the same
+  // two pieces.
   std::vector<Face> faces = fragments.faces;
   std::vector<GrainCut> judgement(faces.size());
   for_each_in_parallel(faces.size(),
@@ -199,7 +201,7 @@ Decision decide(const Fragments& fragments) {
       judgement[changed[c]] = judged(face, pieces[face.a], pieces[face.b]);
     });
   }
-  // Each original face reports the measures from the last time its two sides were compared.
+  // Reports for each face between fragments the measures from the last time its two sides were compared.
   std::map<std::pair<std::uint32_t, std::uint32_t>, GrainCut> last;
   for (const std::size_t f : alive) {
     last[std::minmax(groups.root(faces[f].a), groups.root(faces[f].b))] = judgement[f];

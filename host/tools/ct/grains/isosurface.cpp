@@ -33,8 +33,8 @@ class March {
     return std::move(surface_);
   }
 
-  /// Adds the facets within one cube, whose first corner is the node `at`.
  private:
+  /// Adds the facets within one cube, whose first corner is the node `at`.
   void cube(const Grid& at) {
     float values[8];
     int inside = 0;
@@ -81,7 +81,7 @@ class March {
     if (number < 0) {
       number = static_cast<std::int32_t>(surface_.points.size());
       const float p = values[low], q = values[a | b];
-      // not too near to a node, which would give facets without area
+      // keeps the point away from the nodes, because a point at a node would give facets without area
       const double share = std::clamp(static_cast<double>(p / (p - q)), 0.02, 0.98);
       Vec3d point = field_.centre(start[0], start[1], start[2]);
       const Vec3d& spacing = field_.spacing;

@@ -7,9 +7,9 @@
 namespace macadam::ct {
 
 /// Returns the closed surface between the positive and the other values of a field, where the interpolated field is 0.
-/// If it has several parts, returns the one with the largest volume. The nodes of the field are the voxels' centres;
-/// values at the ends of the field must not be positive. Marching cubes; the surface is closed and has no pinched
-/// points by construction. Empty if no value is positive.
+/// If the surface has several parts, returns the one with the largest volume; if no value is positive, an empty
+/// surface. The nodes of the field are the voxels' centres; values at the ends of the field must not be positive. Uses
+/// marching cubes, in a form whose surface is always closed and has no pinched points.
 Surface isosurface(const Image<float>& field);
 
 /// A surface with fewer facets.
@@ -18,9 +18,9 @@ struct Simplified {
   double error = 0;  ///< largest distance of the original surface's points from it [m]
 };
 
-/// Returns a surface of about `facets` facets. If points of the original surface are farther than `error` [m] from it,
-/// returns one of about `most` facets. Uses CGAL's edge collapse by Lindstrom and Turk, which keeps the volume. The
-/// result may intersect itself; check_surface() reports that.
+/// Returns a surface of about `facets` facets. If points of the original surface are farther than `error` [m] from this
+/// surface, returns one of about `most` facets instead. Uses CGAL's edge collapse by Lindstrom and Turk, which keeps
+/// the volume. The result may intersect itself; check_surface() reports that.
 Simplified simplified(const Surface& surface, int facets, int most, double error);
 
 }  // namespace macadam::ct

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// paper_recipe.cpp  Equalises slices and rings, then global Otsu threshold, erosion and watershed, surfaces of voxels.
+// paper_recipe.cpp  Implements the recipe: equalises slices and rings, applies Otsu's global threshold, erodes,
+// computes the watershed, and makes surfaces of the voxels.
 #include "host/tools/ct/grains/paper_recipe.hpp"
 
 #include "host/tools/ct/voxels/distance.hpp"

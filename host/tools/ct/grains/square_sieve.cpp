@@ -21,10 +21,11 @@ struct Flat {
   double x, y;
 };
 
-/// Returns the side of the smallest square around a convex outline in a plane. It compares 90 orientations, one degree
-/// apart. Between two orientations at which an edge of the outline touches the square flush, the width is a sine of the
-/// angle and has its minimum at an end. The larger of the two widths is therefore smallest at such an orientation or
-/// where both widths are equal; the steps of one degree find it to a thousandth.
+/// Returns the side of the smallest square around a convex outline in a plane. It tries 90 orientations of the square,
+/// one degree apart. The side is the larger of the outline's two widths along the axes of the square. While the square
+/// turns, each width follows a sine between two orientations at which an edge of the outline lies along the square. So
+/// the larger width is smallest at such an orientation, or where both widths are equal. Steps of one degree find this
+/// minimum to a thousandth.
 double square_around(const std::vector<Flat>& outline) {
   static const std::vector<Flat> turns = [] {
     std::vector<Flat> out;

@@ -36,9 +36,9 @@ void around(const Image<T>& image, std::size_t at, See&& see) {
   if (k + 1 < nz) see(at + slice);
 }
 
-/// Gives voxels that changed their grain their old label back if they form only a thin layer along a cut, because such
-/// a layer is only roughness of the cut. An edge of a grain that was assigned to the wrong grain is thicker than
-/// `thick` voxels.
+/// Restores the old labels of voxels that moved to another grain but form only a thin layer along a cut. Such a layer
+/// is only roughness of the cut. An edge of a grain that was assigned to the wrong grain is thicker than `thick`
+/// voxels.
 void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& labels, int thick) {
   Image<std::uint8_t> seen = Image<std::uint8_t>::like(labels);
   for (std::size_t start = 0; start < labels.count(); ++start) {
@@ -54,7 +54,7 @@ void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& 
         part.push_back(near);
       });
     }
-    // removes layer by layer, starting next to the grain to which the voxels went
+    // removes the moved voxels layer by layer, starting next to the grain to which they moved
     std::vector<std::size_t> left = part;
     int layers = 0;
     while (!left.empty() && layers < thick) {
@@ -67,7 +67,7 @@ void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& 
         });
         (outer ? layer : inner).push_back(at);
       }
-      if (layer.empty()) break;  // the remaining voxels do not touch that grain
+      if (layer.empty()) break;  // the remaining voxels do not touch the grain to which they moved
       for (const std::size_t at : layer) seen.voxels[at] = 2;
       left = std::move(inner);
       ++layers;
@@ -114,8 +114,8 @@ Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::ve
            (most <= 0 || below.voxels[at] >= std::min(static_cast<float>(depth), 0.5f * most));
   };
   // Returns the length of a path through a voxel. Noise changes the grey value within a grain by a few per cent of the
-  // contrast, mastic thinner than a voxel by a tenth or more; so a voxel counts as long if its grey value is below
-  // 0.94.
+  // contrast; mastic thinner than a voxel lowers it by a tenth or more. So the path becomes longer where the grey value
+  // is below 0.94.
   const auto step = [&](std::size_t at) {
     const float valley = std::max(0.0f, 0.94f - grey.voxels[at]) / 0.04f;
     return 0.05f + valley * valley;

@@ -76,8 +76,8 @@ Vec3d spacing_of(const H5::DataSet& set) {
   return {um * edges[2], um * edges[1], um * edges[0]};
 }
 
-/// Checks that the file stores all voxels that the header counts. HDF5 fills in missing voxels, so a forged count would
-/// be limited by nothing else. \throws InputError if voxels are missing or stored in other files.
+/// Checks that the file stores all voxels that the header counts. HDF5 fills in missing voxels, so without this check a
+/// forged count could have any size. \throws InputError if voxels are missing or stored in other files.
 void check_storage(const H5::DataSet& set, const ImageHeader& header, const std::string& file) {
   const H5::DSetCreatPropList how = set.getCreatePlist();
   double bytes = header.bits / 8.0;

@@ -37,7 +37,8 @@ itk::ImageIOBase::Pointer io_of(const fs::path& path) {
 
 namespace {
 
-/// Redirects std::cout and std::cerr into a text while it exists. MetaIO only prints its errors there and continues.
+/// Redirects std::cout and std::cerr into a text during the lifetime of the object. This is needed because MetaIO only
+/// prints its errors and then continues.
 class Overheard {
  public:
   Overheard() : out_(std::cout.rdbuf(text_.rdbuf())), error_(std::cerr.rdbuf(text_.rdbuf())) {}
@@ -155,7 +156,7 @@ ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
     origin[axis] = io.GetOrigin(axis);
     known = known || spacing[axis] != 1;
   }
-  known = known && !is_tiff(file);  // TIFF has a resolution for printing, of two axes only
+  known = known && !is_tiff(file);  // the resolution in a TIFF file is for printing, and for two axes only
   header.notes = facts.notes;
   note_directions(io, header.notes);
   const double unit = facts.unit.value_or(0);

@@ -43,7 +43,8 @@ void check(const HeaderLines& lines, std::string_view key, std::string_view valu
     lines.refuse(fmt::format("{} of {} bytes", key, value.size()), fmt::format("{} at the most", copied));
   // compared as text: ITK would accept 3e9 as a number, which is too large for its arrays
   if (key == "NDims" && value != "2" && value != "3") lines.refuse(key, value, "two or three dimensions");
-  // from text voxels ITK reads as many numbers as the binary voxels would have bytes, if it reads only some slices
+  // If ITK reads only some slices of voxels that are text, it reads one number for each byte that binary voxels would
+  // have.
   if (key == "BinaryData" && !value.starts_with('T') && !value.starts_with('t') && !value.starts_with('1'))
     lines.refuse(key, value, "True: voxels that are text are not read");
 }
@@ -69,8 +70,8 @@ HeaderFacts check_meta_header(const std::filesystem::path& file) {
     if (key == "DistanceUnits" && value != "?") facts.take_unit(value);
     if (key == "CompressedDataSize" && !is_number(value, packed)) lines.refuse(key, value, "a whole number of bytes");
     if (key != "ElementDataFile") continue;
-    // refused: ITK would count the files of a LIST, and expand a file name pattern with printf, without checking that
-    // they exist
+    // A LIST and a file name pattern are refused, because ITK would use their files without checking that they exist.
+    // It would also expand the pattern with printf.
     if (value.starts_with("LIST") || value.find('%') != std::string_view::npos) lines.refuse_voxels(key, value);
     facts.voxels = is_local(value) ? file : lines.beside(key, value);
     if (const std::uintmax_t there = std::filesystem::file_size(facts.voxels);

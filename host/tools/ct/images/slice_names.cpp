@@ -58,8 +58,8 @@ Name name_of(const std::filesystem::path& file) {
   }
 }
 
-/// Checks that the names differ only in their numbers. \throws InputError if some files have no number or another text
-/// before or after it than most files: they are not slices of this stack.
+/// Checks that the names differ only in their numbers. \throws InputError if some files have no number, or if the text
+/// around their numbers differs from most files: they are not slices of this stack.
 void check_sequence(const std::vector<std::filesystem::path>& slices, const std::vector<Name>& names) {
   const auto key_of = [](const Name& name) { return name.numbers.empty() ? "no number" : name.pattern; };
   std::map<std::string, std::size_t> count;
@@ -78,8 +78,8 @@ void check_sequence(const std::vector<std::filesystem::path>& slices, const std:
                    "the slices of one stack, numbered in one sequence; move other images to another folder");
 }
 
-/// Returns for each name the number that counts the slices: the only number in which the names differ. If several
-/// differ, it is the last number.
+/// Returns for each name the number that counts the slices. This is the only number in which the names differ or, if
+/// they differ in several numbers, the last number of the name.
 std::vector<std::int64_t> counted(const std::vector<Name>& names) {
   const std::vector<std::int64_t>& first = names.front().numbers;
   std::optional<std::size_t> column;

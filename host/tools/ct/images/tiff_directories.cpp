@@ -70,7 +70,8 @@ constexpr std::uint64_t of_page[] = {tags::kind,    tags::width,  tags::height, 
 /// Tags that determine whether the voxels are stored unchanged and contiguously.
 constexpr std::uint64_t of_storage[] = {tags::compression, tags::bit_order, tags::strips, tags::orientation};
 
-/// The tags of one directory that are in the two lists above and hold a single whole number, and its description.
+/// The facts of one page: the tags of the two lists above that hold a single whole number, and the text of the
+/// description.
 struct Page {
   std::map<std::uint64_t, std::uint64_t> numbers;
   std::string description;
@@ -102,7 +103,7 @@ struct Directory {
              fmt::format("as many as the {} bytes of the file hold", size));
     if (tag >= tags::first_of_tiles && tag <= tags::last_of_tiles)
       refuse(tag, "tiles", "rows of voxels (strips), as ImageJ and ITK write them");
-    // libtiff writes both numbers of tag 336 (DotRange) to a place where ITK reserves memory for one pointer
+    // ITK reserves memory for one pointer for tag 336 (DotRange), but libtiff writes both numbers of the tag there
     if (tag == 336) refuse(tag, "a range of dots", "none, as in a scan");
     if (std::ranges::count(of_page, tag) > 0) {
       if (tag == tags::bits && values > 1)

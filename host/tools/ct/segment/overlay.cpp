@@ -69,7 +69,7 @@ double round_length(double longest) {
 
 }  // namespace
 
-// Nearest voxel for each pixel, so that voxels with different edges keep their proportions.
+// Each pixel shows the voxel nearest to it, so that voxels with different edges keep their proportions.
 void write_overlay(const std::filesystem::path& file, const Segmentation& s) {
   constexpr std::size_t gap = 16;  // between planes, and around the labels below them [pixels]
   const double edges[3] = {s.labels.spacing.x, s.labels.spacing.y, s.labels.spacing.z};

@@ -21,8 +21,8 @@ struct Nodes {
   std::int64_t end() const { return first[2] + edge * size[2]; }
 };
 
-/// Returns the nodes for a grain: so fine that about `across` of them lie along its intermediate side, with a margin
-/// around it.
+/// Returns the nodes for a grain. About `across` nodes lie along the intermediate side of the grain, and there is a
+/// margin around it.
 Nodes nodes_of(std::size_t grain, const GrainBox& box, const FineScan& scan) {
   Nodes nodes{grain, box, std::max<std::int64_t>(1, scan.block * box.middle_side() / across), {}, {}, {}};
   for (std::size_t a = 0; a < 3; ++a) {  // a surface may lie up to one block outside the labels
@@ -57,7 +57,7 @@ struct Around {
   std::array<std::int64_t, 3> first{};
 };
 
-/// Computes the two fields for grain `id`, smoothed.
+/// Computes the fields `own` and `inside` around grain `id` and smooths both.
 Around around(const Segmentation& out, std::uint32_t id, const GrainBox& box) {
   constexpr std::int64_t ring = 3;
   Around a;
@@ -146,7 +146,7 @@ struct Refiner {
         }
       }
     }
-    // as in segment_scan(), where the nodes are voxels: the more noise, the more diffusion steps
+    // The more noise, the more diffusion steps, as in segment_scan(), where each node is a single voxel.
     const int rounds = std::clamp(static_cast<int>(std::lround(40 * noise / std::pow(e, 1.5))), 0, 8);
     if (options.denoising != Denoising::none) diffuse(field, 0.3, rounds);
     for (std::size_t n = 0; n < field.count(); ++n)

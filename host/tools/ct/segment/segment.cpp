@@ -70,7 +70,7 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   const GreyLevels noisy = fit_levels(histogram_of(scan, region));
   if (!(noisy.contrast() > 0)) check_levels(histogram_of(scan, region), noisy);
   if (options.denoising == Denoising::median) median(scan);
-  // The more noise, the more diffusion steps. Not more steps than needed, because each also shrinks small round
+  // The more noise, the more diffusion steps. Unnecessary steps are avoided, because each step also shrinks small round
   // features.
   const int rounds = std::clamp(static_cast<int>(std::lround(40 * noisy.deviation / noisy.contrast())), 1, 8);
   if (options.denoising == Denoising::diffusion) diffuse(scan, 0.3 * noisy.contrast(), rounds);

@@ -13,7 +13,8 @@ using namespace ct;
 
 constexpr double scan_bytes = 12;    ///< peak memory per voxel of the scan [bytes]
 constexpr double parted_bytes = 14;  ///< peak memory per voxel of the grid on which grains are separated [bytes]
-constexpr double block_bytes = 32;   ///< peak memory per block [bytes]: both values above, and the voxel in its middle
+constexpr double block_bytes = 32;   ///< peak memory per block [bytes]: somewhat more than the sum of both values above
+                                     ///< and 4 bytes for the voxel in its middle
 constexpr double fixed_bytes = 1e8;  ///< memory of the program and its libraries [bytes]
 
 double gigabytes(double bytes) { return 1e-9 * bytes; }
@@ -40,8 +41,8 @@ double bytes_in_blocks(FineScan scan, std::int64_t block) {
   return fixed_bytes + voxels_of(header) / (edge * edge * edge) * block_bytes + slab * (4 + header.bits / 8.0) + held;
 }
 
-/// Returns the edge of the blocks [voxels]: a twentieth of the smallest grain, or up to a tenth if smaller blocks do
-/// not fit in memory. \throws InputError if none fits.
+/// Returns the edge of the blocks [voxels]: a twentieth of the smallest grain or, if blocks of this size do not fit in
+/// memory, up to a tenth. \throws InputError if none fits.
 std::int64_t block_of(const FineScan& scan, const std::string& file, const SegmentOptions& options, double memory) {
   const double voxel = std::cbrt(scan.spacing.x * scan.spacing.y * scan.spacing.z);
   const auto least = std::max<std::int64_t>(2, static_cast<std::int64_t>(options.smallest / 20 / voxel));

@@ -204,8 +204,8 @@ void voxelise(const SawnCore& core, const PhantomSpec& spec, Phantom& out, Image
   out.grains = std::move(kept);
 }
 
-/// Sets the phase of each voxel to what fills most of it, and its grey value to the mean of the phases weighted by
-/// their fractions. Sets the volume fractions.
+/// Sets the phase of each voxel to the phase that fills most of it, and its grey value to the mean of the phases
+/// weighted by their fractions. Sets the volume fractions.
 void settle(const PhantomSpec& spec, const Shares& shares, Phantom& out, Image<float>& grey) {
   const auto n = static_cast<std::int64_t>(grey.count());
   double specimen = 0, aggregate = 0, voids = 0;
@@ -234,8 +234,8 @@ void settle(const PhantomSpec& spec, const Shares& shares, Phantom& out, Image<f
 
 }  // namespace
 
-// Steps: generate the specimen; fractions of aggregate, voids and specimen in each voxel; phases and grey values from
-// them; faults of a scanner; gaps between grains.
+// Steps: generate the specimen; compute the fractions of aggregate, voids and specimen in each voxel; compute phases
+// and grey values from these fractions; add the faults of a scanner; find the gaps between grains.
 Phantom make_phantom(const Scene& scene, const PhantomSpec& spec,
                      const std::function<void(const std::string& stage, double share)>& progress) {
   check(spec, scene.specimen.box);

@@ -37,8 +37,8 @@ void blur(Image<float>& grey, double voxels) {
   grey.voxels.assign(out, out + grey.count());
 }
 
-/// Returns the brightness factor of each slice: a slow wave, and random steps between slices of a third of its
-/// amplitude.
+/// Returns the brightness factor of each slice: 1 plus a slow wave plus a random number. The standard deviation of the
+/// random numbers is a third of the wave's amplitude.
 std::vector<double> drift(const PhantomSpec& spec, std::int64_t slices) {
   RandomStream random(spec.seed, drift_stream);
   const double phase = random.uniform(0, 2 * std::numbers::pi);

@@ -206,9 +206,9 @@ std::array<std::int64_t, 2> remove_hanging(Specimen& s, const NetworkSpec& spec)
 
 }  // namespace
 
-// Steps: cut out the box; fill each grain with spheres; replace the voids by spheres; pack mastic into the rest; remove
-// what is not connected to both walls. Voids are placed as aggregates first, so that mastic avoids them, and become
-// voids at the end.
+// Steps: cut out the box; fill each grain with spheres; replace the voids by spheres; pack mastic into the remaining
+// space; remove particles that are not connected to both walls. Voids are placed as aggregates first, so that mastic
+// avoids them, and become voids at the end.
 Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
                const std::function<void(const std::string& stage, double share)>& progress) {
   const auto report = [&](const char* stage, double share) {

@@ -207,7 +207,8 @@ double ring_share(const Image<float>& scan, const Image<std::uint8_t>& region) {
   double voxels = 0, sum = 0, squares = 0, explained = 0;
   for (std::size_t r = 0; r < rings.size(); ++r) {
     voxels += rings[r].voxels, sum += rings[r].sum, squares += rings[r].squares;
-    // half the squared step to the next ring; smooth changes over the radius give almost no steps
+    // Half the squared step to the next ring is the variance that a ring explains. Smooth changes over the radius give
+    // almost no steps, so they do not count.
     const double step = rings[r].mean() - rings[r > 0 ? r - 1 : std::min(r + 1, rings.size() - 1)].mean();
     explained += rings[r].voxels * 0.5 * step * step;
   }

@@ -19,8 +19,8 @@ double quantile(const Histogram& h, double share) {
   return h.low + h.width * static_cast<double>(h.counts.size());
 }
 
-/// Returns `wanted`, limited to the range from a quarter to three quarters of the way from `low` to `high`. Warns if it
-/// was outside.
+/// Returns `wanted`, limited to the range from a quarter to three quarters of the way from `low` to `high`. Warns if
+/// `wanted` is outside this range.
 double within(double wanted, double low, double high, const char* what, std::vector<std::string>& warnings) {
   const double from = low + 0.25 * (high - low), to = low + 0.75 * (high - low);
   if (wanted >= from && wanted <= to) return wanted;

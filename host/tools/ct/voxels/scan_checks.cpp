@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scan_checks.cpp  Checks for clipping, ends, rings, levels and axes of a scan.
+// scan_checks.cpp  Checks a scan for clipped voxels, missing ends, rings, implausible grey levels and wrong axes.
 #include "host/tools/ct/voxels/scan_checks.hpp"
 
 #include "host/tools/ct/voxels/correction.hpp"
