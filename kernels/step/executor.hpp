@@ -67,7 +67,7 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
                             std::vector<double> doubles, ParticleMotion<typename E::Policy> motion) {
   typename E::AnyLaw;  // std::variant<…> of the laws that it can step
   { E::lanes + 0 } -> std::convertible_to<int>;
-  // Plans the run; nothing, if it does not fit the devices. E::Plan has a member `layout`
+  // Plans the run; returns nothing if it does not fit the devices. E::Plan has a member `layout`
   { E::plan(specimen, network, start.options) } -> std::same_as<std::optional<typename E::Plan>>;
   {
     read.can_restart_with(start)

@@ -10,8 +10,8 @@
 
 namespace macadam::kernels {
 
-/// Buffer for contact ends in shared memory. One part more per end makes threads that read one end each access
-/// different banks.
+/// Buffer for contact ends in shared memory. An unused part of 16 bytes after each end makes threads that read
+/// different ends access different banks.
 template <unsigned N>
 struct alignas(16) StagedEnds {
   static constexpr unsigned parts = sizeof(ContactEnd) / 16;

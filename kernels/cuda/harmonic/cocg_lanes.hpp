@@ -3,8 +3,9 @@
 ///
 /// Every vector holds the real and imaginary parts of F loads side by side: W = 2F lanes. A thread works on one lane:
 /// its thread number modulo W. The partner of a lane holds the other part (real or imaginary) of the same complex
-/// number. Linear operations are computed lane by lane. In memory, a lane and its partner load whole complex numbers,
-/// every second component each, so that no memory line is loaded twice.
+/// number. Linear operations are computed lane by lane. From memory, a lane and its partner load whole complex numbers:
+/// one of them the components 0, 2 and 4 of a body, the other the components 1, 3 and 5. So no memory line is loaded
+/// twice.
 #pragma once
 
 #include <cuda_runtime.h>
