@@ -111,7 +111,8 @@ struct CpuGroup {
   /// Switches blocks on or off. Returns whether the group uses blocks; if not, its contacts are stepped one step at a
   /// time.
   virtual bool use_blocks(bool wanted, double dt) = 0;
-  /// Ends a block of `ended` steps (0: none) and begins one of `steps`; settle() must follow for all packets.
+  /// Ends a block of `ended` steps (0: no block ends) and begins a block of `steps` steps. settle() must then be called
+  /// for all packets.
   virtual void begin_block(int ended, int steps) = 0;
   /// Updates the states of packets first … end − 1 and adds up their current loads. `now`, `before`: as in
   /// BlockSettling.

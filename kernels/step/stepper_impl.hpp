@@ -56,7 +56,7 @@ class StepperImpl final : public Stepper {
   StepperImpl(const StepperImpl&) = delete;
   ~StepperImpl() override { exec_.use_device(); }
 
-  /// Starts again with other options, for the network that the stepper was made of. Returns false and changes nothing
+  /// Starts again with other options, for the network for which the stepper was made. Returns false and changes nothing
   /// if the arrays it holds do not suit these options, or if the laws are of other kinds.
   bool begin_again(const ContactNetwork& network, const Laws& laws, const Inertia& inertia,
                    const StepperOptions& options) {
@@ -239,7 +239,7 @@ class StepperImpl final : public Stepper {
 
  private:
   /// Returns whether two tables of laws have states of the same kinds and sizes, and act on the same components with
-  /// the same shear.
+  /// the same factor α of the shear stiffness.
   static bool keep_alike(const FactsTable& a, const FactsTable& b) {
     const auto kind = [](const LawFacts& f) {
       return std::tuple(std::string_view(f.name), f.alpha, f.units, f.only_units, f.memoryless, f.linear, f.blocks,

@@ -13,7 +13,7 @@
 
 namespace macadam::kernels {
 
-inline constexpr int wall_axes = 3 * walls;  ///< axis 3·wall + 0, 1 or 2
+inline constexpr int wall_axes = 3 * walls;  ///< numbered 3·wall + 0, 1 or 2 for x, y, z
 
 /// The rows of the steps to come. A driven wall has four words, so that a device reads them by one or two instructions.
 /// R: precision of the particles. Passed to kernels by value.

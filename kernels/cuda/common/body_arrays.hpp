@@ -129,7 +129,7 @@ class CudaBodyArrays {
   void start_clock() { parts_.start(team_.stream()); }
   std::vector<PartTime> stop_clock() { return parts_.stop(); }
 
-  /// Device addresses of the bodies' motion, for readers that keep them on the device.
+  /// Returns the device addresses of the bodies' motion, for callers that read it on the device.
   DeviceMotion device_motion() const {
     return {team_.device(team_.first()), sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
   }

@@ -63,8 +63,9 @@ void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks,
   kernel<<<static_cast<unsigned>(blocks), threads, shared, stream>>>(std::forward<Arguments>(arguments)...);
   check_launch(name, stream);
 }
-/// Launches thread blocks that wait for one another, and possibly for those of another device: either all are on the
-/// device at the same time, or the launch fails. The caller checks errors once all launches are made.
+/// Launches thread blocks that wait for one another, and possibly for thread blocks of another device. Either all
+/// blocks of the launch are on the device at the same time, or the launch fails. The caller checks errors once all
+/// launches are made.
 template <class... Parameters>
 void launch_together(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads,
                      std::size_t shared, cudaStream_t stream, Parameters... parameters) {

@@ -11,9 +11,9 @@
 /// these two alternate and finish early, while further specimens are still being prepared. If all specimens took turns,
 /// all would finish at the same time, and the device would be idle until the next specimens are ready.
 ///
-/// If one specimen has all its steps enqueued (is_queued()), the next one may take the device already: its steps are
-/// enqueued behind an event at the end of the first one's. So the device does not pause while host threads wake each
-/// other.
+/// When all steps of one specimen are enqueued (is_queued()), the next specimen may already take the device. Its steps
+/// are enqueued behind an event that marks the end of the first specimen's steps. So the device does not pause while
+/// host threads wake each other.
 ///
 /// A solution in the frequency domain goes before all steps that need multiprocessors of their own, and these steps
 /// wait until it ends. Meanwhile only steps that need no multiprocessors of their own may use its devices. A solution

@@ -4,9 +4,8 @@
 /// Changing one of them never changes what is computed, except for tile sizes: they change the layout, and the two
 /// kernels sum loads in the order of the layout. The times [µs] are per step of the full specimen (35,760 particles,
 /// some 221,000 contacts) on one H200, unless another device is named. They come from bench/results/tried-gpu-step.csv
-/// ("tried" below). Where no measurement of alternatives was kept, the comment says so. Two numbers of the tile path
-/// are in layout/tile_plan.hpp, because the plan is made without CUDA: TilePlan::couple and
-/// TilePlan::longest_short_list.
+/// ("tried" below). If no measurement of alternatives was kept, the comment says so. Two numbers of the tile path are
+/// in layout/tile_plan.hpp, because the plan is made without CUDA: TilePlan::couple and TilePlan::longest_short_list.
 #pragma once
 
 #include <cstddef>

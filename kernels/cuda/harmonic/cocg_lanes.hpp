@@ -53,7 +53,7 @@ __device__ ComplexThree load_three(const double* vector, std::size_t body, unsig
   const double2* at = three_at<W>(vector, body, lane);
   return {{at[0], at[W], at[2 * W]}};
 }
-/// Does the same for a vector that the kernel does not change.
+/// Returns the same as load_three(), for a vector that the kernel does not change.
 template <unsigned W>
 __device__ ComplexThree load_constant_three(const double* vector, std::size_t body, unsigned lane) {
   const double2* at = three_at<W>(vector, body, lane);

@@ -40,8 +40,8 @@ struct CocgScalars {
   double best;
 };
 
-/// Sums of a box: two parts of rᵀz (straight and crossed, see plain_product()), rᴴr, and the free motions in z; after
-/// them Rᵀr.
+/// Positions and numbers of the sums of a box. The sums are two parts of rᵀz (straight and crossed, see
+/// plain_product()), rᴴr, the amounts of the free motions in z and, last, Rᵀr.
 inline constexpr int sums_rr = 2, sums_drop = 3, fine_sums = 3 + most_free_motions, box_sums = fine_sums + 6;
 /// Number of sums of the coarse correction: straight and crossed part of its product with Rᵀr, and one for each free
 /// motion.

@@ -101,7 +101,7 @@ class TileContactWords {
     out[drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndWallContact::of(0, GroupAndWallContact::no_wall).word)};
   }
 
-  /// Sets the constants that change between blocks to those of the undeformed contact. `word` as in pack().
+  /// Sets the constants that change between blocks to their values for the undeformed contact. `word` as in pack().
   template <bool carried, class Geometry>
   __device__ __forceinline__ static void begin(float4* out, Geometry&& word) {
     out[drift_a * 32] = {0, 0, 0, 0};

@@ -49,7 +49,7 @@ __global__ void __launch_bounds__(Threads, 1)
     each_of(mine.early, early, f);
     each_of(mine.late, late, f);
   };
-  typename OfTile::Constants constants[double_packets_in_registers * couple];  // only from first_in_registers on
+  typename OfTile::Constants constants[double_packets_in_registers * couple];  // used from first_in_registers on
   each_resident([&](auto k, std::uint32_t packet) {
     TileContactWords::state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
     if constexpr (k() >= OfTile::first_in_registers) constants[k] = tile.constants_of(packet, OfTile::in_memory);

@@ -89,7 +89,7 @@ class ResidentTile {
   }
   /// Position of constants that are in global memory.
   static constexpr std::uint32_t in_memory = UINT32_MAX;
-  /// First of a warp's packets with states in registers whose constants are in registers, too.
+  /// Among the packets of a warp whose states are in registers: the first one whose constants are in registers, too.
   static constexpr std::uint32_t first_in_registers =
       double_packets_in_registers * TilePlan::couple - packets_with_constants(memory);
   /// Returns the address of the state of this thread's contact in a packet.

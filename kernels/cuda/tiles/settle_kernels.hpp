@@ -21,8 +21,8 @@
 
 namespace macadam::kernels {
 
-/// Passed instead of the number of steps of the block that ends if no step has been taken yet. The constants then
-/// become those of the undeformed contact.
+/// Passed instead of the number of steps of the block that ends if no step has been taken yet. The constants then get
+/// their values for the undeformed contact.
 inline constexpr int settling_starts = -1;
 
 /// Settles the contacts of one group; one thread per contact.

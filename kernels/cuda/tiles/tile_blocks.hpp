@@ -46,7 +46,7 @@ class TileBlocks {
     settling_.template set_group<geometry>(number, data_.first_slot(number), law, view, dt);
   }
 
-  /// Sets the constants of all contacts to those of the undeformed contact, and waits until this has finished.
+  /// Sets the constants of all contacts to their values for the undeformed contact, and waits until this has finished.
   void start() {
     team_.join_streams();
     settling_.run(settling_starts, block_, data_.settled());

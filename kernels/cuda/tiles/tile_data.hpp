@@ -94,7 +94,7 @@ class TileData {
   }
   std::size_t exchange_words() const { return 2 * (std::size_t{arrays_.places} + walls); }
 
-  /// Returns the arguments of a launch on the first member; arrays_of() returns those of another member.
+  /// Returns the arguments of a launch on the first member; arrays_of() returns the arguments for another member.
   TileArrays<P>& arrays() { return arrays_; }
   const TileArrays<P>& arrays() const { return arrays_; }
   /// Returns the arguments of a launch on member m.

@@ -157,7 +157,7 @@ def _sensitivities(page: Page, folder: Folder) -> None:
         }
         for r in ends
     ]
-    # a pair's delta scales all its moduli, so its sensitivity would repeat those of the moduli
+    # a pair's delta scales all its moduli, so its sensitivity would repeat the sensitivities of the moduli
     names = [n for n in effects[0] if not n.endswith(".delta")]
     names.sort(key=lambda n: -max(abs(e.get(n, (0, 0))[0]) for e in effects))
     names = names[:MOST]
