@@ -244,8 +244,8 @@ struct ContactForces {
     if (view.wall) {
       middle.arm_a = now.arm_a - T(0.5f) * dot(step, n0);
     } else {
-      // all lengths within a step are nearly equal, so the inverse length of the branch serves as an approximation for
-      // the others
+      // All lengths within a step are nearly equal, so the inverse length of the branch approximates the inverses of
+      // the other lengths.
       const Vec3<T> branch_before = branch - step;
       n_before = d.inverse * branch_before;
       n_before = inverse_root_near_one(dot(n_before, n_before)) * n_before;

@@ -40,7 +40,7 @@ class CpuBlocks {
 
   void add_states(StateList& states) {
     if (!on_) return;
-    states.add("base_sums", "N, N m", base_);  // the order needs no conversion: tiles are the same on any CPU
+    states.add("base_sums", "N, N m", base_);  // stored in its own order, because all CPUs have the same tiles
     states.add("displacement_at_block", "m, rad", before_, [this] { return body_order(layout_, displacement_words); });
     schedule_.add_state(states);
   }

@@ -56,7 +56,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
-    states_.add("sums", "N, N m", sums_);  // the order needs no conversion: tiles are the same on any CPU
+    states_.add("sums", "N, N m", sums_);  // stored in its own order, because all CPUs have the same tiles
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
     states_.add("velocity", "m/s, rad/s", master_, by_body);
     states_.add("displacement", "m, rad", displacement_, by_body);
@@ -96,7 +96,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
       std::swap(group->arrays.chain, arrays.chain);
       std::swap(group->arrays.frame, arrays.frame);
     }
-    auto& all = static_cast<Group&>(*group);  // the law, form and geometry are of the same types as at the first start
+    auto& all = static_cast<Group&>(*group);  // law, form and geometry have the types of the first start
     auto& own = all.forces;
     own = forces;
     all.law = law;

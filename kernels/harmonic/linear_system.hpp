@@ -69,7 +69,7 @@ struct LinearLoad {
 /// Result of the iteration for one load.
 struct LinearState {
   double residual = 0;  ///< ‖r‖ / ‖f‖, with r updated by recurrence
-  double energy = 0;    ///< rᴴ·P⁻¹·r, with r = f − K·x computed afresh
+  double energy = 0;    ///< rᴴ·P⁻¹·r, with r = f − K·x computed from x
   int iterations = 0;
   bool converged = false;
 };
@@ -82,8 +82,9 @@ inline constexpr int most_stagnant = 500;
 /// Largest number of loads solved side by side.
 inline constexpr int most_loads = 4;
 
-/// Conjugate gradients for complex symmetric matrices on CUDA devices, several loads side by side. All vectors stay on
-/// the devices. Devices of the same kind give the same bits in every run, however many of them share the work.
+/// Solves linear systems on CUDA devices by conjugate gradients for complex symmetric matrices, for several loads
+/// (right-hand sides) side by side. All vectors stay on the devices. Devices of the same kind give the same bits in
+/// every run, however many of them share the work.
 class DeviceSolver {
  public:
   virtual ~DeviceSolver() = default;

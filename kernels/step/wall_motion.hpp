@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file wall_motion.hpp  Computes the prescribed motion of the walls as a table with one row per step, for some
-/// thousand steps. Every executor reads it.
+/// thousand steps at a time. Every executor reads this table.
 #pragma once
 
 #include <algorithm>

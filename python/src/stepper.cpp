@@ -40,7 +40,7 @@ struct HeldStepper {
 };
 
 /// Returns the time step that the drives were made for, or nothing if no wall is driven. All drives must have the same
-/// step; the first drive's is returned.
+/// step; the time step of the first drive is returned.
 std::optional<double> step_of(const Boundary& boundary) {
   std::optional<double> out;
   for (const WallMotionSpec& wall : boundary.wall) {

@@ -215,7 +215,7 @@ class CudaBodyArrays {
     });
   }
 
-  /// Returns the description of backend and devices; `way`: how steps are taken.
+  /// Returns the description of backend and devices; `way`: words that say how steps are taken.
   std::string described(const std::string& way) const {
     cudaDeviceProp properties{};
     check_cuda(cudaGetDeviceProperties(&properties, team_.device(team_.first())), "device properties");

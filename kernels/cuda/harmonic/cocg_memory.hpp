@@ -45,7 +45,7 @@ struct SystemMemory {
       first_segment.push_back(m * segments / team.size());
       first_body.push_back(m == team.size() ? bodies : static_cast<std::size_t>(runs[first_segment.back()].first));
     }
-    // Splits an array among the devices; first(b) is the index of the first item of body b
+    // Returns how an array is divided among the devices; first(b) is the index of the first item of body b
     const auto share = [&](auto&& first) {
       Shares out;
       for (std::size_t m = 0; m < team.size(); ++m) out.push_back({first(first_body[m + 1]), team.device(m)});

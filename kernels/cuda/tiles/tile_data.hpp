@@ -104,8 +104,8 @@ class TileData {
     out.tile = own.tile, out.body = own.body, out.list = own.list, out.diagonal = own.diagonal, out.halo = own.halo;
     out.body_data = own.body_data;
     out.first_tile = static_cast<std::uint32_t>(cuts_.tile(m));
-    out.moves_walls = m == team_.first();  // with several devices of one process, the others read the walls' velocities
-                                           // from the first one's memory
+    // The first member moves the walls; other devices of the process read the walls' velocities from its memory
+    out.moves_walls = m == team_.first();
     return out;
   }
   /// Allocates `bytes` per tile of member m, for data of bodies that does not fit in shared memory.

@@ -56,8 +56,8 @@ class TileLaunch {
   /// Sets whether some law has a memory or the geometry is updated, for the steps to come.
   void set_memory(bool memory) { memory_ = memory; }
   bool has_memory() const { return memory_; }
-  /// Begins a start: after a failure, clears the words that released the tiles. Otherwise the words stay as they are,
-  /// because tags continue to rise.
+  /// Prepares for a new start. After a failure, clears the words of the exchange, which hold the release tag. Otherwise
+  /// the words stay as they are, because tags continue to rise.
   void start() {
     if (!std::exchange(released_, false)) return;
     data_.clear_exchange();
