@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file aligned.hpp  Allocates vectors that start on a cache line, so that the load of a packet never crosses two
-/// lines.
+/// \file aligned.hpp  Allocates vectors that start on a cache line, so that reading a SIMD register never crosses from
+/// one line to the next.
 #pragma once
 
 #include <sys/mman.h>
@@ -40,9 +40,10 @@ struct RawAllocator : AlignedAllocator<T> {
   }
 };
 
-/// Allocates zeros without writing them. Large arrays are pages of the operating system. It provides a zeroed page only
-/// when the page is first written, near the processor that writes it; until then the page takes no memory. Not used
-/// with the address sanitizer, which guards the ends of arrays.
+/// Allocates zeros without writing them. A large array consists of pages of the operating system, which provides a
+/// zeroed page only when the page is first written, in memory near the processor that writes it. Until then the page
+/// takes no memory. Builds with the address sanitizer write the zeros instead, because the sanitizer can then guard the
+/// ends of the array.
 template <class T>
 struct ZeroAllocator : RawAllocator<T> {
   ZeroAllocator() = default;
@@ -75,7 +76,8 @@ struct ZeroAllocator : RawAllocator<T> {
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 
-/// All zero when made with a size. Elements added by resizing are not zero: assign a new vector instead.
+/// A vector whose elements are zero if it is made with a size. Elements that resize() adds are not zero; assign a new
+/// vector instead of resizing.
 template <class T>
 using ZeroVector = std::vector<T, ZeroAllocator<T>>;
 

@@ -32,7 +32,7 @@ class Barrier {
   }
 
  private:
-  static constexpr unsigned spins = 4000;  ///< about ten microseconds, the imbalance of two tiles
+  static constexpr unsigned spins = 4000;  ///< polls before a thread yields, about ten microseconds
   unsigned threads_ = 1;
   alignas(64) std::atomic<unsigned> arrived_{0};
   alignas(64) std::atomic<unsigned> round_{0};

@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// Calls f(k) for k < n on all threads (on the calling thread if `threads` is false), in any order. An exception cannot
-/// leave OpenMP's threads: all calls are made, then the exception of the lowest k is thrown again.
+/// Calls f(k) for k < n on all threads (on the calling thread if `threads` is false), in any order. An exception must
+/// not leave an OpenMP thread. So all calls are made first; then the exception of the lowest k is thrown again.
 template <class F>
 void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
   std::vector<std::exception_ptr> thrown(n);
@@ -25,7 +25,7 @@ void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
 }
 
 /// Returns Σ f(k) over k < n. Pieces are summed first, then the sums of the pieces in order, so that the bits do not
-/// depend on the number of threads. Exceptions as with for_each_in_parallel().
+/// depend on the number of threads. Treats exceptions like for_each_in_parallel().
 template <class T, class F>
 T sum_in_parallel(std::size_t n, F&& f) {
   constexpr std::size_t piece = 1 << 14;

@@ -17,9 +17,9 @@ struct CudaCode {
   void (*report)(BackendReport& report);
   /// Returns why this device cannot run the kernels; empty if it can. Creates a context on it.
   std::string (*refusal)(int device);
-  /// Returns whether `device` is idle and could share a specimen with `first`, as cuda_idle_beside().
+  /// Returns whether `device` is idle and could share a specimen with `first`; see cuda_idle_beside().
   bool (*idle_beside)(int device, int first);
-  /// Makes a stepper. Arguments as for make_stepper(); precision and devices are in the options.
+  /// Makes a stepper. The arguments are those of make_stepper(); precision and devices are in the options.
   std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                            std::unique_ptr<Stepper> used);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file block_settling.hpp  Updates one contact between two blocks of steps: model (6.8), (6.9). The CPU and the
-/// devices share this code.
+/// \file block_settling.hpp  Updates the viscoelastic states of a contact at the end of each block of steps, by
+/// equations (6.8) and (6.9) of docs/model/motion.md. The CPU and the devices share this code.
 ///
-/// Within a block of M steps a contact carries, for each of its displacement components, only the change δf of f since
-/// the beginning of the block, and the sum of δf' + δf over its steps, in single precision. `drift` is the constant D
-/// of (6.8), the effect of the states at the beginning of the block. The loads of f at the beginning of the block are
-/// summed once per block. Callers are cpu_blocks.hpp and settle_kernels.hpp.
+/// f is the force density of one displacement component of a contact. Within a block a contact stores only two numbers
+/// per component, in single precision: δf, which is the change of f since the beginning of the block; and the sum, over
+/// the steps so far, of δf before the step and δf after it. `drift` is the constant D of (6.8): the effect that the
+/// states at the beginning of the block have on every step. The loads that belong to f at the beginning of the block
+/// are summed once per block. Callers are cpu_blocks.hpp and settle_kernels.hpp.
 #pragma once
 
 #include <cmath>
@@ -15,7 +16,7 @@
 
 namespace macadam::kernels {
 
-/// A contact between two blocks: frame, drift and loads for the next block.
+/// Result of the update of one contact: its frame, drift and loads for the next block.
 template <class R>
 struct SettledContact {
   Placement<double> frame;
@@ -31,8 +32,9 @@ struct BlockSettling {
   ContactView<P> view;
   Block law;
 
-  /// Updates the contact in lane `item.lane` of a packet. `steps`: steps of the block that ends; 0: no block ends, and
-  /// `change` and `sum` are 0. `now`, `before`: displacements now and at the beginning of that block, [body][8].
+  /// Updates the contact in lane `item.lane` of a packet. `steps`: number of steps of the block that ends; 0 if no
+  /// block ends, in which case `change` and `sum` are 0. `now`, `before`: displacements now, and at the beginning of
+  /// the block that ends, [body][8].
   template <class Item>
   MACADAM_HD SettledContact<R> operator()(const Item& item, std::uint32_t packet, const float (&change)[6],
                                           const float (&sum)[6], const double* now, const double* before,

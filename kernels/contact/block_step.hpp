@@ -13,8 +13,9 @@ struct BlockCoefficients {
   T rate, relax, follow;  ///< rate is multiplied by Δt
 };
 
-/// Advances `change`, which is δf since the beginning of the block, and `sum`, which is the sum of δf' + δf over its
-/// steps, by one step with the relative rate u. `drift`: the effect of the states at the beginning of the block.
+/// Advances one displacement component by one step with the relative rate u. `change` is δf, the change of the force
+/// density f since the beginning of the block. `sum` is the sum, over the steps so far, of δf before the step and δf
+/// after it. `drift` is the effect of the states at the beginning of the block.
 template <class T>
 MACADAM_HD void step_in_block_by(const BlockCoefficients<T>& by, const T& u, const T& drift, T& change, T& sum) {
   const T before = change;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file carried_frame.hpp  Updates the frame of a facet as its two bodies move: docs/model.md, section 9.
 ///
-/// S is a scalar or a SIMD pack. The turns of a step or a block are small, so roots, sines and divisions are replaced
-/// by series, which are exact to rounding for such turns.
+/// S is a scalar or a SIMD pack. The frame rotates by a small angle in one step or block. So roots, sines and divisions
+/// are replaced by series, which are exact to rounding for such angles.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@
 
 namespace macadam::kernels {
 
-/// Number of stored words of ŝ. In single precision the fourth word is the angle about n that has not been applied yet,
-/// because increments of 1e-10 would be lost in ŝ itself.
+/// Number of words in which the unit tangent ŝ of a contact is stored. In single precision the fourth word is the
+/// rotation angle about the normal n that has not been applied to ŝ yet. Increments of 1e-10 would be lost if they were
+/// applied to ŝ at once.
 template <class State>
 inline constexpr std::int32_t tangent_words = sizeof(State) == 8 ? 3 : 4;
 
@@ -67,15 +68,15 @@ MACADAM_HD Vec3<S> spun(const Vec3<S>& s, const Vec3<S>& n, const S& angle) {
   return (S(1) - S(0.5f) * square) * s + (angle * (S(1) - square * (S(1) / S(6)))) * cross(n, s);
 }
 
-/// ŝ before and after a turn.
+/// Unit tangent ŝ of a contact before and after its frame is rotated.
 template <class S>
 struct TangentTurn {
   Vec3<S> before, now;
 };
 
-/// Turns the stored ŝ from one normal to the next, and about it by `spin`. Work: scalar type of the arithmetic. In
-/// single precision, ŝ is rewritten only if it has turned by more than single precision would lose; until then its spin
-/// is accumulated in the fourth word.
+/// Rotates the stored tangent ŝ with the normal, from `n_before` to `n`, and then about `n` by the angle `spin`. Work:
+/// scalar type of the arithmetic. In single precision, ŝ is rewritten only after it has rotated by 1e-3, because
+/// rounding would spoil smaller changes. Until then the angle about the normal is accumulated in the fourth word.
 template <class Work, class Item, class State, class S>
 MACADAM_HD TangentTurn<S> turn_tangent(const Item& item, State* stored, const Vec3<S>& n_before, const Vec3<S>& n,
                                        const S& spin) {

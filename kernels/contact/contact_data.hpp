@@ -34,7 +34,8 @@ struct ContactView {
   const Geometry* geometry;           ///< [packet][geometry_words][lane]; arms [m], moments over d [m] [m²] [m³]
   const Geometry* points;             ///< [layer][point_words][lane]; s, t [m], A_J/d [m]; points form only
   const std::uint32_t* packet_layer;  ///< [packet + 1]; points form only
-  /// Condensed form [packet], points form [layer]: [components][1 + units][lane]; f [Pa·m], x_l [m]; null: stateless.
+  /// [packet][components][1 + units][lane], in points form [layer] instead of [packet]: f [Pa·m], then x_l [m] of each
+  /// Kelvin unit. Null if the contacts are stateless.
   State* chain;
   State* frame;  ///< [packet][frame_words][lane] ŝ and, in single precision, the spin not yet applied to it
   std::uint32_t packets;
@@ -44,7 +45,7 @@ struct ContactView {
   /// shear).
   std::int32_t components;
   std::int32_t units;  ///< Kelvin units
-  bool by_points;      ///< whether layers of chains belong to points
+  bool by_points;      ///< points form: each contact point has its own chains
   bool wall;           ///< whether body_b is a wall, whose plane is the facet
   Geometry alpha;
 };
@@ -76,9 +77,9 @@ template <class P>
 struct GroupShape {
   ContactView<P> view{};  ///< numbers only; pointers are null
   bool by_points, stateless;
-  std::size_t slots, lanes, layers;  ///< layers: of chains, one per packet or one per point
+  std::size_t slots, lanes, layers;  ///< layers: number of layers of chains
 
-  /// `options.skip_rotations` has been decided before.
+  /// `options.skip_rotations` must be final (StepperImpl::decided()).
   GroupShape(const Layout& layout, const GroupLayout& group, const LawFacts& law, const StepperOptions& options)
       : by_points(options.form == ContactForm::points),
         stateless(options.geometry == Geometry::fixed && law.memoryless),
@@ -110,12 +111,13 @@ struct GroupShape {
 };
 
 /// Returns the arrays of a group that no step changes, and its numbers. An inert slot reads `body_a` of a real contact
-/// and has zero arms and moments, so it adds zero. `options.skip_rotations` has been decided before.
+/// and has zero arms and moments, so it adds zero. `options.skip_rotations` must be final (StepperImpl::decided()).
 template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
                                const LawFacts& law, const StepperOptions& options);
 
-/// Fills the arrays that a step changes, with the start state of the options, or at rest without one.
+/// Fills the arrays that a step changes: with the start state in the options or, if `options.start` is null, with the
+/// state at rest.
 template <class P>
 void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const LawFacts& law,
                  const StepperOptions& options, ContactArrays<P>& out);

@@ -26,7 +26,8 @@ struct Placement {
   T arm_a, arm_b;
 };
 
-/// Returns 1/x for 1 ≤ |x| ≤ 2. On a device this is faster than a division, which also handles the ends of the range.
+/// Returns 1/x for 1 ≤ |x| ≤ 2. On a device this is faster than a division, which must also handle very small and very
+/// large numbers.
 template <class T>
 MACADAM_HD T reciprocal_near_one(const T& x) {
 #ifdef __CUDA_ARCH__
@@ -68,8 +69,8 @@ struct FacetLoad {
   T moment_n{}, moment_s{}, moment_t{};
 };
 
-/// Returns the load of a facet by model (7.1), (7.2), from the six force densities f[c] (per unit of area over
-/// distance) and the area moments over d.
+/// Returns the load of a facet by model (7.1), (7.2), from the six force densities f[c] (force per unit of area divided
+/// by distance) and the area moments divided by the distance d.
 template <class T>
 MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T (&m)[6]) {
   const T slip_s = alpha * f[3], slip_t = alpha * f[4], twist = alpha * f[5];
@@ -84,7 +85,8 @@ MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T 
   return load;
 }
 
-/// Model (8.2): force on A (B gets the opposite) and the moments about the two centres.
+/// Loads of a contact on its two bodies by model (8.2): the force on A (the force on B is opposite), and the moments
+/// about the two centres.
 template <class T>
 struct ContactLoad {
   Vec3<T> force_a, moment_a, moment_b;

@@ -98,7 +98,8 @@ class GroupReading {
     return out;
   }
 
-  /// Returns f of a chain and copies the chain's numbers to `out`. A stateless contact returns f of the displacement x.
+  /// Returns f of a chain and copies the chain's numbers to `out`. For a stateless contact, returns the f that follows
+  /// from the displacement x.
   double chain(std::size_t layer, int component, std::size_t lane, double x, double* out) const {
     if constexpr (memoryless_law<L>) {
       if (shape_.stateless) return *out = law_.value(x);

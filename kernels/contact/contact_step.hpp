@@ -58,8 +58,8 @@ struct ContactForces {
     };
 
     const Vec3<T> n0{word(n_x), word(n_y), word(n_z)};
-    Placement<T> now, middle;  // where the load acts, and where the half-step velocities are evaluated
-    T u[6];                    // rates; displacements if the contact is stateless
+    Placement<T> now, middle;  // frame in which the load acts, and frame at the half step, for the velocities
+    T u[6];                    // relative rates; relative displacements if the contact is stateless
     if constexpr (stateless) {
       now = canonical_placement(n0, item.copysign_one(n0.z), word(arm_a), word(arm_b));
       const auto* turn = motion.displacement + displacement_words / 2;
@@ -134,8 +134,8 @@ struct ContactForces {
     }
   }
 
-  /// Advances one chain by one displacement component and returns its f. A stateless contact returns f of the
-  /// displacement.
+  /// Advances one chain by one step with the relative rate `rate` of its displacement component, and returns its f. If
+  /// the contact is stateless, `rate` is the displacement, from which f follows.
   template <class Item, class T>
   MACADAM_HD T advance(const Item& item, const T& rate, typename P::State* chain) const {
     using S = typename Item::template Value<typename P::State>;
@@ -181,7 +181,8 @@ struct ContactForces {
     return load;
   }
 
-  /// Does the same for a law that advances the components of a point together; `d`: distance of the contact.
+  /// Returns the sum of the loads of the contact points for a law that advances the three components of a point
+  /// together. `d`: distance of the contact.
   template <class Item, class T>
   MACADAM_HD FacetLoad<T> coupled_points_load(const Item& item, std::uint32_t packet, const T (&u)[6],
                                               const T& d) const {
@@ -243,8 +244,8 @@ struct ContactForces {
     if (view.wall) {
       middle.arm_a = now.arm_a - T(0.5f) * dot(step, n0);
     } else {
-      // all lengths within a step are nearly equal, so the inverse length of the branch serves as an approximation for
-      // the others
+      // All lengths within a step are nearly equal, so the inverse length of the branch approximates the inverses of
+      // the other lengths.
       const Vec3<T> branch_before = branch - step;
       n_before = d.inverse * branch_before;
       n_before = inverse_root_near_one(dot(n_before, n_before)) * n_before;

@@ -60,8 +60,8 @@ struct StepFunctor {
   using type = typename decltype(make<fits>())::type;
 };
 
-/// One of several functors, stored by value so that it can be passed to a kernel: its number in the list, and its
-/// bytes.
+/// Holds one of several functors by value, so that it can be passed to a kernel. Stores the functor's number in the
+/// list and its bytes.
 template <class... Functors>
 struct AnyFunctor {
   int kind = 0;

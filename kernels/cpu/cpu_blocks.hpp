@@ -23,8 +23,8 @@ class CpuBlocks {
   CpuBlocks(const Layout& layout, const TileAccumulators& accumulators)
       : layout_(layout), accumulators_(accumulators) {}
 
-  /// Prepares for a start and returns whether steps are taken in blocks. Blocks shorter than 16 steps are not used: an
-  /// update of the states costs what about ten steps save.
+  /// Prepares for a start and returns whether steps are taken in blocks. Blocks shorter than 16 steps are not used,
+  /// because one update of the states costs as much time as about ten steps in a block save.
   bool begin(const ExecStart& start) {
     constexpr int shortest = 16;
     const bool possible = std::is_same_v<typename P::Geometry, float> && start.options.form == ContactForm::condensed;
@@ -40,7 +40,7 @@ class CpuBlocks {
 
   void add_states(StateList& states) {
     if (!on_) return;
-    states.add("base_sums", "N, N m", base_);  // the order needs no conversion: tiles are the same on any CPU
+    states.add("base_sums", "N, N m", base_);  // stored in its own order, because all CPUs have the same tiles
     states.add("displacement_at_block", "m, rad", before_, [this] { return body_order(layout_, displacement_words); });
     schedule_.add_state(states);
   }
@@ -57,8 +57,8 @@ class CpuBlocks {
     add("block_frame", "1, m", group.placed, placed_words);
   }
 
-  /// Called before step `first`: begins a block if one is due. Returns how many of `steps` may be taken now.
-  /// `displacement`: of all bodies.
+  /// Begins a block if one is due before step `first`, and returns how many of the `steps` steps may be taken before
+  /// the next call. `displacement`: displacements of all bodies.
   std::int64_t next(std::int64_t first, std::int64_t steps, const Groups& groups,
                     const AlignedVector<double>& displacement, int threads) {
     if (!on_) return steps;

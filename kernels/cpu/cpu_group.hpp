@@ -14,11 +14,11 @@
 
 namespace macadam::kernels {
 
-/// Words of a contact's frame within a block: n, arm_a, arm_b, ŝ. With updated geometry only.
+/// Words of a contact's frame within a block: n, arm_a, arm_b, ŝ. They are stored only with updated geometry.
 enum PlacedWord { placed_n, placed_arm_a = 3, placed_arm_b, placed_s, placed_words = placed_s + 3 };
 
-/// Steps packets of contacts within a block by model (6.8) (block_step.hpp); `state` and `placed`
-/// as in CpuGroup.
+/// Steps packets of contacts within a block by model (6.8) (block_step.hpp); `state` and `placed` are the arrays of
+/// CpuGroup.
 template <class P, Geometry geometry>
 struct BlockForces {
   ContactView<P> view{};
@@ -105,18 +105,21 @@ template <class P, std::size_t width>
 struct CpuGroup {
   using R = typename P::Particle;
   virtual ~CpuGroup() = default;
-  /// Steps the packets first … end − 1 and adds up their loads; within a block, only the changes since it began.
+  /// Steps the packets first … end − 1 and adds their loads to `sums`. Within a block, it adds only the changes of the
+  /// loads since the block began.
   virtual void run(std::uint32_t first, std::uint32_t end, const MotionView<P>& motion, R* sums) = 0;
   /// Switches blocks on or off. Returns whether the group uses blocks; if not, its contacts are stepped one step at a
   /// time.
   virtual bool use_blocks(bool wanted, double dt) = 0;
-  /// Ends a block of `ended` steps (0: none) and begins one of `steps`; settle() must follow for all packets.
+  /// Ends a block of `ended` steps (0: no block ends) and begins a block of `steps` steps. settle() must then be called
+  /// for all packets.
   virtual void begin_block(int ended, int steps) = 0;
   /// Updates the states of packets first … end − 1 and adds up their current loads. `now`, `before`: as in
   /// BlockSettling.
   virtual void settle(std::uint32_t first, std::uint32_t end, const double* now, const double* before, R* sums) = 0;
 
-  /// Bytes of all arrays; bytes that a step reads and writes, states counted twice.
+  /// bytes(): size of all arrays. step_bytes(): bytes that a step reads and writes; states, which are read and written,
+  /// count twice.
   std::int64_t bytes() const { return fixed_bytes() + chain_bytes() + block_bytes(); }
   std::int64_t step_bytes() const {
     if (!in_blocks) return fixed_bytes() + 2 * chain_bytes();

@@ -19,9 +19,9 @@
 namespace macadam::kernels {
 
 /// Owns the arrays of a specimen in precision P and runs steps over them. `width`: contacts per packet, 4 or 8; results
-/// do not depend on it. The loops over bodies and contacts are inlined completely (`flatten`). A packet wider than a
-/// register (in mixed precision without AVX-512, in double without AVX) is a tuple to gcc; its many small functions
-/// would otherwise become calls, up to four times slower.
+/// do not depend on it. The loops over bodies and contacts are inlined completely (`flatten`). gcc represents a packet
+/// that is wider than a register (in mixed precision without AVX-512, in double without AVX) as a tuple. Without
+/// `flatten`, the many small functions of this tuple would become calls, and steps would be up to four times slower.
 template <class P, class Laws, std::size_t width = packet_width<P>>
 class ExecCpu : public NoSamples<typename P::Particle> {
  public:
@@ -34,7 +34,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
 
   using Plan = LayoutPlan;
   static std::optional<Plan> plan(const Specimen& specimen, const ContactNetwork& network, const StepperOptions&) {
-    // tiles of 1024 contacts: their states (200 kB) fit the L2 cache of a core
+    // The states of 1024 contacts (200 kB with three Kelvin units in double precision) fit the L2 cache of a core
     return Plan{make_layout(specimen, network, lanes, {1024})};
   }
 
@@ -56,7 +56,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
-    states_.add("sums", "N, N m", sums_);  // the order needs no conversion: tiles are the same on any CPU
+    states_.add("sums", "N, N m", sums_);  // stored in its own order, because all CPUs have the same tiles
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
     states_.add("velocity", "m/s, rad/s", master_, by_body);
     states_.add("displacement", "m, rad", displacement_, by_body);
@@ -96,7 +96,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
       std::swap(group->arrays.chain, arrays.chain);
       std::swap(group->arrays.frame, arrays.frame);
     }
-    auto& all = static_cast<Group&>(*group);  // the law, form and geometry are of the same types as at the first start
+    auto& all = static_cast<Group&>(*group);  // law, form and geometry have the types of the first start
     auto& own = all.forces;
     own = forces;
     all.law = law;
@@ -138,7 +138,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     std::size_t thread, threads;
     Barrier& barrier;
 
-    /// Moves all bodies by the loads of the last contacts(). k: row of the walls' table.
+    /// Moves all bodies by the loads that the last call of contacts() has summed. k: row of the walls' table.
     [[gnu::flatten]] void bodies(const ParticleMotion<P>& motion, std::int64_t k) const {
       for_own_tiles([&](std::size_t tile) {
         std::uint32_t own = exec.accumulators_.tile_begin[tile];
@@ -188,7 +188,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     return out;
   }
 
-  /// Copies of the bodies' arrays, and the reverse.
+  /// Return copies of the bodies' arrays, or replace the arrays by copies.
   std::vector<R> velocities() const { return {master_.begin(), master_.end()}; }
   std::vector<double> displacements() const { return {displacement_.begin(), displacement_.end()}; }
   std::vector<double> wall_displacements() const {
@@ -314,7 +314,8 @@ class ExecCpu : public NoSamples<typename P::Particle> {
   int threads_;
   ThreadChoice choice_;
   bool timed_ = false;
-  double bodies_time_ = 0, contacts_time_ = 0;  // time of the first thread, including its waits [s]
+  double bodies_time_ = 0,
+         contacts_time_ = 0;  // time that the first thread spends in each part, its waits included [s]
 };
 
 }  // namespace macadam::kernels

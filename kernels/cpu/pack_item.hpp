@@ -13,8 +13,8 @@ namespace macadam::kernels {
 
 namespace stdx = std::experimental;
 
-/// Contacts per packet: the SIMD width of the geometry type, in which most of a step is computed, between 4 and 8. A
-/// multiple of four, because bodies are loaded in halves of four words.
+/// Contacts per packet: the SIMD width of the geometry type, in which most of a step is computed, but at least 4 and at
+/// most 8. It is a multiple of four, because the eight words of a body are loaded in two halves of four words.
 template <class P>
 inline constexpr std::size_t packet_width = std::clamp<std::size_t>(stdx::native_simd<typename P::Geometry>::size(), 4,
                                                                     8);

@@ -8,16 +8,16 @@
 
 namespace macadam::kernels {
 
-/// While it lives, subnormal numbers are zero in the thread that made it. The area moments of slivers, and waves that
-/// have hardly begun, are of this size. They are smaller than rounding errors, but some processors take a hundred times
-/// as long to compute with them.
+/// While an object of this class lives, the thread that made it treats subnormal numbers as zero. The area moments of
+/// very thin facets, and the motions at the front of a wave, are that small. These numbers are smaller than rounding
+/// errors, but some processors take a hundred times as long to compute with them.
 template <bool wanted>
 class SubnormalsAreZero {
  public:
   SubnormalsAreZero(const SubnormalsAreZero&) = delete;
 #ifdef __SSE2__
   SubnormalsAreZero() : before_(_mm_getcsr()) {
-    if (wanted) _mm_setcsr(before_ | 0x8040);  // both results and operands
+    if (wanted) _mm_setcsr(before_ | 0x8040);  // two bits: for subnormal results, and for subnormal operands
   }
   ~SubnormalsAreZero() { _mm_setcsr(before_); }
 

@@ -22,7 +22,8 @@ class ThreadChoice {
     int threads;
     std::int64_t steps;
   };
-  /// Returns the number of threads and steps to take next: now and then a short trial of the other choice.
+  /// Returns the number of threads to use next, and the number of steps to take with them. From time to time this is a
+  /// short trial of the other choice.
   Next next() const {
     if (fixed_) return {all_, INT64_MAX};
     const double step = step_[one_thread()];

@@ -14,7 +14,7 @@
 
 namespace macadam::kernels {
 
-/// The accumulators of all tiles; one is eight words of force and moment.
+/// The accumulators of all tiles. An accumulator is eight words that hold a force and a moment.
 struct TileAccumulators {
   std::vector<std::uint32_t> tile_begin;      ///< tile → first accumulator; tiles + 1 entries
   std::vector<std::uint32_t> row_begin, row;  ///< body → its accumulators in other tiles; for walls, all of them

@@ -18,8 +18,8 @@
 
 namespace macadam::kernels {
 
-/// Largest number of free motions of the whole specimen that the iteration can keep out (two separate specimens side by
-/// side in a box have some).
+/// Largest number of free motions that the iteration can remove from a solution. A free motion is a motion of the whole
+/// specimen that no wall resists; two separate specimens side by side in one box have some.
 inline constexpr int most_free_motions = 6;
 
 /// Real stiffness per unit of area over distance, and α, for each pair type.
@@ -27,8 +27,8 @@ struct RealStiffness {
   std::array<double, pair_types> k{}, alpha{};
 };
 
-/// A system and its preconditioner z = (Σ_i K_ii⁻¹ + R·(RᵀKR)⁻¹·Rᵀ)·r, with K made of `typical`. R has the six motions
-/// of each box.
+/// A system and its preconditioner z = (Σ_i K_ii⁻¹ + R·(RᵀKR)⁻¹·Rᵀ)·r, with K computed from the stiffnesses in
+/// `typical`. R has the six motions of each box.
 struct LinearSystem {
   std::vector<std::int32_t> particle;  ///< body → particle of the specimen
   std::vector<std::size_t> row_begin;  ///< body → first of its ends; bodies + 1 entries
@@ -69,7 +69,7 @@ struct LinearLoad {
 /// Result of the iteration for one load.
 struct LinearState {
   double residual = 0;  ///< ‖r‖ / ‖f‖, with r updated by recurrence
-  double energy = 0;    ///< rᴴ·P⁻¹·r, with r = f − K·x computed afresh
+  double energy = 0;    ///< rᴴ·P⁻¹·r, with r = f − K·x computed from x
   int iterations = 0;
   bool converged = false;
 };
@@ -82,8 +82,9 @@ inline constexpr int most_stagnant = 500;
 /// Largest number of loads solved side by side.
 inline constexpr int most_loads = 4;
 
-/// Conjugate gradients for complex symmetric matrices on CUDA devices, several loads side by side. All vectors stay on
-/// the devices. Devices of the same kind give the same bits in every run, however many of them share the work.
+/// Solves linear systems on CUDA devices by conjugate gradients for complex symmetric matrices, for several loads
+/// (right-hand sides) side by side. All vectors stay on the devices. Devices of the same kind give the same bits in
+/// every run, however many of them share the work.
 class DeviceSolver {
  public:
   virtual ~DeviceSolver() = default;
@@ -96,7 +97,7 @@ class DeviceSolver {
   virtual void solution(std::size_t load, const TakePart& take) = 0;
 };
 
-/// Does the same as CudaCode::make_solver. Only in builds with CUDA.
+/// Makes a solver on devices; see CudaCode::make_solver. Only in builds with CUDA.
 std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, const DeviceList& devices,
                                                  std::int64_t& singular_body);
 

@@ -37,7 +37,8 @@ class Bisection {
   }
 
  private:
-  /// Requires items.size() ≥ tiles, so that every tile receives at least one particle.
+  /// Splits the items into `tiles` ranges. Requires items.size() ≥ tiles, so that every tile receives at least one
+  /// particle.
   void split(std::span<Item> items, std::size_t first, std::size_t tile, std::size_t tiles) {
     if (tiles == 1) {
       tile_body_[tile] = static_cast<std::int32_t>(first);

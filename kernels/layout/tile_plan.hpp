@@ -47,7 +47,8 @@ struct Tile {
   std::uint32_t first_body, bodies;  ///< first place of its particles; number of particles
   std::uint32_t first_halo, halo;
   std::uint32_t first_packet, packets;
-  std::uint32_t double_packets;  ///< They come first. In the remaining packets every contact is a couple of its own.
+  std::uint32_t double_packets;  ///< Number of double packets. They come first; in the other packets every contact is a
+                                 ///< couple of its own.
   std::uint32_t inner;           ///< Number of double packets that touch no particle of another tile. They come first.
   std::uint32_t long_lists;  ///< Number of particles with a long list (see TilePlan::longest_short_list). They have the
                              ///< lowest ranks, and the cells of each are consecutive. For a particle of higher rank r,

@@ -16,8 +16,8 @@
 
 namespace macadam::kernels {
 
-/// Largest number of steps in a block. Sums over the steps of a block are in single precision; up to this length,
-/// longer blocks do not increase rounding (bench/block_precision.cpp). Longer ones were not measured.
+/// Largest number of steps in a block. Sums over the steps of a block are in single precision. Up to 1024 steps, their
+/// rounding errors do not grow with the number of steps (bench/block_precision.cpp); longer blocks were not measured.
 inline constexpr int longest_block = 1024;
 
 /// Returns whether blocks are exact: no law has a memory, and contacts keep their initial geometry.
@@ -26,9 +26,9 @@ inline bool blocks_are_exact(Geometry geometry, const FactsTable& laws) {
   return geometry == Geometry::fixed && std::all_of(laws.begin(), laws.end(), has_none);
 }
 
-/// Number of exact blocks in the shortest time of the load that is then sufficient: the change of f within one block,
-/// which is rounded, is a small part of the force's amplitude, and forces are computed afresh from the displacements
-/// when it ends.
+/// Number of blocks, within the shortest time of the load, that is sufficient if blocks are exact. The change of f
+/// within such a block, which is rounded, is a small part of the amplitude of f; and when the block ends, f is computed
+/// afresh from the displacements.
 inline constexpr double exact_blocks = 400;
 
 /// Returns the number of steps of a block, at most longest_block. A block is at most the shortest characteristic time

@@ -43,7 +43,7 @@ class BlockSchedule {
   std::int64_t left() const { return length_ - taken_; }
   void take(std::int64_t steps) { taken_ += static_cast<int>(steps); }
 
-  /// Adds the progress of the block in progress to the states of a checkpoint.
+  /// Adds the progress of the current block to the states of a checkpoint.
   void add_state(StateList& states) {
     states.add<std::int64_t>(
         "block", "1", 3,
@@ -58,7 +58,7 @@ class BlockSchedule {
   }
 
  private:
-  // length_: of the block in progress; the first block may have another length
+  // length_: number of steps of the current block; the first block may have another length than steps_
   int steps_ = 0, taken_ = 0, length_ = 0;
   bool begun_ = false, to_observations_ = false;
 };

@@ -12,10 +12,9 @@
 ///   set_group(…)             called once per group (contacts of one pair type). On the first start it sets the group's
 ///                            arrays, on later starts only the states; it always sets the functor that steps the group
 ///   prepare(motion)          ends the set-up
-/// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). All other
-/// functions read, or set states of a checkpoint. Between two calls of
-/// run() it may take samples (max_samples(), take_sample(), wait_for_samples()); executors that cannot, inherit
-/// NoSamples.
+/// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). The other
+/// functions read results, or copy and replace the states of a checkpoint. Between two calls of run(), StepperImpl may
+/// take samples (max_samples(), take_sample(), wait_for_samples()); executors that cannot, inherit NoSamples.
 #pragma once
 
 #include <concepts>
@@ -67,7 +66,7 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
                             std::vector<double> doubles, ParticleMotion<typename E::Policy> motion) {
   typename E::AnyLaw;  // std::variant<…> of the laws that it can step
   { E::lanes + 0 } -> std::convertible_to<int>;
-  // Plans the run; nothing, if it does not fit the devices. E::Plan has a member `layout`
+  // Plans the run; returns nothing if it does not fit the devices. E::Plan has a member `layout`
   { E::plan(specimen, network, start.options) } -> std::same_as<std::optional<typename E::Plan>>;
   {
     read.can_restart_with(start)

@@ -33,7 +33,7 @@ struct ParticleMotion {
   Damping damping;
   R chi;                           ///< local damping; 0: none
   R damping_factor, force_factor;  ///< factors of v and of the force in viscous damping, model (10.1): (1 − βΔt/2)/(1 +
-                                   ///< βΔt/2) and 1/(1 + βΔt/2); both 1 without
+                                   /// < βΔt/2) and 1/(1 + βΔt/2); both 1 without it
   double dt;  ///< [s]
   WallMotion<R> wall;
 

@@ -16,7 +16,7 @@ namespace macadam::kernels {
 struct StateOrder {
   static constexpr std::uint64_t none = UINT64_MAX;
   std::vector<std::uint64_t> first, word;
-  std::vector<std::uint64_t> twin;  ///< empty, or one per item: `none` without a second place
+  std::vector<std::uint64_t> twin;  ///< empty, or one per item: `none` if the item is stored once
 
   std::size_t size() const { return first.size() * word.size(); }
 

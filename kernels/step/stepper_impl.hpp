@@ -56,7 +56,7 @@ class StepperImpl final : public Stepper {
   StepperImpl(const StepperImpl&) = delete;
   ~StepperImpl() override { exec_.use_device(); }
 
-  /// Starts again with other options, for the network that the stepper was made of. Returns false and changes nothing
+  /// Starts again with other options, for the network for which the stepper was made. Returns false and changes nothing
   /// if the arrays it holds do not suit these options, or if the laws are of other kinds.
   bool begin_again(const ContactNetwork& network, const Laws& laws, const Inertia& inertia,
                    const StepperOptions& options) {
@@ -241,7 +241,7 @@ class StepperImpl final : public Stepper {
 
  private:
   /// Returns whether two tables of laws have states of the same kinds and sizes, and act on the same components with
-  /// the same shear.
+  /// the same factor α of the shear stiffness.
   static bool keep_alike(const FactsTable& a, const FactsTable& b) {
     const auto kind = [](const LawFacts& f) {
       return std::tuple(std::string_view(f.name), f.alpha, f.units, f.only_units, f.memoryless, f.linear, f.blocks,
@@ -303,13 +303,13 @@ class StepperImpl final : public Stepper {
     options_.start = nullptr;
   }
 
-  /// Takes the step from −1 to 0. It needs no forces of step −1, because the given velocities are those half a step
-  /// later.
+  /// Takes the step from −1 to 0. The forces at step −1 are not needed, because the given velocities already belong to
+  /// the middle of this step.
   void start_from(const StartState& start) {
     std::vector<Vec3d> velocity = start.velocity, spin = start.spin;
     for (auto* list : {&velocity, &spin}) {
       for (Vec3d& v : *list)
-        v = (1 / static_cast<double>(motion_.damping_factor)) * v;  // the step will apply damping again
+        v = (1 / static_cast<double>(motion_.damping_factor)) * v;  // the step multiplies by this factor
     }
     if (options_.skip_rotations) spin.assign(spin.size(), {});  // spins in the solution are only rounding errors
     set_velocities(velocity, spin);
@@ -452,7 +452,7 @@ class StepperImpl final : public Stepper {
   ParticleMotion<P> motion_{};
   WallTable<R> wall_table_;
   std::int64_t step_ = 0;
-  bool started_ = false;  // whether the start was in motion, at a step before the first
+  bool started_ = false;  // whether the run started in motion, at step −1
 };
 
 /// Returns the used stepper, started again, if it can be; otherwise makes a new one. If the executor does not fit the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file wall_motion.hpp  Computes the prescribed motion of the walls as a table with one row per step, for some
-/// thousand steps. Every executor reads it.
+/// thousand steps at a time. Every executor reads this table.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 
 namespace macadam::kernels {
 
-inline constexpr int wall_axes = 3 * walls;  ///< axis 3·wall + 0, 1 or 2
+inline constexpr int wall_axes = 3 * walls;  ///< numbered 3·wall + 0, 1 or 2 for x, y, z
 
-/// The rows of the steps to come. A driven wall has four words, so that one or two loads read them. R: precision of the
-/// particles. Passed to kernels by value.
+/// The rows of the steps to come. A driven wall has four words, so that a device reads them by one or two instructions.
+/// R: precision of the particles. Passed to kernels by value.
 template <class R>
 struct WallMotion {
   static constexpr int words = 4;
@@ -57,7 +57,7 @@ class WallTable {
   /// Returns the description of the table; its address is not set.
   const WallMotion<R>& motion() const { return motion_; }
   /// Returns how many rows to fill at once if `done` steps were requested before and `left` remain: few at first, so
-  /// that a device does not wait for the host, then as many as all calls before together, up to a limit.
+  /// that a device does not wait for the host; later as many as all earlier calls together, up to `most_rows`.
   std::int64_t rows(std::int64_t done, std::int64_t left) const {
     return driven_.empty() ? left : std::min({left, std::max(first_rows, done), most_rows});
   }

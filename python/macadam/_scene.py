@@ -13,7 +13,7 @@ from . import _core, _toml
 #: Overrides that are options of the command. All other overrides are keys of the scene.
 OPTIONS = ("seed", "backend", "precision", "method", "linear", "threads", "device")
 
-NO_FILE = "scene"  # name in messages of a scene that does not come from a file
+NO_FILE = "scene"  # name that messages use for a scene that does not come from a file
 
 
 def _entry_of(entries: list[Any], name: str, place: str) -> Any:

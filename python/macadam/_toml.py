@@ -53,7 +53,7 @@ def value(of: Any) -> str:
     raise TypeError(f"a scene cannot hold a {type(of).__name__}: {of!r}")
 
 
-# Whether it is a list of dictionaries, which TOML writes as an array of tables.
+# Returns whether a value is a list of dictionaries, which TOML writes as an array of tables.
 def _tables(of: Any) -> bool:
     return isinstance(of, (list, tuple)) and len(of) > 0 and all(isinstance(x, Mapping) for x in of)
 

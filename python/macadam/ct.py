@@ -30,7 +30,7 @@ def _length(of: Length) -> str:
     return of if isinstance(of, str) else repr(float(of))
 
 
-# Returns a fraction as a number; text is read as per cent. name: of the argument, for the message.
+# Returns a fraction as a number; text is read as per cent. name: name of the argument, for the message.
 def _fraction(of: Fraction | None, name: str) -> float | None:
     if not isinstance(of, str):
         return of

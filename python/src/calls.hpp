@@ -28,7 +28,8 @@ class LongCall {
   /// to 1.
   explicit LongCall(nb::object progress = nb::none()) : progress_(std::move(progress)) {}
 
-  /// Returns true if the work must end. The work may ask at any rate: signals are looked for at most every 50 ms.
+  /// Returns true if the work must end. The work may ask as often as it likes, because signals are checked at most
+  /// every 50 ms.
   bool stop() {
     const auto now = Clock::now();
     if (now - last_look_ < std::chrono::milliseconds(50)) return raised_.has_value();
@@ -54,7 +55,7 @@ class LongCall {
     show(stage, fraction);
     if (stop()) throw InterruptedError("interrupted at: " + stage + "; nothing was written");
   }
-  /// Reports progress to Python and never throws: for work that asks stop() itself.
+  /// Reports progress to Python and never throws. Used for work that asks stop() itself.
   void show(const std::string& stage, double fraction) {
     if (!progress_.is_none()) call_python([&] { progress_(stage, fraction); });
   }
@@ -63,8 +64,8 @@ class LongCall {
     return [this](const std::string& stage, double fraction) { progress(stage, fraction); };
   }
 
-  /// Does the work without the interpreter's lock and returns its result. If a callback raised, or Ctrl-C came, that
-  /// exception is raised instead, whether the work returned or threw.
+  /// Does the work without the interpreter's lock and returns its result. If a callback has raised an exception, or
+  /// Ctrl-C was pressed, raises that exception or KeyboardInterrupt instead, whether the work returned or threw.
   template <class F>
   auto operator()(F&& work) {
     try {
@@ -91,8 +92,8 @@ class LongCall {
     return work();
   }
 
-  /// Raises the stored exception of Python, if there is one. KeyboardInterrupt gets `text` as its message, which is how
-  /// the work says where it ended.
+  /// Raises the stored exception of Python, if there is one. `text` says where the work ended; it becomes the message
+  /// of a KeyboardInterrupt.
   void raise(const char* text) {
     if (!raised_) return;
     nb::python_error error = std::move(*raised_);
@@ -103,7 +104,7 @@ class LongCall {
   }
 
   nb::object progress_;
-  Clock::time_point last_look_ = Clock::now();  // the last time that signals were looked for
+  Clock::time_point last_look_ = Clock::now();  // last time that signals were checked
   std::optional<nb::python_error> raised_;      // the stored exception
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file choices.hpp  Reads arguments of Python that are one of several names, a number in a range, or devices, with
-/// the names and the limits of the command's options.
+/// \file choices.hpp  Checks arguments of Python calls that must be one of several names, a number in a range, or
+/// devices. Names and limits are the same as for the command's options.
 #pragma once
 
 #include <fmt/format.h>
@@ -50,8 +50,8 @@ T in_range(const char* name, T value, T low, T high) {
 
 /// The argument `device`: one number, a list of numbers, or "all", as in the command's option.
 using Devices = std::optional<std::variant<int, std::vector<int>, std::string>>;
-/// Returns the devices. \throws InputError for another word, an empty list, a number outside 0 to 1023 or a repeated
-/// one.
+/// Returns the devices. \throws InputError for another word, an empty list, a number outside 0 to 1023, or a number
+/// that occurs twice.
 inline std::optional<DeviceList> devices_of(const Devices& given) {
   if (!given) return {};
   if (const auto* word = std::get_if<std::string>(&*given)) {

@@ -126,8 +126,8 @@ PhantomNumbers phantom(const GivenScene& scene, const std::string& voxel, const 
   });
 }
 
-/// Makes a specimen from the segmented scan in `folder` and writes it into `out`. box: no lengths, or six: the lowest
-/// corner x, y, z, then the highest.
+/// Makes a specimen from the segmented scan in `folder` and writes it into `out`. box: either empty or six lengths: x,
+/// y, z of the lowest corner, then of the highest corner.
 Twin twin(const Path& folder, const GivenScene& scene, const Path& out, const std::vector<std::string>& box,
           std::optional<double> porosity, const std::string& least_void, std::uint64_t seed, nb::object progress) {
   TwinSpec spec;

@@ -27,7 +27,8 @@ std::vector<double> values_of(const Drive& drive, std::int64_t first, std::int64
 constexpr std::int64_t largest_step_count = std::int64_t{1}
                                             << 60;  // the sum of two such numbers does not overflow 64 bits
 
-/// Returns the number of steps `value`. \throws InputError, naming the argument, if it is below `least` or too large.
+/// Returns `value`, which is a number of steps. \throws InputError, naming the argument, if it is below `least` or too
+/// large.
 std::int64_t checked_steps(const char* name, std::int64_t value, std::int64_t least) {
   return in_range(name, value, least, largest_step_count);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// errors.cpp  Makes Python exceptions for the library's errors, with the same text, and translates one into the other.
+// errors.cpp  Defines the Python exceptions that correspond to the library's errors, and translates each error that is
+// thrown into its exception, with the same text.
 #include "macadam/error.hpp"
 
 #include "python/src/bindings.hpp"

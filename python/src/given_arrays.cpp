@@ -21,7 +21,8 @@ using Doubles = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
   throw InputError(fmt::format("{}: found {}, expected {}", name, found, expected));
 }
 
-/// Names the contents of an array without numbers, from NumPy's letter for its kind.
+/// Returns a name for the contents of an array that holds no numbers. kind: NumPy's letter for the type of its
+/// elements.
 std::string contents(char kind) {
   switch (kind) {
     case 'U':
@@ -46,7 +47,8 @@ std::string expected_shape(std::size_t columns, std::optional<std::size_t> rows)
   return "numbers of shape " + (columns == 1 ? "(" + n + ",)" : fmt::format("({}, {})", n, columns));
 }
 
-/// Returns the numbers of an array of shape (n,), or (n, columns) if there is more than one column, row after row.
+/// Returns the numbers of an array, row after row. The array must have shape (n,) or, if `columns` is above 1, (n,
+/// columns).
 std::vector<double> doubles(nb::handle given, const std::string& name, std::size_t columns,
                             std::optional<std::size_t> rows) {
   const std::string expected = expected_shape(columns, rows);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // harmonic.cpp  Binds the solver of the frequency domain: steady states at single frequencies, with the motion of every
-// particle, and the start of a stepped run from one.
+// particle, and the start of a stepped run from such a state.
 #include "macadam/harmonic.hpp"
 
 #include <nanobind/stl/complex.h>

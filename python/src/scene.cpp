@@ -87,7 +87,8 @@ nb::object recipe_of(const GivenScene& scene) {
   return out;
 }
 
-/// Returns the list of experiments: kind, whether a scene may ask for steps, and names of the result files.
+/// Returns the list of experiments: kind, whether the experiment can be solved by time steps, and names of the result
+/// files.
 nb::list list_experiments() {
   nb::list out;
   for (const Experiment& experiment : all_experiments()) {

@@ -48,8 +48,8 @@ class StepView {
 };
 
 /// Returns the watcher that calls Python's callbacks during a run. started: becomes true when the run is planned; after
-/// that the run itself asks stop(), so that an interrupted run writes its checkpoint. made: becomes the specimen when
-/// it is prepared.
+/// that the run itself asks stop(), so that an interrupted run writes its checkpoint. made: is set to the specimen when
+/// that has been prepared.
 Watcher watcher_of(LongCall& call, bool& started, const Preparation*& made, const nb::object& on_step,
                    std::int64_t every, const nb::object& on_plan, const nb::object& on_warning) {
   Watcher w;
@@ -85,8 +85,8 @@ Watcher watcher_of(LongCall& call, bool& started, const Preparation*& made, cons
   return w;
 }
 
-/// Runs the scene's experiment. specimen: a specimen made before, or null. every: number of steps between two calls of
-/// on_step.
+/// Runs the scene's experiment. specimen: a specimen that was made before, or null to make one from the scene. every:
+/// number of steps between two calls of on_step.
 std::shared_ptr<RunResult> run_scene(const GivenScene& scene, const std::filesystem::path& out,
                                      const PreparedPointer& specimen, bool resume, const nb::object& on_step,
                                      std::int64_t every, const nb::object& progress, const nb::object& on_plan,

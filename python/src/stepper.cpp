@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper.cpp  Binds the stepper, with which a Python program advances a specimen in time itself.
+// stepper.cpp  Binds the stepper, so that a Python program can run its own time loop.
 #include "macadam/stepper.hpp"
 
 #include <nanobind/stl/array.h>
@@ -40,7 +40,7 @@ struct HeldStepper {
 };
 
 /// Returns the time step that the drives were made for, or nothing if no wall is driven. All drives must have the same
-/// step; the first drive's is returned.
+/// step; the time step of the first drive is returned.
 std::optional<double> step_of(const Boundary& boundary) {
   std::optional<double> out;
   for (const WallMotionSpec& wall : boundary.wall) {
@@ -56,7 +56,7 @@ CriticalStep critical(const Prepared& p, const StepperOptions& options) {
   return critical_step(p.made.network, p.scene->laws, make_inertia(p.made.specimen, m.aggregate, m.mastic), options);
 }
 
-/// Takes steps and looks for Ctrl-C after each piece of some tenths of a second.
+/// Takes steps in pieces of some tenths of a second, and checks for Ctrl-C after each piece.
 void advance(HeldStepper& s, std::int64_t steps) {
   if (steps < 0) throw InputError("advance: found " + std::to_string(steps) + " steps, expected 0 or more");
   LongCall call;

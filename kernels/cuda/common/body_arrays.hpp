@@ -102,7 +102,7 @@ class CudaBodyArrays {
     }
   }
 
-  /// Returns the first particle that moves too far in a step (specimen order), or −1.
+  /// Returns the number (specimen order) of the first particle that moves too far in a step, or −1.
   std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
     require_divergence_search(radius);
     Ranks* const ranks = team_.ranks();
@@ -129,7 +129,7 @@ class CudaBodyArrays {
   void start_clock() { parts_.start(team_.stream()); }
   std::vector<PartTime> stop_clock() { return parts_.stop(); }
 
-  /// Device addresses of the bodies' motion, for readers that keep them on the device.
+  /// Returns the device addresses of the bodies' motion, for callers that read it on the device.
   DeviceMotion device_motion() const {
     return {team_.device(team_.first()), sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
   }
@@ -159,7 +159,7 @@ class CudaBodyArrays {
     queue_whole(team_, data, size, [this](std::size_t m) { return m == team_.size() ? 1 : 0; });
   }
 
-  /// Sets all bodies to rest and forgets the list of states.
+  /// Sets all bodies to rest and clears the list of states.
   void rest() {
     states_.clear();
     master_.clear();
@@ -215,7 +215,7 @@ class CudaBodyArrays {
     });
   }
 
-  /// Returns the description of backend and devices; `way`: how steps are taken.
+  /// Returns the description of backend and devices; `way`: words that say how steps are taken.
   std::string described(const std::string& way) const {
     cudaDeviceProp properties{};
     check_cuda(cudaGetDeviceProperties(&properties, team_.device(team_.first())), "device properties");
@@ -226,7 +226,8 @@ class CudaBodyArrays {
     return "cuda" + (devices == DeviceList{0} ? "" : named + to_string(devices)) + ", " + properties.name + ", " + way;
   }
 
-  /// Bytes of the bodies that a step reads and writes; and all bytes held except for the loads.
+  /// body_traffic(): bytes of the bodies that a step reads and writes. held_bytes(): all bytes held, except for the
+  /// load records.
   std::int64_t body_traffic() const {
     return static_cast<std::int64_t>(2 * (master_.bytes() + displacement_.bytes() + velocity_.bytes()) +
                                      inverse_.bytes());
@@ -262,7 +263,8 @@ class CudaBodyArrays {
       return velocity_.data();
   }
 
-  /// Shares of an array of a group: by slots or, for arrays by contact points, approximately so.
+  /// Returns how an array of a group is divided among the devices. An array with one item per slot is cut between
+  /// slots; an array with one item per contact point is cut at about the same contacts.
   Shares array_shares(std::size_t words, const GroupLayout& group) const {
     if (words % group.contact.size() == 0) return cuts_.slots(group);
     return cuts_.of([&](std::size_t m) {

@@ -26,7 +26,8 @@ struct LaneItem {
   static constexpr bool staged = true;  ///< all chains of a contact are loaded before the first is stored
 
   MACADAM_HD static constexpr std::size_t lanes() { return 32; }
-  // a contact is used once per step: streaming loads leave the cache to the bodies and the records
+  // The words of a contact are used once per step. Streaming loads keep them from displacing bodies and load records in
+  // the cache.
   template <class R>
   __device__ __forceinline__ R load(const R* p) const {
     return __ldcs(p + lane);

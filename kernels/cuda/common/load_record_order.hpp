@@ -25,11 +25,11 @@ struct LoadLists {
   /// [slot of all groups][2] records of the ends A and B; UINT32_MAX in an inert slot.
   DeviceArray<std::uint32_t> place;
   DeviceArray<std::uint32_t> long_body;  ///< bodies with more than long_list records, walls last
-  std::vector<std::uint32_t> long_cut;   ///< [member of the team + 1] first of the member's own bodies in long_body
+  std::vector<std::uint32_t> long_cut;   ///< [member of the team + 1] index in long_body of the member's first body
   std::uint32_t long_particles = 0;      ///< number of particles in long_body
   std::size_t records = 0;
-  std::vector<std::size_t> cut;  ///< [member of the team + 1] first record of its bodies
-  Shares shares;                 ///< of the records, by device
+  std::vector<std::size_t> cut;  ///< [member of the team + 1] first record of the member's bodies
+  Shares shares;                 ///< how the records are divided among the devices
 
   LoadLists(const ContactNetwork& network, const Layout& layout, const TeamCuts& cuts, RecordOrder order) {
     const std::size_t bodies = layout.particles() + walls, contacts = network.contacts.size();

@@ -48,8 +48,9 @@ struct LoadRecords {
     store(record(to.x), load.force_a, load.moment_a);
     store(record(to.y), -load.force_a, load.moment_b);
   }
-  /// Does the same as store(), by all threads of a warp together. The records are transposed in shared memory, so that
-  /// neighbouring threads write one record and memory receives whole sectors.
+  /// Writes the loads of all contacts of a warp to their records; called by all threads of the warp together. The
+  /// records are transposed in shared memory, so that neighbouring threads write one record and memory receives whole
+  /// sectors.
   template <class U>
   __device__ __forceinline__ void store_by_warp(std::uint32_t slot, const ContactLoad<U>& load) const {
     __shared__ Two turned[contact_threads][parts];

@@ -16,7 +16,7 @@
 
 namespace macadam::kernels {
 
-/// One sample, in the words of the kernels. R: precision of the particles.
+/// One sample as the kernels write it. R: precision of the particles.
 template <class R>
 struct DeviceSample {
   R force[walls * velocity_words];                  ///< exerted by the particles [N, N·m]
@@ -26,8 +26,8 @@ struct DeviceSample {
   std::uint32_t divergent;
 };
 
-/// Writes everything except `divergent` into a sample. One thread block. The arrays are the arrays of the walls, in the
-/// order of DeviceSample.
+/// Writes everything except `divergent` into a sample. Launched with one thread block. `force`, `velocity` and
+/// `displacement` point to the words of the walls, in the same order as in DeviceSample.
 template <class R>
 __global__ void take_sample(DeviceSample<R>* sample, const R* force, const R* velocity, const double* displacement) {
   for (unsigned i = threadIdx.x; i < walls * velocity_words; i += blockDim.x) {
@@ -48,7 +48,7 @@ class DeviceSamples {
   DeviceSamples(const DeviceSamples&) = delete;
   ~DeviceSamples() { cudaFreeHost(read_); }
 
-  /// Enqueues that no sample reports a diverged particle.
+  /// Enqueues the reset of all samples, after which none reports a diverged particle.
   void clear(cudaStream_t stream) {
     check_cuda(cudaMemsetAsync(taken_.data(), 0xff, taken_.bytes(), stream), "samples");
   }

@@ -25,7 +25,7 @@ class DeviceArray {
     }
     clear();
   }
-  /// An array with `words` numbers per item, spread over the devices that the items' shares name.
+  /// An array with `words` numbers per item, spread over devices as `shares` says.
   DeviceArray(const Shares& shares, std::size_t words) {
     if (shares.size() == 1) {
       *this = DeviceArray(shares.back().end * words);

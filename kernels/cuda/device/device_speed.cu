@@ -21,8 +21,8 @@ __global__ void __launch_bounds__(threads) move_words(float4* a, float4* b, std:
   }
 }
 
-/// Every thread moves one word of shared memory on by one warp, `turns` times. `ticks`: clock ticks of the first thread
-/// block.
+/// Moves every word of shared memory by 32 places, `turns` times; each thread moves one word at a time. `ticks`
+/// receives the number of clock ticks that the first thread block took.
 __global__ void __launch_bounds__(threads) turn_shared(int turns, float* out, long long* ticks) {
   __shared__ float4 words[2][threads];
   words[0][threadIdx.x] = {1, 2, 3, static_cast<float>(threadIdx.x)};

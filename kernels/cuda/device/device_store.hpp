@@ -20,7 +20,7 @@ class DeviceStore {
     using T = typename Array::value_type;
     return own(DeviceArray<T>::of(array));
   }
-  /// Does the same for an array whose items are spread over several devices.
+  /// Copies a host array to the devices and keeps it. Its items are spread over several devices, as `shares` says.
   template <class Array>
   auto keep(const Array& array, const Shares& shares) {
     using T = typename Array::value_type;
@@ -31,7 +31,8 @@ class DeviceStore {
   T* zeros(std::size_t n) {
     return own(DeviceArray<T>(n));
   }
-  /// Does the same for an array with `words` numbers per item, spread over several devices.
+  /// Keeps an array of zeros with `words` numbers per item. The items are spread over several devices, as `shares`
+  /// says.
   template <class T>
   T* zeros(const Shares& shares, std::size_t words) {
     return own(DeviceArray<T>(shares, words));

@@ -12,7 +12,7 @@ namespace macadam::kernels {
 void report_cuda_devices(BackendReport& report);
 /// Returns why this device cannot run the kernels; empty if it can. Creates a context on it.
 std::string cuda_refusal(int device);
-/// Does the same as macadam::measure_device().
+/// Measures the bandwidths and the clock of a device; see macadam::measure_device().
 DeviceSpeed measure_device(int device);
 
 }  // namespace macadam::kernels

@@ -16,13 +16,15 @@
 
 namespace macadam::kernels {
 
-/// \throws RunError with `what`, the action that failed, and CUDA's message.
+/// Throws if a call of the CUDA runtime has failed. \throws RunError with `what`, the action that failed, and CUDA's
+/// message.
 inline void check_cuda(cudaError_t status, const char* what) {
   if (status != cudaSuccess) throw RunError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
 }
 
-/// Copies to, from or within a device, or clears, and waits until that has finished. Does not wait for other work of
-/// the device, because several specimens may share it. The memory must not be in use.
+/// copy_now() copies memory to, from or within a device; clear_now() sets memory to zero. Both wait until this has
+/// finished, but not for other work of the device, because several specimens may share the device. The memory must not
+/// be in use.
 inline void copy_now(void* to, const void* from, std::size_t bytes, const char* what) {
   check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, cudaStreamPerThread), what);
   check_cuda(cudaStreamSynchronize(cudaStreamPerThread), what);
@@ -61,8 +63,9 @@ void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks,
   kernel<<<static_cast<unsigned>(blocks), threads, shared, stream>>>(std::forward<Arguments>(arguments)...);
   check_launch(name, stream);
 }
-/// Launches thread blocks that wait for one another, and possibly for those of another device: either all are on the
-/// device at the same time, or the launch fails. The caller checks errors once all launches are made.
+/// Launches thread blocks that wait for one another, and possibly for thread blocks of another device. Either all
+/// blocks of the launch are on the device at the same time, or the launch fails. The caller checks errors once all
+/// launches are made.
 template <class... Parameters>
 void launch_together(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads,
                      std::size_t shared, cudaStream_t stream, Parameters... parameters) {

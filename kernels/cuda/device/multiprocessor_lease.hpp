@@ -5,19 +5,20 @@
 /// The thread blocks of a launch of resident tiles wait for one another, and each occupies one multiprocessor. If two
 /// such launches each had only some of the multiprocessors that they need, neither would end. Before it launches, a
 /// specimen takes one multiprocessor per tile (TileLaunch::lease() calls take()), and gives them back when its steps
-/// have finished (give()). A Share is the number of multiprocessors on each device.
+/// have finished (give()). A Share says how many multiprocessors are taken on each device.
 ///
-/// The oldest waiting specimen goes first. So the oldest two take turns and finish while others are still being
-/// prepared. If all specimens took turns, all would finish at the same time, and the device would be idle until the
-/// next ones are ready.
+/// The oldest waiting specimen goes first. While it prepares its next steps on the host, the second oldest one runs. So
+/// these two alternate and finish early, while further specimens are still being prepared. If all specimens took turns,
+/// all would finish at the same time, and the device would be idle until the next specimens are ready.
 ///
-/// If one specimen has all its steps enqueued (is_queued()), the next one may take the device already: its steps are
-/// enqueued behind an event at the end of the first one's. So the device does not pause while host threads wake each
-/// other.
+/// When all steps of one specimen are enqueued (is_queued()), the next specimen may already take the device. Its steps
+/// are enqueued behind an event that marks the end of the first specimen's steps. So the device does not pause while
+/// host threads wake each other.
 ///
-/// A solution in the frequency domain goes before all steps that need multiprocessors of their own. While it runs, only
-/// other steps may use its devices. It consists of hundreds of short kernels in sequence; each of them would otherwise
-/// wait for steps to end.
+/// A solution in the frequency domain goes before all steps that need multiprocessors of their own, and these steps
+/// wait until it ends. Meanwhile only steps that need no multiprocessors of their own may use its devices. A solution
+/// consists of hundreds of short kernels in sequence; without this rule each of these kernels would wait for steps to
+/// end.
 #pragma once
 
 #include <condition_variable>
@@ -42,17 +43,17 @@ class MultiprocessorLease {
   /// Kind of work that takes multiprocessors.
   enum class Work { steps, solution };
 
-  /// Returns a number for a specimen that is to be stepped, or for a solution. Lower numbers go first. Numbers of one
-  /// kind rise. All numbers of solutions are below all numbers of specimens.
+  /// Returns a number for a specimen that is to be stepped, or for a solution. Lower numbers go first. Later calls for
+  /// the same kind of work return higher numbers. All numbers of solutions are below all numbers of specimens.
   static std::uint64_t next_number(Work work = Work::steps) {
     constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
     MultiprocessorLease& leases = instance();
     const std::lock_guard lock(leases.mutex_);
     return leases.next_++ + (work == Work::steps ? first_of_steps : 0);
   }
-  /// Waits until `wanted` can be taken: no lower number waits for one of these devices, and all of it is free or will
-  /// be free at an event. In the latter case, calls `queue_behind` with that event while the lock prevents its owner
-  /// from destroying it. `of_device`: number of multiprocessors that each device has.
+  /// Waits until `wanted` can be taken: no lower number waits for one of its devices, and all of its multiprocessors
+  /// are free, or will be free when an event happens. In the latter case, calls `queue_behind` with that event while
+  /// the lock prevents its owner from destroying it. `of_device`: number of multiprocessors that each device has.
   static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
     MultiprocessorLease& leases = instance();
     std::unique_lock lock(leases.mutex_);

@@ -48,7 +48,8 @@ Function driver_function(const char* name) {
   return reinterpret_cast<Function>(found);
 }
 
-/// Memory for the items of `shares`, each of `bytes` bytes. Each page is on the device that has most of it.
+/// Memory for the items of `shares`, each of `bytes` bytes. Each page is on the device whose items fill most of the
+/// page.
 class SpreadMemory {
  public:
   SpreadMemory() = default;
@@ -86,7 +87,7 @@ class SpreadMemory {
   }
   ~SpreadMemory() {
     if (size_ == 0) return;
-    try {  // these functions were found when the memory was made
+    try {  // does not fail: the driver that mapped the memory also has these functions
       if (mapped_ > 0) driver_function<decltype(&cuMemUnmap)>("cuMemUnmap")(begin_, mapped_);
       driver_function<decltype(&cuMemAddressFree)>("cuMemAddressFree")(begin_, size_);
     } catch (const RunError&) {}

@@ -10,8 +10,8 @@
 
 namespace macadam::kernels {
 
-/// Buffer for contact ends in shared memory. One part more per end makes threads that read one end each access
-/// different banks.
+/// Buffer for contact ends in shared memory. An unused part of 16 bytes after each end makes threads that read
+/// different ends access different banks.
 template <unsigned N>
 struct alignas(16) StagedEnds {
   static constexpr unsigned parts = sizeof(ContactEnd) / 16;
@@ -31,7 +31,7 @@ struct alignas(16) StagedEnds {
 /// Iterates over the bodies of a warp that have few contacts, taking as many contacts at a time as the warp has slices
 /// (groups of W threads).
 struct WarpBodies {
-  /// Some contacts of one of the warp's bodies.
+  /// Consecutive contacts of one body of the warp.
   struct Place {
     int body;
     unsigned begin, left;  ///< first contact, counted from the segment's first, and number of contacts from there on

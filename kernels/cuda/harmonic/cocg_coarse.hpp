@@ -7,8 +7,8 @@
 
 namespace macadam::kernels {
 
-/// Decides which loads are solved, and computes β = rᵀz / (rᵀz before). A solved load no longer changes. Called by one
-/// thread block.
+/// Decides which loads (right-hand sides) are solved, and computes β, which is rᵀz divided by rᵀz of the previous
+/// iteration. The solution of a solved load no longer changes. Called by one thread block.
 template <int F>
 __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coarse) {
   constexpr int W = 2 * F;
@@ -44,7 +44,8 @@ __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coars
   ++s.iteration;
 }
 
-/// Rows of the coarse matrix per thread block, one per warp. One more thread block sums what the boxes have left.
+/// Number of rows of the coarse matrix per thread block; each warp computes one row. One more thread block adds up the
+/// sums that the kernel advance has stored for each box.
 inline constexpr unsigned coarse_rows = cocg_threads / 32;
 inline unsigned row_blocks(std::size_t boxes) {
   return static_cast<unsigned>((6 * boxes + coarse_rows - 1) / coarse_rows);

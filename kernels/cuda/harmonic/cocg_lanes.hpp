@@ -3,8 +3,9 @@
 ///
 /// Every vector holds the real and imaginary parts of F loads side by side: W = 2F lanes. A thread works on one lane:
 /// its thread number modulo W. The partner of a lane holds the other part (real or imaginary) of the same complex
-/// number. Linear operations are computed lane by lane. In memory, a lane and its partner load whole complex numbers,
-/// every second component each, so that no memory line is loaded twice.
+/// number. Linear operations are computed lane by lane. From memory, a lane and its partner load whole complex numbers:
+/// one of them the components 0, 2 and 4 of a body, the other the components 1, 3 and 5. So no memory line is loaded
+/// twice.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -52,7 +53,7 @@ __device__ ComplexThree load_three(const double* vector, std::size_t body, unsig
   const double2* at = three_at<W>(vector, body, lane);
   return {{at[0], at[W], at[2 * W]}};
 }
-/// Does the same for a vector that the kernel does not change.
+/// Returns the same as load_three(), for a vector that the kernel does not change.
 template <unsigned W>
 __device__ ComplexThree load_constant_three(const double* vector, std::size_t body, unsigned lane) {
   const double2* at = three_at<W>(vector, body, lane);

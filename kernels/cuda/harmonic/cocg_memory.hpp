@@ -3,7 +3,7 @@
 ///
 /// Each device works on consecutive segments (cocg_view.hpp). The sums of each box are written to all devices. So each
 /// device computes the same scalars itself and need not wait for scalars of another device; it only reads the motions
-/// of bodies across the cut.
+/// of bodies that are on other devices.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct SystemMemory {
   DeviceArray<ContactEnd> ends;
   DeviceArray<double> mass, motion, inverse;  ///< inverse: packed blocks, filled in by invert_blocks
   DeviceArray<Lever> lever;
-  /// Arrays that each member has for itself.
+  /// Arrays of which each member of the team has its own.
   struct OfMember {
     DeviceArray<Segment> segment;
     DeviceArray<std::int32_t> box_segment;
@@ -45,7 +45,7 @@ struct SystemMemory {
       first_segment.push_back(m * segments / team.size());
       first_body.push_back(m == team.size() ? bodies : static_cast<std::size_t>(runs[first_segment.back()].first));
     }
-    // Splits an array among the devices; first(b) is the index of the first item of body b
+    // Returns how an array is divided among the devices; first(b) is the index of the first item of body b
     const auto share = [&](auto&& first) {
       Shares out;
       for (std::size_t m = 0; m < team.size(); ++m) out.push_back({first(first_body[m + 1]), team.device(m)});
@@ -69,8 +69,8 @@ struct SystemMemory {
   }
 
  private:
-  /// Makes about one segment per thread block that the device can run at the same time, each with bodies for some
-  /// warps. Their number does not depend on the number of devices.
+  /// Divides the bodies of each box into segments of a multiple of 32 bodies, about as many as the device can run
+  /// thread blocks at the same time. The number of segments does not depend on the number of devices.
   void make_segments(const LinearSystem& system, const DeviceTeam& team, std::vector<Segment>& runs,
                      std::vector<std::int32_t>& box_segment) const {
     int multiprocessors = 0;
@@ -91,7 +91,7 @@ template <int F>
 struct VectorMemory {
   static constexpr std::size_t lanes = 2 * F;
   DeviceArray<double> x, r, p, q, z;
-  /// Arrays that each member has for itself.
+  /// Arrays of which each member of the team has its own.
   struct OfMember {
     DeviceArray<double> segment_products, segment_sums, products, sums, loads, fine, boxes_move, coarse_sums;
     DeviceArray<CocgScalars<F>> scalars;

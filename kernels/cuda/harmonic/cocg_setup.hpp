@@ -10,8 +10,8 @@
 
 namespace macadam::kernels {
 
-/// Computes K_ii⁻¹ of every body, packed. `singular_body` receives the first body whose own stiffness is singular in
-/// more ways than `own_motions` says.
+/// Computes K_ii⁻¹ of every body, packed. `singular_body` receives the first body whose own stiffness is singular for
+/// more motions than `own_motions` says.
 static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
                                      RealStiffness typical, const std::uint8_t* own_motions, double* inverse,
                                      unsigned long long* singular_body) {
@@ -28,8 +28,8 @@ static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_
   }
 }
 
-/// Converts between the vector of one load, [6·particles] in the order of the specimen, and lane f of the vectors of
-/// all, [6·bodies].
+/// to_lanes() copies the vector of load number f, [6·particles] in the order of the specimen, into the vectors of all F
+/// loads, [6·bodies][2·F]; from_lanes() copies it back.
 template <int F>
 __global__ void to_lanes(const double2* one, const std::int32_t* particle, double* all, std::size_t size, int f) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
@@ -44,7 +44,7 @@ __global__ void from_lanes(const double* all, const std::int32_t* particle, doub
   one[6 * static_cast<std::size_t>(particle[i / 6]) + i % 6] = {all[i * 2 * F + 2 * f], all[i * 2 * F + 2 * f + 1]};
 }
 
-/// Writes loads on bodies into lane f of the vectors of F loads.
+/// Writes the forces and moments of load number f on bodies into the vectors of all F loads.
 template <int F>
 __global__ void set_loads(const BodyLoad* on, std::size_t bodies, double* all, int f) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;

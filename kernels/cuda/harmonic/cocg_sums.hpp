@@ -26,8 +26,8 @@ __device__ void block_sum(const double (&v)[N], double* out) {
   __syncthreads();
 }
 
-/// Returns whether this thread block is the last of `blocks` to call this. It then sees what the others have written.
-/// `several`: the blocks run on several devices.
+/// Returns whether this thread block is the last of `blocks` to call this. The last block then sees everything that the
+/// other blocks have written. `several`: the blocks run on several devices.
 __device__ inline bool comes_last(unsigned* counter, unsigned blocks, bool several) {
   __shared__ bool last;
   const auto fence = [several] {

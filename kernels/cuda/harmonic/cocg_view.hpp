@@ -40,8 +40,8 @@ struct CocgScalars {
   double best;
 };
 
-/// Sums of a box: two parts of rᵀz (straight and crossed, see plain_product()), rᴴr, and the free motions in z; after
-/// them Rᵀr.
+/// Positions and numbers of the sums of a box. The sums are two parts of rᵀz (straight and crossed, see
+/// plain_product()), rᴴr, the amounts of the free motions in z and, last, Rᵀr.
 inline constexpr int sums_rr = 2, sums_drop = 3, fine_sums = 3 + most_free_motions, box_sums = fine_sums + 6;
 /// Number of sums of the coarse correction: straight and crossed part of its product with Rᵀr, and one for each free
 /// motion.
@@ -78,7 +78,8 @@ struct CocgView {
   double *x, *r, *p, *q, *z;  ///< [6·bodies][lanes]
   CocgBoxes boxes_here;       ///< on the device of the launch
   const CocgBoxes* all;       ///< [device]
-  /// Scratch of the launch's device; scratch of the first device, for boxes that several devices work on.
+  /// own: scratch of the launch's device. common: scratch of the first device, used for boxes that several devices work
+  /// on.
   CocgScratch own, common;
   double* fine;         ///< sums over all boxes, [fine_sums][lanes]
   double* boxes_move;   ///< [6·boxes][lanes]
@@ -89,12 +90,12 @@ struct CocgView {
   int free;
 };
 
-/// Product aᵀb of a load, from lanes that hold Σ re·re and Σ im·im (straight), and Σ re·im and Σ im·re (crossed, in any
-/// order).
+/// Returns the product aᵀb of load f. Two lanes of `straight` hold Σ re·re and Σ im·im; two lanes of `crossed` hold Σ
+/// re·im and Σ im·re, in any order.
 __device__ inline double2 plain_product(const double* straight, const double* crossed, int f) {
   return {straight[2 * f] - straight[2 * f + 1], crossed[2 * f] + crossed[2 * f + 1]};
 }
-/// Product aᴴb (real) of a load, from the straight sums.
+/// Returns the product aᴴb of load f, which must be real, from the straight sums.
 __device__ inline double conjugate_product(const double* straight, int f) {
   return straight[2 * f] + straight[2 * f + 1];
 }

@@ -166,7 +166,7 @@ class Solver : public DeviceSolver {
              arguments...);
     });
   }
-  /// Launches a kernel on every member, for the same work.
+  /// Launches a kernel on every member; all members compute the same numbers.
   template <int F, class Kernel, class... Arguments>
   void by_each(const Vectors<F>& v, const char* name, Kernel kernel, unsigned blocks, Arguments... arguments) {
     team_.each([&](std::size_t m) {
@@ -174,7 +174,8 @@ class Solver : public DeviceSolver {
     });
   }
 
-  /// Computes r −= α·K·`from` and all that follows from it; `first`: α = 1.
+  /// Runs the kernels apply, step, advance and coarse, which compute r −= α·K·`from` and all sums of the iteration.
+  /// `first`: α = 1.
   template <int F>
   void improve(const Vectors<F>& v, const double* from, bool first) {
     over_segments(v, "apply", cocg_apply<F>, from);

@@ -153,7 +153,7 @@ class DeviceTeam {
     if (member_.size() == 1 && !ranks_) return check_cuda(cudaStreamSynchronize(stream()), what);
     while (!at_rest(what)) std::this_thread::yield();
   }
-  /// Waits until an event has happened, in the same way.
+  /// Waits until an event has happened; like wait(), polls all devices if there are several.
   void wait_for(cudaEvent_t event, const char* what) const {
     if (member_.size() == 1) return check_cuda(cudaEventSynchronize(event), what);
     for (cudaError_t status = cudaErrorNotReady; status != cudaSuccess; status = cudaEventQuery(event)) {
@@ -227,7 +227,7 @@ class TeamCuts {
   }
 
   std::size_t members() const { return team_.size(); }
-  /// First tile of member m. For m = number of members, the end.
+  /// First tile of member m; the number of tiles for m = number of members.
   std::size_t tile(std::size_t m) const { return tile_[m]; }
   /// First body of member m; the last member also has the walls.
   std::size_t body(std::size_t m) const {

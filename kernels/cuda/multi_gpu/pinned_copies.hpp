@@ -51,8 +51,8 @@ class PinnedParts {
  public:
   explicit PinnedParts(const DeviceTeam& team) : copies_(team, (std::size_t{8} << 20) / sizeof(T)) {}
 
-  /// Calls take(index of the part's first item, part, count) for each part in turn. The work that fills `from` is in
-  /// the team's stream before.
+  /// Calls take(index of the part's first item, part, count) for each part in turn. The work that fills `from` must
+  /// already be in the team's stream.
   template <class Take>
   void copy(const T* from, std::size_t count, Take&& take) const {
     const std::size_t part = copies_.size(), parts = (count + part - 1) / part;

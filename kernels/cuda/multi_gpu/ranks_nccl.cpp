@@ -27,7 +27,7 @@ class NcclRanks final : public Ranks {
  public:
   NcclRanks() {
     int begun = 0, given = 0;
-    MPI_Initialized(&begun);  // by mpi4py, for example, which then finalizes it too
+    MPI_Initialized(&begun);  // another library, such as mpi4py, may have started MPI; it then also ends MPI
     began_ = !begun;
     if (began_) check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given), "start");
     // A communicator separate from the program's other messages

@@ -34,7 +34,7 @@ class TilePositions {
   std::size_t slots() const { return slots_; }
   std::size_t first_slot(std::size_t group) const { return first_slot_[group]; }
 
-  /// Records that the contact of a slot is (also) at `position`.
+  /// Adds `position` to the positions of a slot's contact.
   void add(std::size_t group, std::size_t slot, std::uint32_t position) {
     uint2& of_slot = positions_[first_slot_[group] + slot];
     (of_slot.x == UINT32_MAX ? of_slot.x : of_slot.y) = position;

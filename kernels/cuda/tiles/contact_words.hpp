@@ -81,7 +81,7 @@ class TileContactWords {
   __host__ __device__ __forceinline__ static Word* at(Word* words, std::uint32_t position, int count) {
     return words + static_cast<std::size_t>(position / 32) * count * 32 + position % 32;
   }
-  /// Returns the index of that word in the array.
+  /// Returns the index of the first word of the contact at `position`, in an array with `count` words per contact.
   static std::size_t first(std::size_t position, int count) {
     return position / 32 * static_cast<std::size_t>(count) * 32 + position % 32;
   }
@@ -101,7 +101,7 @@ class TileContactWords {
     out[drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndWallContact::of(0, GroupAndWallContact::no_wall).word)};
   }
 
-  /// Sets the constants that change between blocks to those of the undeformed contact. `word` as in pack().
+  /// Sets the constants that change between blocks to their values for the undeformed contact. `word` as in pack().
   template <bool carried, class Geometry>
   __device__ __forceinline__ static void begin(float4* out, Geometry&& word) {
     out[drift_a * 32] = {0, 0, 0, 0};
@@ -112,7 +112,7 @@ class TileContactWords {
       out[tangent * 32] = {0, 0, 0, 0};
     }
   }
-  /// Sets the constants that change between blocks for the next block.
+  /// Writes the constants of the next block: the drift and, with updated geometry, the frame.
   template <bool carried>
   __device__ __forceinline__ static void settle(float4* out, const Placement<double>& frame, const float (&drift)[6]) {
     out[drift_a * 32] = {drift[0], drift[1], drift[2], drift[3]};

@@ -43,7 +43,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     Plan out{make_layout(specimen, network, Base::lanes, tile_size(network, options, team, limits)), {}, {}};
     const TeamCuts cuts(team, out.layout);
     std::vector<bool>
-        begins_share;  // [tile] a further device's tiles begin here; empty if every array is on one device
+        begins_share;  // [tile] whether it is the first tile of another device; empty if every array is on one device
     for (std::size_t m = 1; m < team.size() && !team.ranks(); ++m) {
       begins_share.resize(cuts.tile(team.size()), false);
       begins_share[cuts.tile(m)] = true;
@@ -59,7 +59,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     return options.form == ContactForm::condensed ? block_steps(options, laws, size) : 0;
   }
 
-  /// Takes the tiles out of the plan; its layout must outlive the executor.
+  /// Takes the tiles out of the plan. The plan's layout must outlive the executor.
   ExecCudaTiles(const ContactNetwork& network, Plan& plan, const StepperOptions& options)
       : Base(network, plan.layout, options, RecordOrder::by_number),
         data_(this->team_, this->cuts_, plan.layout, std::move(plan.tiles), options.geometry, this->crossing_),

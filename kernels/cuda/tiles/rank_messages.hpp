@@ -27,7 +27,7 @@ class TileOwners {
     first_place_.push_back(plan.body.size());
     first_packet_.push_back(plan.packets());
   }
-  /// First place or packet of member m. For m = number of members, the end.
+  /// First place or packet of member m; the number of places or packets for m = number of members.
   std::size_t first_place(std::size_t m) const { return first_place_[m]; }
   std::size_t first_packet(std::size_t m) const { return first_packet_[m]; }
   std::size_t of_place(std::size_t place) const { return owner(first_place_, place); }
@@ -49,7 +49,7 @@ class TileMessages {
  public:
   using R = typename P::Particle;
 
-  /// Prepares the messages. Called once; the arrays must keep their addresses. `places` must still be on the host.
+  /// Prepares the messages. Called once; the arrays must keep their addresses. `positions` must still be on the host.
   void make_ready(const DeviceTeam& team, const Layout& layout, const TeamCuts& cuts, const TilePlan& plan,
                   const TileOwners& owners, const TilePositions& positions, const Crossing& crossing,
                   const TileArrays<P>& scene, const SettledArrays<P>& settled, double* before, R* base, bool carried) {

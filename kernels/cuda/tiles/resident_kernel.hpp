@@ -28,7 +28,7 @@ __global__ void __launch_bounds__(Threads, 1)
   const ResidentMemory<P> memory_map(own_tile, OfTile::words_read, storage, s.shared_bytes);
   OfTile tile(s, own_tile, shared, memory_map);
   const auto mine = tile.packets_of_warp();
-  // words_read in shared memory, because registers are scarce
+  // the list of the warp's spilled packets is in shared memory, because registers are scarce
   auto& spilled = reinterpret_cast<WarpPackets*>(shared + memory_map.spilled)[threadIdx.x / 32];
   if (threadIdx.x % 32 == 0) spilled = mine.spilled;
   tile.load();

@@ -14,10 +14,10 @@
 
 namespace macadam::kernels {
 
-/// One tile, and the parts of a step that its threads compute. All data of a body is read before the first of it is
-/// written. Otherwise each read would wait for the write before it, because both might have the same address. `memory`:
-/// some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in shared
-/// memory.
+/// One tile, and the parts of a step that its threads compute. All data of a body is read before any of it is written.
+/// Otherwise the compiler would let each read wait for the write before it, because both might have the same address.
+/// `memory`: some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in
+/// shared memory.
 template <class P, int Threads, bool carried, bool memory, BodyStorage storage>
 class ResidentTile {
  public:
@@ -25,7 +25,7 @@ class ResidentTile {
   static constexpr unsigned warps = Threads / 32;
   using Constants = ContactConstants<carried, memory>;
   using Contact = ContactInBlock<carried, memory>;
-  /// Constant words of a packet: number in memory, and number of those that a step reads and the cache holds.
+  /// Number of constant words per contact: in memory, and of those that a step reads and the cache holds.
   static constexpr std::uint32_t words = TileContactWords::constants(carried), words_read = Constants::words;
 
   __device__ __forceinline__ ResidentTile(const TileArrays<P>& scene, const Tile& own_tile, unsigned char* shared,
@@ -49,8 +49,8 @@ class ResidentTile {
         cached(m.cached),
         first_wall(tile.bodies + tile.halo) {}
 
-  /// Returns how many doubles are stepped before the halo's velocities have arrived. Zero if there are few, because an
-  /// early part of the step needs one more barrier.
+  /// Returns the number of double packets that are stepped before the halo's velocities have arrived. Returns zero if
+  /// there are few, because stepping some packets early costs one more barrier.
   __device__ __forceinline__ std::uint32_t inner() const { return 2 * tile.inner < warps ? 0 : tile.inner; }
   /// Some consecutive packets: first and count. They are packed into one word, because registers are scarce.
   struct Packets {
@@ -89,7 +89,7 @@ class ResidentTile {
   }
   /// Position of constants that are in global memory.
   static constexpr std::uint32_t in_memory = UINT32_MAX;
-  /// First of a warp's packets with states in registers whose constants are in registers, too.
+  /// Among the packets of a warp whose states are in registers: the first one whose constants are in registers, too.
   static constexpr std::uint32_t first_in_registers =
       double_packets_in_registers * TilePlan::couple - packets_with_constants(memory);
   /// Returns the address of the state of this thread's contact in a packet.

@@ -5,8 +5,8 @@
 /// TileBlocks launches two kernels in this order. settle_contacts (through Settling in settle_launch.hpp) takes each
 /// contact's δf and sum from the tiles' states, updates the contact's chain by model (6.9), writes the drift (and with
 /// updated geometry the frame) for the next block into the tiles' constants, and stores the loads of the current f as
-/// records. sum_base sums the records of each body to its new base loads and stores its displacement as that at the
-/// beginning of the block. The formulas of one contact are in block_settling.hpp.
+/// records. sum_base sums the records of each body to its new base loads and stores the body's displacement as its
+/// displacement at the beginning of the block. The formulas of one contact are in block_settling.hpp.
 ///
 /// Words: to settle is to update a contact between two blocks. A record is the load of one contact on one of its two
 /// bodies; the records of a body are consecutive (its load list). Each contact is settled once, by its slot in the
@@ -21,8 +21,8 @@
 
 namespace macadam::kernels {
 
-/// Passed instead of the number of steps of the block that ends: nothing has been stepped yet, and the constants become
-/// those of the undeformed contact.
+/// Passed instead of the number of steps of the block that ends if no step has been taken yet. The constants then get
+/// their values for the undeformed contact.
 inline constexpr int settling_starts = -1;
 
 /// Settles the contacts of one group; one thread per contact.
@@ -32,8 +32,9 @@ struct SettleContact {
   BlockSettling<P, Block, Units, geometry> settling;
 
   /// `position`: the one or two positions of the contact in the tiles; x is UINT32_MAX for an inert slot. `now`,
-  /// `before`: displacements now and at the beginning of the block, [body][8]. `steps`: of the block that ends; 0:
-  /// no block has ended; settling_starts: see there. `record`: slot among all groups.
+  /// `before`: displacements now and at the beginning of the block, [body][8]. `steps`: number of steps of the block
+  /// that ends; 0 if no block has ended; settling_starts before the first step. `record`: number of the slot among the
+  /// slots of all groups.
   __device__ void operator()(std::uint32_t slot, uint2 position, float4* constant, const float4* state,
                              const double* now, const double* before, int steps,
                              const LoadRecords<typename P::Particle>& records, std::uint32_t record) const {

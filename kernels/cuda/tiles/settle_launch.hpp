@@ -62,8 +62,8 @@ class Settling {
   }
 
   /// Enqueues the update between two blocks: the block that ends had `ended` steps, the next one has `steps`. `ended`
-  /// is 0 if no block has ended, and settling_starts if nothing was stepped yet; the constants are then set to those of
-  /// the undeformed contact.
+  /// is 0 if no block has ended, and settling_starts if nothing was stepped yet; the constants then get their values
+  /// for the undeformed contact.
   void run(int ended, int steps, const SettledArrays<P>& arrays) {
     if (!launch_) return;
     const int known = ended > 0 ? ended : steps;

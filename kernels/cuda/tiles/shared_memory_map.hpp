@@ -40,8 +40,9 @@ struct ResidentMemory {
   std::uint32_t velocity, cells, full_velocity, body_data, halo, diagonal, list, law, spilled, cache, total;
   std::uint32_t cached;  ///< number of packets in the cache
 
-  /// Returns the size of a tile's particle data: displacements, base loads, Δt/m and Δt/I and, with all_away, the
-  /// velocities in full precision. It is in global memory if it does not fit in shared memory.
+  /// Returns the size of a tile's particle data: displacements, base loads, Δt/m and Δt/I and, with
+  /// BodyStorage::global, the velocities in full precision. The data is in global memory if it does not fit in shared
+  /// memory.
   __host__ __device__ static constexpr std::uint32_t body_bytes(std::uint32_t bodies, BodyStorage storage) {
     const auto numbers = storage == BodyStorage::global ? 14u : 8u;
     return bodies * static_cast<std::uint32_t>(6 * sizeof(double) + numbers * sizeof(R));

@@ -84,7 +84,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   constexpr std::uint32_t words = TileContactWords::constants(carried);
   const Tile tile = s.tile[s.own_tile()];
   const float4* from = velocities_of(s, k);
-  // the last warps of the first tile move the walls; with several ranks, the first tile of each
+  // the last threads of the first tile move the walls; with several ranks, each rank does so
   const int axis = !last && s.moves_walls && blockIdx.x == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
   WallAxisMotion<P> wall(s, axis, k + 1);
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)

@@ -46,14 +46,14 @@ class TileBlocks {
     settling_.template set_group<geometry>(number, data_.first_slot(number), law, view, dt);
   }
 
-  /// Sets the constants of all contacts to those of the undeformed contact. Waits for the start.
+  /// Sets the constants of all contacts to their values for the undeformed contact, and waits until this has finished.
   void start() {
     team_.join_streams();
     settling_.run(settling_starts, block_, data_.settled());
     data_.messages().after_settling(team_);
     team_.wait("start");
   }
-  /// Adds the progress of the block in progress to the states of a checkpoint.
+  /// Adds the progress of the current block to the states of a checkpoint.
   void add_state(StateList& states) { schedule_.add_state(states); }
 
   /// Enqueues the steps first … first + steps − 1. `row`: row of the walls' table for the first of them.

@@ -25,7 +25,7 @@ class TileData {
  public:
   using R = typename P::Particle;
 
-  /// `plan` is taken over.
+  /// Takes ownership of `plan`.
   TileData(const DeviceTeam& team, const TeamCuts& cuts, const Layout& layout, TilePlan plan, Geometry geometry,
            const std::optional<Crossing>& crossing)
       : team_(team),
@@ -94,7 +94,7 @@ class TileData {
   }
   std::size_t exchange_words() const { return 2 * (std::size_t{arrays_.places} + walls); }
 
-  /// Returns the arguments of a launch on the first member. Others: arrays_of().
+  /// Returns the arguments of a launch on the first member; arrays_of() returns the arguments for another member.
   TileArrays<P>& arrays() { return arrays_; }
   const TileArrays<P>& arrays() const { return arrays_; }
   /// Returns the arguments of a launch on member m.
@@ -104,8 +104,8 @@ class TileData {
     out.tile = own.tile, out.body = own.body, out.list = own.list, out.diagonal = own.diagonal, out.halo = own.halo;
     out.body_data = own.body_data;
     out.first_tile = static_cast<std::uint32_t>(cuts_.tile(m));
-    out.moves_walls = m == team_.first();  // with several devices of one process, the others read the walls' velocities
-                                           // from the first one's memory
+    // The first member moves the walls; other devices of the process read the walls' velocities from its memory
+    out.moves_walls = m == team_.first();
     return out;
   }
   /// Allocates `bytes` per tile of member m, for data of bodies that does not fit in shared memory.
@@ -123,14 +123,14 @@ class TileData {
     return {constant_.data(), arrays_.state, arrays_.motion.body.displacement,
             before_,          records_,      positions_.on_device()};
   }
-  /// Stores the displacements of all bodies as those at the beginning of the block.
+  /// Stores the displacements of all bodies as their displacements at the beginning of the block.
   void store_displacements() {
     check_cuda(cudaMemcpyAsync(before_, arrays_.motion.body.displacement,
                                (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice,
                                team_.stream()),
                "first block");
   }
-  /// Enqueues the sums of the base loads, which also store the displacements as those at the beginning of the block.
+  /// Enqueues the kernel that sums the base loads and stores the displacements at the beginning of the block.
   void sum_base_loads() const {
     team_.each([&](std::size_t m) {
       const auto [long_body, long_lists] = lists_->long_lists(m, true);
@@ -168,7 +168,7 @@ class TileData {
     messages_.wall_loads(team_);
   }
 
-  /// Adds to `states` what a block in progress holds in addition to the chains.
+  /// Adds the arrays that belong to a block in progress, in addition to the chains, to the states of a checkpoint.
   void add_states(StateList& states) {
     const auto words = [](auto* data) { return reinterpret_cast<float*>(data); };
     const std::size_t loads = (bodies_ + walls) * velocity_words;

@@ -19,7 +19,7 @@ template <class P>
 using StreamedKernel = void (*)(TileArrays<P>, std::uint32_t step, bool last);
 
 /// Returns the resident kernel for a geometry (`carried`: updated), a storage of bodies, and laws with or without a
-/// memory. With updated geometry there is one kernel for both.
+/// memory. With updated geometry, laws with and without a memory have the same kernel.
 template <class P>
 ResidentKernel<P> resident_kernel(bool carried, BodyStorage storage, bool memory) {
   constexpr int threads = resident_threads;
@@ -32,7 +32,7 @@ ResidentKernel<P> resident_kernel(bool carried, BodyStorage storage, bool memory
   if (carried) return of(std::true_type{}, std::true_type{});
   return memory ? of(std::false_type{}, std::true_type{}) : of(std::false_type{}, std::false_type{});
 }
-/// Returns the streamed kernel, likewise.
+/// Returns the streamed kernel for a geometry, and laws with or without a memory.
 template <class P>
 StreamedKernel<P> streamed_kernel(bool carried, bool memory) {
   if (carried) return run_streamed<P, streamed_threads, streamed_blocks, true, true>;
@@ -75,8 +75,8 @@ TileFit fit_resident(const TilePlan& plan, const DeviceTeam& team, const TeamCut
   return out;
 }
 
-/// Returns how the tiles run on the devices of a team. Resident tiles read the memory of other devices, which ranks
-/// cannot.
+/// Returns how the tiles run on the devices of a team. With ranks, tiles cannot be resident, because resident tiles
+/// read the memory of other devices.
 template <class P>
 TileFit fit_tiles(const TilePlan& plan, const DeviceTeam& team, const TeamCuts& cuts, const DeviceLimits& limits,
                   bool carried) {

@@ -56,8 +56,8 @@ class TileLaunch {
   /// Sets whether some law has a memory or the geometry is updated, for the steps to come.
   void set_memory(bool memory) { memory_ = memory; }
   bool has_memory() const { return memory_; }
-  /// Begins a start: after a failure, clears the words that released the tiles. Otherwise the words stay as they are,
-  /// because tags continue to rise.
+  /// Prepares for a new start. After a failure, clears the words of the exchange, which hold the release tag. Otherwise
+  /// the words stay as they are, because tags continue to rise.
   void start() {
     if (!std::exchange(released_, false)) return;
     data_.clear_exchange();
@@ -116,7 +116,8 @@ class TileLaunch {
     for (const Tile& tile : data_.tiles()) packets += tile.packets;
     return static_cast<std::int64_t>(packets * of_packet + data_.particles() * velocity_words * sizeof(R));
   }
-  /// Returns these bytes (`all`) and the others that a step moves, divided by the memory they move through.
+  /// Returns the bytes that a step moves through each kind of memory. `all`: the bytes of contacts and bodies, as
+  /// ExecCudaTiles::traffic() returns them.
   Traffic traffic_by_place(std::int64_t all) const {
     return is_resident() ? traffic_on_chip<P>(data_.tiles(), data_.arrays(), data_.carried(), memory_)
                          : traffic_streamed(data_.tiles(), all);

@@ -45,7 +45,7 @@ struct WarpPackets {
   std::uint32_t first_one = 0, ones = 0;
 
   /// Returns the packets of warp `warp` among the double packets from `first` on and the single packets from `one` on.
-  /// All warps except the first `free` step one more double packet, which is not in these numbers.
+  /// All warps except the first `free` step one more double packet, which these numbers do not include.
   __device__ __forceinline__ static WarpPackets of(const Tile& tile, std::uint32_t first, std::uint32_t one,
                                                    std::uint32_t warp, std::uint32_t warps, std::uint32_t free) {
     const std::uint32_t all = tile.double_packets - first, low = all / warps, with_more = all % warps;
@@ -103,8 +103,8 @@ struct TileArrays {
   __device__ __forceinline__ ulonglong2* exchange(std::uint32_t k) const { return k & 1 ? odd : even; }
 };
 
-/// A table in shared memory with six floats (24 bytes) per entry, as one word of 16 and one of 8 bytes: with threads
-/// accessing entries in any order, fewer bytes per entry cause fewer bank conflicts.
+/// A table in shared memory with six floats (24 bytes) per entry, stored as one word of 16 bytes and one of 8 bytes.
+/// Threads access the entries in any order; the smaller an entry is, the fewer bank conflicts there are.
 struct SixTable {
   float4* first;
   float2* second;
@@ -147,8 +147,8 @@ struct ContactCouple {
 };
 
 /// Steps one contact by model (6.8), and returns the change of its loads since the beginning of the block. `change` is
-/// δf, `sum` the sum of δf' + δf over the steps. Template arguments: `first`, whether a couple begins here; `memory`,
-/// whether some law has a memory.
+/// δf; `sum` is the sum, over the steps of the block so far, of δf before the step and δf after it. Template arguments:
+/// `first`, whether a couple begins here; `memory`, whether some law has a memory.
 template <bool first, bool carried, bool memory>
 __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried, memory>& contact,
                                                             const float4* law, const TileVelocities& velocity,
@@ -177,7 +177,7 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
   return contact.load(change, l.z);
 }
 
-/// Slots of loads in shared memory: force and moment.
+/// The load cells of a tile in shared memory. A cell holds a force and a moment.
 struct LoadCells : SixTable {
   /// Stores a load; does nothing if `cell` is no_cell or more_of_couple. A barrier separates these stores from the
   /// threads that read cells, so they need not stay in order with other accesses to shared memory. The compiler would
@@ -221,8 +221,8 @@ struct LoadCells : SixTable {
   }
 };
 
-/// Calls f(rank, sum of its cells) for every particle of the tile. Each long list is summed by a warp (the last warp
-/// sums the first list), each short list by a thread.
+/// Calls f(rank, load) for every particle of the tile; the load is the sum of the particle's cells. Each long list is
+/// summed by a warp (the last warp sums the first list), each short list by a thread.
 template <class F>
 __device__ __forceinline__ void sum_lists(const Tile& tile, const uint2* list, const std::uint32_t* diagonal,
                                           const LoadCells& cells, F&& f) {

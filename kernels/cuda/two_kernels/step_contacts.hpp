@@ -24,7 +24,8 @@ template <class P, class... L, ContactForm form, Geometry geometry, int Units>
 struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
   struct Group {
     std::uint32_t first_block = UINT32_MAX;  ///< first thread block of this group
-    /// Number of its first slot among all groups; its slots in this launch.
+    /// first_slot: number of the group's first slot among the slots of all groups. begin, end: the group's slots in
+    /// this launch.
     std::uint32_t first_slot = 0, begin = 0, end = 0;
     AnyFunctor<typename StepFunctor<P, L, form, geometry, Units>::type...> functor;
   };
@@ -69,7 +70,8 @@ __global__ void start_clock(const WallClock<R> clock) {
   clock.tick();
 }
 
-/// Steps every contact of a launch and writes its loads. If there is a clock, the first thread block runs it instead.
+/// Steps every contact of a launch and writes its loads. If there is a clock, the first thread block advances the clock
+/// and steps no contact.
 template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
 __global__ void __launch_bounds__(contact_threads, contact_blocks)
     step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units> groups,
@@ -81,7 +83,7 @@ __global__ void __launch_bounds__(contact_threads, contact_blocks)
   while (number + 1 < groups.groups && groups.group[number + 1].first_block <= block) ++number;
   const auto& group = groups.group[number];
   const std::uint32_t slot = group.begin + (block - group.first_block) * contact_threads + threadIdx.x;
-  if (slot >= group.end) return;  // true for whole warps only
+  if (slot >= group.end) return;  // either all threads of a warp return, or none
   group.functor.visit([&](const auto& forces) {
     records.store_by_warp(group.first_slot + slot, forces(LaneItem{slot % 32}, slot / 32, motion));
   });

@@ -147,8 +147,8 @@ def _shares(page: Page, folder: Folder) -> None:
     )
 
 
-# Adds a picture of the change of |E*| and phase angle by 10 % of each parameter, at the lowest and the highest
-# frequency.
+# Adds a picture of the changes of |E*| and phase angle that 10 % more of each parameter causes, at the lowest and the
+# highest frequency.
 def _sensitivities(page: Page, folder: Folder) -> None:
     rows = _at_first_temperature([r for r in folder.by_frequency if r.get("sensitivities")])
     ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
@@ -159,7 +159,7 @@ def _sensitivities(page: Page, folder: Folder) -> None:
         }
         for r in ends
     ]
-    # a pair's delta scales all its moduli, so its sensitivity would repeat theirs
+    # a pair's delta scales all its moduli, so its sensitivity would repeat the sensitivities of the moduli
     names = [n for n in effects[0] if not n.endswith(".delta")]
     names.sort(key=lambda n: -max(abs(e.get(n, (0, 0))[0]) for e in effects))
     names = names[:MOST]

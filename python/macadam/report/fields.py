@@ -20,8 +20,8 @@ from macadam.report.page import Page
 
 MOST = 4  # largest number of folders whose fields are drawn
 STRONGEST = 0.06  # fraction of the contacts that is drawn, those with the largest forces
-# by kind of file: names of arrays, the first of which that the file has is drawn; factor of its numbers; its label with
-# unit
+# For each kind of file: names of arrays, of which the first that the file has is drawn; the factor by which the numbers
+# of this array are multiplied; its label, with unit
 _SHOWN = {
     "particles": (("displacement_amplitude", "displacement"), 1e6, "displacement (µm)"),
     "contacts": (("normal_force_amplitude", "normal_force"), 1.0, "normal force (N)"),
@@ -74,8 +74,8 @@ def cannot_draw() -> str:
 
 
 def _files(folder: Folder) -> dict[str, Path]:
-    """Returns one file of particles and one of contacts, by kind: those of the lowest frequency, and of a series of
-    .vtp files the last frame."""
+    """Returns one file of particles and one file of contacts, by kind: the file of the lowest frequency. If that is a
+    series of .vtp files, returns the last frame."""
     chosen = {}
     for kind in _SHOWN:
         files = [p for end in ("vtkhdf", "vtp") for p in (folder.path / "fields").glob(f"{kind}*.{end}")]
@@ -112,8 +112,8 @@ def figure(
     names: name of the array; if several are given, the first that the file has. Vectors are shown by their length.
     factor: multiplies the numbers, 1e6 for micrometres. frame: number of the frame in a file with time, from 0, or
     negative from the end. half: leave out everything in front of the middle of the box. least: leave out everything
-    with a smaller value. strongest: draw only this fraction, that with the largest values. limits: range of the
-    colours. size: [inches]."""
+    with a smaller value. strongest: draw only this fraction of the points or cells, those with the largest values.
+    limits: range of the colours. size: [inches]."""
     data = _read(Path(file), frame)
     name, of_points = _array(data, Path(file), (names,) if isinstance(names, str) else names)
     values = (data.point_data if of_points else data.cell_data)[name]

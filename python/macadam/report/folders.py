@@ -14,7 +14,8 @@ import pandas as pd
 
 from macadam.report import look
 
-# the file by which a folder of each kind is known; the first one that the folder has counts
+# The file that identifies each kind of folder. If a folder has several of these files, the first one in this order
+# decides.
 KINDS = {
     "summary.json": "run",
     "calibration.json": "calibration",
@@ -36,8 +37,8 @@ class ReportError(ValueError):
 
 @dataclass
 class Folder:
-    """One result folder. `label` is its name in the report, different from those of the others; `colour` is the colour
-    of its curves."""
+    """One result folder. `label` is its name in the report, different from the names of all other folders; `colour` is
+    the colour of its curves."""
 
     path: Path
     kind: str

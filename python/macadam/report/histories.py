@@ -59,7 +59,7 @@ def _bars(folder: Folder) -> np.ndarray:
     return _errors(folder) if _is_stepped(folder) else np.full(len(folder.in_time["points"]), np.nan)
 
 
-# Returns the sentences of a caption on errors and on sides that are held.
+# Returns the sentences of a caption about the errors of the points, and about side walls that are held in place.
 def _error_note(found: list[Folder]) -> str:
     words = ""
     for stepped, what in (

@@ -14,7 +14,7 @@ from macadam.report.folders import Folder
 from macadam.report.page import Page, facts
 
 ABREAST = 4  # largest number of folders that one table shows as columns
-SIZES = re.compile(r"([\d.]+)-([\d.]+) mm$")  # name of a size class that the scene gives no other name
+SIZES = re.compile(r"([\d.]+)-([\d.]+) mm$")  # name of a size class to which the scene gives no name
 
 
 # Adds the section on the mix of all runs.
@@ -158,9 +158,8 @@ def _gradation(folder: Folder) -> Any:
 
 
 def _between_sieves(folder: Folder, recipe: dict[str, Any], at_cut: float) -> tuple[np.ndarray, np.ndarray]:
-    """Returns sizes [m] and the fraction of the aggregate's mass that passes each, one step per aggregate above the
-    cut.
-    at_cut: the fraction that passes at the cut."""
+    """Returns sizes [m] and, for each size, the fraction of the aggregate's mass that passes. The curve has one step
+    per aggregate that is coarser than the cut. at_cut: the fraction that passes at the cut."""
     density = {c["class"]: float(c["density"]) for c in recipe["classes"]}
     grains = folder.aggregates.sort_values("size")
     mass = grains["volume"].to_numpy() * grains["class"].map(density).fillna(np.mean(list(density.values()))).to_numpy()

@@ -25,7 +25,7 @@ PIXELS = 420  # pixels along the longest edge of the box
 Paint = Callable[[np.ndarray], np.ndarray]  # returns the colours of rows of specimen.csv
 
 
-# Adds block, section and aggregates of each specimen.
+# Adds pictures of the block, of a section and of the aggregates of each specimen to the page.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind in ("run", "twin")]
     drawn = []

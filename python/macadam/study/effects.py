@@ -123,7 +123,7 @@ class Effect:
     `share`: the fraction of the variance between points that the factor explains (0 to 1)."""
 
     factor: str
-    levels: list[Any]  # values of the factor; of a continuous one the lowest and the highest
+    levels: list[Any]  # values of the factor; for a continuous factor, the lowest and the highest
     means: list[float]  # mean of the quantity at each level
     share: float
     errors: list[float] | None = None  # standard errors of the means, from the scatter of seeds; None: it is unknown
@@ -148,9 +148,9 @@ class Effect:
 
     def compare(self, variances: np.ndarray, chance: Scatter) -> None:
         """Compares the means with the scatter of seeds by an F-test over all levels: the mean square between the levels
-        against the variance of seeds. Half the interval of the change is Scheffé's, which is Student's for two levels:
-        a change is never larger than it if the test finds no effect. variances: of each mean, relative to that of a
-        seed."""
+        against the variance of seeds. `scatter` becomes half of Scheffé's 95 % interval of the change, which for two
+        levels is Student's interval. So the change is never larger than `scatter` if the test finds no effect.
+        variances: variance of each mean, divided by the variance of a single seed."""
         means, freedom = np.array(self.means), len(self.means) - 1
         limit = freedom * fisher_95(freedom, chance.freedom) * chance.deviation**2
         between = (((means - np.average(means, weights=1 / variances)) ** 2) / variances).sum()
@@ -197,9 +197,10 @@ def effects(quantity: Quantity) -> list[Effect]:
             means = [float(points["value"].mean() + slope * (e - x.mean())) for e in ends]
             effect = Effect(factor, ends, means, float(((slope * (x - x.mean())) ** 2).sum()) / total if total else 0.0)
             if chance:
-                # the two ends share the error of one slope: half of the change's variance is given to each
+                # The means at both ends have the error of the same slope, so half of the change's variance is given to
+                # each end.
                 effect.compare(np.full(2, 0.5 * (error * (ends[1] - ends[0])) ** 2), chance)
-                effect.errors = None  # a line has no means
+                effect.errors = None  # a fitted line has no means at levels
             out.append(effect)
             continue
         by = points[factor]

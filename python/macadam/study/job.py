@@ -24,7 +24,8 @@ from typing import Any
 from macadam.study import programs
 from macadam.study.locks import locked
 
-# repetitions after a signal has killed the program, for example because memory ran out; then the job has failed
+# Number of times that a program that was killed by a signal, for example because memory ran out, is started again. If
+# it is killed once more, the job has failed.
 KILLS = 3
 _LINES = 12  # number of lines of the program's messages that are kept
 _LIBC = ctypes.CDLL(None)  # loaded here, because loading is not safe between fork and exec
@@ -82,8 +83,9 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
         (work / "scene.toml").write_text(job["scene"], encoding="utf-8")
     line = [job["program"], command, str(work / "scene.toml"), "--out", str(work), *arguments, *resume]
     try:
-        # `macadam specimen` has no option --threads. Waiting for a core that another program uses costs more time than
-        # an additional thread saves, so threads sleep, unless the user wants another policy.
+        # OMP_NUM_THREADS sets the number of threads, because `macadam specimen` has no option --threads.
+        # OMP_WAIT_POLICY makes waiting threads sleep, unless the user wants another policy: if other programs use the
+        # cores, threads that spin while they wait cost more time than an additional thread saves.
         environment = {"OMP_WAIT_POLICY": "passive", **os.environ, "OMP_NUM_THREADS": str(job["threads"])}
         code, said = programs.run(
             job["folder"],

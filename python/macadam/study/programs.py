@@ -15,7 +15,7 @@ from typing import Any
 GRACE = 2.0  # seconds that a program has to write its checkpoint after SIGTERM; then it is killed
 _running: dict[str, set[subprocess.Popen]] = {}  # running programs by folder of the study
 _stopped: set[str] = set()  # folders of studies that were stopped
-_change = threading.Lock()  # guards both
+_change = threading.Lock()  # guards _running and _stopped
 
 
 def error_line(message: str) -> str:

@@ -14,7 +14,7 @@ from typing import Any
 from macadam import _toml
 from macadam.study.errors import StudyError
 
-# keys whose values name a file or folder, and the values that do not
+# Keys of a scene whose values name a file or folder; for each key, the values that have another meaning.
 _FILES = {
     ("specimen", "file"): (),
     ("specimen", "shapes", "library"): ("aggregates", "icosahedron", "aggregates and icosahedron"),

@@ -22,8 +22,8 @@ Parts = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Setting:
-    """A key of the scene that one place of the study sets. `replaces`: it is the entry of a pair, which a file
-    replaces."""
+    """A key of the scene that one place of the study sets. `replaces`: the key is the entry of a pair of contacts, and
+    a file replaces this whole entry."""
 
     place: str  # such as "grid" or "choice.binder.a"
     key: str

@@ -206,8 +206,8 @@ def _change_words(q: Quantity, effect: Effect) -> str:
 
 
 def _from_to(effect: Effect) -> str:
-    """Returns the two values between which the change is, as the end of a sentence; empty if they are the first and the
-    last of a factor that is a number."""
+    """Returns the two values of the factor between which the change is, as the end of a sentence; empty if the factor
+    is a number and they are its first and last values."""
     first, last = effect.at_ends
     if isinstance(effect.levels[0], (int, float)) and (first, last) == (0, len(effect.levels) - 1):
         return ""
