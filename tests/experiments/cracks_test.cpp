@@ -110,7 +110,8 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
 
   const nlohmann::json all = summary("out"), test = all.at("results").at(0), bonds = all.at("cracks").at("M-M");
   EXPECT_EQ(all.at("status"), "done");
-  // the rupture is a result and no warning; the first rows have the inertia of a load that begins at once
+  // The only warning concerns the inertia in the first rows, because the load begins at once. The rupture is a result,
+  // not a warning.
   ASSERT_EQ(all.at("warnings").size(), 1u) << all.at("warnings");
   EXPECT_HAS(all.at("warnings").at(0).get<std::string>(), "the error is above 1 %");
   EXPECT_EQ(test.at("strength_pa"), found.peak->stress_pa);
@@ -173,8 +174,8 @@ TEST_F(CracksOfATest, ACyclicTestThatBreaksTheSpecimenEndsTheFrequency) {
     ASSERT_TRUE(f.cracks);
     EXPECT_EQ(f.cracks->points(), 5);
     EXPECT_EQ(f.cracks->breakable(), 15);
-    const double looks = 0.02;  // of a cycle, between two counts of broken points
-    const double wave = 0.04;   // of a cycle, in which the strain changes by more than the waves do
+    const double looks = 0.02;  // time between two counts of broken points [cycles]
+    const double wave = 0.04;   // time in which the strain changes by more than the waves change it [cycles]
     EXPECT_NEAR(f.rupture->time_s * f.frequency_hz, 0.6161 + 0.5 * looks, wave + 0.5 * looks);
     EXPECT_NEAR((f.rupture->time_s - f.rupture->time_before_s) * f.frequency_hz, looks, 1e-9);
     EXPECT_NEAR(f.steps * f.dt_s, f.rupture->time_s, 1e-3 * f.dt_s);
@@ -279,8 +280,8 @@ TEST_F(CracksOfATest, ALaterSceneWithoutBondsLeavesNoCracks) {
   EXPECT_EQ(read(out("out") / "monotonic.csv").find("broken_points"), std::string::npos);
 }
 
-// The counts of broken points of a specimen that breaks gradually are equal on all backends. Their stresses differ by
-// about 1e-13, so a point could break at another sample only if its stress came that close to the strength.
+// In a specimen that breaks gradually, all backends count the same numbers of broken points. The backends differ in
+// stress by about 1e-13, so a point could break at another sample only if its stress came that close to the strength.
 TEST_F(CracksOfATest, EveryBackendCountsTheSame) {
   Scene asked = bonded();
   const auto found = [&](Backend backend) {

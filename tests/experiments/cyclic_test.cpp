@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cyclic_test.cpp  Evaluation of cyclic tests: signals of known |E*| and φ are recovered. Then the loading that such
-// tests apply.
+// cyclic_test.cpp  Tests the evaluation of cyclic tests with signals of known |E*| and φ. Then tests the loading of
+// cyclic tests.
 #include <gtest/gtest.h>
 
 #include <cmath>

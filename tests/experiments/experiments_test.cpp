@@ -107,7 +107,7 @@ TEST_F(Experiments, CreepGrowsAndRecovers) {
   }
 }
 
-// If the stress is released in a step at 1 s, it is zero at exactly this time. With a ramp it is still there.
+// If the stress is released in a step at 1 s, it is zero at exactly this time. With a ramp it is not yet zero then.
 TEST_F(Experiments, RampsTakeTheirTime) {
   const std::string slow = "kind = \"creep\"\nstress = 1e5\nramp = 0.5\nrelease = 1\ntimes = [0.25, 0.5, 1, 1.25, 2]\n";
   const auto rows = rows_of(run_t8(slow, "creep.csv"));

@@ -130,8 +130,8 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
 }
 
-// A particle without contacts prevents the harmonic solution as a check. The heavy specimens here are far beyond their
-// resonance, so their results cannot be right.
+// If a particle has no contacts, no harmonic solution can check the run. The specimens here are so heavy that they are
+// driven far above their resonance, so their results cannot be right.
 TEST_F(WithoutReference, ARunWithAToleranceFailsWhereItsResultCannotBeRight) {
   const std::string loose = "[network]\ngap_max = -0.2\n";
   for (const char* scaling : {"1e6", "1e7", "1e9"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error_test.cpp  The error that a stepped relaxation, creep or constant rate states for each row, against the
-// true difference from the solution for the requested load.
+// load_error_test.cpp  Compares the error that a stepped test of relaxation, creep or constant rate states for each row
+// with the true difference from the solution for the requested load.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -128,8 +128,8 @@ TEST_F(LoadError, IsTheTrueDifference) {
 /// up the largest values of the waves and of the drag, because it does not know their phases.
 ///   - Constant rate: the drag makes up nearly all of the difference, and the estimate contains it. Measured: at most
 ///     1.36 of the truth.
-///   - A wave that is as large as the load itself gives about 1 (with a load at once up to 1.51), whatever is left of
-///   it.
+///   - A wave that is as large as the load itself: the estimate is about 1 (up to 1.51 if the load acts at once), even
+///     if only a small part of the wave is left.
 ///   - Later rows of a specimen whose waves die out quickly: the wave has gone, and so must the estimate. Measured: at
 ///     most 4.8 of the truth after a load at once, and 4.7e-4 after a ramp that hardly makes a wave.
 double largest_estimate(const Case& c, std::size_t row, double truth) {

@@ -41,9 +41,9 @@ Specimen all_mastic(Specimen specimen) {
   return specimen;
 }
 
-// The number of its aggregate only chooses the law of a contact. With the law A–A for inner contacts, clusters equal
-// single spheres. Sums may be in another order: about a hundred rounded terms per row times the condition of 1e5 that
-// harmonic_test allows for.
+// The number of a sphere's aggregate only decides which law a contact has. With the law A–A for inner contacts,
+// clusters therefore equal single spheres. Only the order of sums may differ. The tolerance is the rounding of about a
+// hundred terms per row times the condition number of 1e5 that harmonic_test allows for.
 TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres) {
   const Specimen clusters = generate_specimen(cluster_recipe(test_seed(), {0.012, 0.012, 0.016})).specimen;
   for (Laws laws : {am1_laws(), am2_laws()}) {
@@ -172,7 +172,7 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
     TestScene stiff = scene;
     stiff.laws[inner] = laws::Elastic{s * 1.125e11, 0.05};
     const double yielded = s * (rigid - solve(stiff, 1).top.e_star_pa) / yields;
-    // 1e-11 of the modulus, of which `yields / s` is a small part
+    // The modulus has a relative rounding error, and `yields / s` is only a small part of the modulus.
     const double rounding = 1e-10 * s * rigid / yields;
     EXPECT_LT(yielded, 1 + rounding) << s;
     EXPECT_GT(yielded, 0) << s;

@@ -162,7 +162,7 @@ TEST_F(SteppedLoad, ARunInPiecesGivesTheBitsOfOne) {
     EXPECT_TRUE(read(entry.path()) == read(other)) << other;
     frames += entry.path().extension() == ".vtp";
   }
-  // and one frame at the start
+  // There is one frame at the start and one at every third point.
   EXPECT_EQ(frames, 1 + static_cast<int>(one.at("results").at(0).at("points").size()) / 3);
 }
 

@@ -23,7 +23,7 @@ TEST(Invert, TimesTheMatrixIsOne) {
     Eigen::MatrixXd inverse = matrix;
     inverse.triangularView<Eigen::StrictlyUpper>().setConstant(std::numeric_limits<double>::quiet_NaN());
     ASSERT_TRUE(harmonic::invert_in_parallel(inverse)) << size;
-    // condition times rounding times terms: some 10·200 · 1.1e-16 · 200
+    // Bound: condition number × rounding × number of terms, about 10·200 × 1.1e-16 × 200.
     EXPECT_LT((inverse - inverse.transpose()).cwiseAbs().maxCoeff(), 5e-11) << size;
     EXPECT_LT((matrix * inverse - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff(), 5e-11) << size;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sensitivity_test.cpp  Derivatives computed from one harmonic solution, against central differences of two solutions.
+// sensitivity_test.cpp  Compares derivatives computed from one harmonic solution with central differences of two
+// solutions.
 #include "macadam/sensitivity.hpp"
 
 #include <gtest/gtest.h>
@@ -129,7 +130,7 @@ TEST(Scaling, IsAsLargeAsAChangeOfTheModulusAllows) {
       EXPECT_GT(scaling, 1);
       const HarmonicResult scaled = harmonic.solve(frequency, scaling, viscous);
       const double reached = largest(difference(scaled.top, known.top));
-      // 1e-4: accuracy of a change of 1e-6
+      // A change of the modulus by 1e-6 is only accurate to 1e-4.
       EXPECT_NEAR(reached / wanted, 1, 3 * wanted + 1e-4) << wanted << " " << viscous;
     }
   }

@@ -47,7 +47,7 @@ class StopSignals : public Program {
     std::fflush(stdout);  // otherwise the child would print buffered text again
     const pid_t child = fork();
     if (child != 0) return child;
-    // the shell that runs the tests may ignore them
+    // The shell that runs the tests may ignore these signals, and its children would inherit that.
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);
     if (output >= 0 ? dup2(output, STDOUT_FILENO) < 0 : !freopen((folder_ / "stdout.txt").c_str(), "w", stdout))
       _exit(99);

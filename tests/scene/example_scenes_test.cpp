@@ -49,8 +49,9 @@ TEST_P(ExampleScene, HasEveryLaw) {
   EXPECT_EQ(scene.laws[int(PairType::aa)].has_value(), !scene.specimen.aggregate.empty());
 }
 
-/// Elastic contacts. Between aggregates: the modulus in Table 4 of [1]. The modulus within an aggregate with which a
-/// cube of fine or coarse spheres has the rock's 60 GPa. At a wall: the stiffest spring of the touching material.
+/// Checks the moduli of elastic contacts. Between aggregates, the modulus is in Table 4 of [1]. Within an aggregate, it
+/// is the one with which a cube of fine or coarse spheres has the 60 GPa of the rock. At a wall, it is that of the
+/// stiffest spring of the material that touches the wall.
 TEST_P(ExampleScene, HasThePapersElasticLaws) {
   const Scene scene = this->scene();
   std::vector<std::pair<PairType, laws::Elastic>> expected;

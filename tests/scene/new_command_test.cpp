@@ -85,7 +85,7 @@ TEST_F(NewCommand, KeysAreExplainedWhereTheirSectionComesFirst) {
   }
 }
 
-// Every key is explained behind it or above it, including keys that only this kind of loading or this law has.
+// A comment behind or above every key explains it, also for keys that only this kind of loading or this law has.
 TEST_F(NewCommand, KeysOfTheTestAndOfTheLawAreExplained) {
   for (const std::string& test : scene::tests_of_new_scenes()) {
     std::set<std::string> sections;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fill_test.cpp  Shapes filled with spheres, and the report on a filling against closed forms.
+/// \file fill_test.cpp  Tests shapes that are filled with spheres, and compares the report on a filling with closed
+/// forms.
 #include <gtest/gtest.h>
 #include <omp.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_library_test.cpp  The aggregate shapes that ship with the program, and the generator that made them.
+// shape_library_test.cpp  Tests the aggregate shapes that ship with the program, and the generator that made them.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 #include <omp.h>

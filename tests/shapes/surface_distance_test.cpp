@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_distance_test.cpp  Depth of points below a surface, against closed forms.
+/// \file surface_distance_test.cpp  Compares the depth of points below a surface with closed forms.
 #include "host/shapes/surface/surface_distance.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// neighbours_test.cpp  Lists of neighbours against a comparison of all pairs: their content and order, after every kind
-// of move.
+// neighbours_test.cpp  Compares lists of neighbours with lists made by comparing all pairs: content and order, after
+// every kind of move.
 #include "host/spheres/neighbours.hpp"
 
 #include <gtest/gtest.h>

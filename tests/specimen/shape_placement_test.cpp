@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_placement_test.cpp  Shaped aggregates in small boxes: overlap checks, composition, placement by
+/// \file shape_placement_test.cpp  Places shaped aggregates in small boxes: overlap checks, composition, placement by
 /// insertion and by packing.
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// block_length_test.cpp  Number of steps per block. A block is a set fraction of the shortest time scale of laws and
-// load, and ends at observations if that costs little.
+// block_length_test.cpp  Tests the number of steps per block. A block is a set fraction of the shortest time scale of
+// laws and load, and ends at observations if that costs little.
 #include "kernels/step/block_length.hpp"
 
 #include <gtest/gtest.h>
@@ -52,8 +52,8 @@ TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
 }
 
-/// With elastic laws and fixed geometry nothing changes within a block, so it may be longer; one law with memory or
-/// updated geometry ends this.
+/// With elastic laws and fixed geometry nothing changes within a block, so it may be longer. With a single law that has
+/// a memory, or with updated geometry, it must be short.
 TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   StepperOptions options = options_of_10_hz();
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), kernels::longest_block);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// carried_frame_test.cpp  The series that rotate a contact's frame from step to step, against closed forms. They are
-// meant for the small rotations of a step. The rotations here are so large that the first omitted term is visible, and
-// so is any other error.
+// carried_frame_test.cpp  Compares the series that rotate a contact's frame from step to step with closed forms. The
+// series are meant for the small rotations of a step. The rotations here are so large that the first omitted term is
+// visible, and so is any other error.
 #include "kernels/contact/carried_frame.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// conservation_test.cpp  Conservation in free assemblies, on every backend: momenta, energy, and no force from rigid
-// motion.
+// conservation_test.cpp  Tests free assemblies on every backend: momenta and energy are conserved, and rigid motion
+// causes no force.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -180,7 +180,7 @@ TEST_P(FreeAssembly, EnergyOfElasticContactsStays) {
     elastic_share = std::max(elastic_share, elastic / first);
     now = next;
   }
-  EXPECT_GT(elastic_share, 0.3);  // energy is exchanged between both forms
+  EXPECT_GT(elastic_share, 0.3);  // kinetic and elastic energy are exchanged
   // Fixed geometry is linear: each step rounds by a few ε of the energy, a random walk. Updated geometry rotates
   // normals and lever arms by angles of the order of the strain, 1e-6, and so changes the stiffness and the energy.
   EXPECT_LT(error, options.geometry == Geometry::fixed ? 10 * rounding * std::sqrt(steps) : 10 * strain);

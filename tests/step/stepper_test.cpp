@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_test.cpp  Every backend, precision, form and geometry against the reference stepper, on random specimens.
+// stepper_test.cpp  Compares every backend, precision, form and geometry with the reference stepper, on random
+// specimens.
 #include <gtest/gtest.h>
 
 #include <tuple>

@@ -61,8 +61,8 @@ void expect_partition(const Specimen& s, const CrossSection& section, double tol
   EXPECT_NEAR(sum / area, 1, tolerance);
 }
 
-// An error of a few ε of the box per edge of a cell; the edges together are about as long as the number of cells per
-// side.
+// The error of an area is a few ε per length of the edges of cells. All edges together are about as many sides of the
+// box long as there are cells per side.
 constexpr double rounding = 1e-13;
 
 TEST(CrossSection, OneParticleShowsTheWholeRectangle) {

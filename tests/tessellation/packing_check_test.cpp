@@ -107,8 +107,8 @@ TEST(PackingCheck, LoosePackingsAreNoFault) {
   }
 }
 
-// A layer of large spheres below a layer of small ones: gaps between the large spheres are many mean spacings wide,
-// which is not a fault.
+// A layer of large spheres lies below a layer of small ones. The gaps between the large spheres are many mean spacings
+// wide, which is not a fault.
 TEST(PackingCheck, LayersOfDifferentSizesAreNoFault) {
   Specimen s = touching(4, 4, 2);
   for (int z = 0; z < 10; ++z)

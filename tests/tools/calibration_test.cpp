@@ -172,8 +172,8 @@ TEST(Calibration, DeviationsAreThoseOfNoise) {
       sum += off * off;
       within += std::abs(off) < 1.96;
     }
-    // The mean square is a χ² of `trials` degrees of freedom over `trials`, the number within is binomial. Both may be
-    // off by four standard deviations.
+    // The mean square is a χ² variable of `trials` degrees of freedom, divided by `trials`. The number of fits within
+    // 1.96 deviations is binomial. Both may be off by four standard deviations.
     EXPECT_NEAR(sum / trials, 1, 4 * std::sqrt(2.0 / trials)) << free.free.size();
     EXPECT_NEAR(within, 0.95 * trials, 4 * std::sqrt(0.95 * 0.05 * trials)) << free.free.size();
   }

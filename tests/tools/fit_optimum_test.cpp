@@ -42,8 +42,9 @@ bool has_warning(const Fit& fit, const std::string& part) {
   return false;
 }
 
-/// An element that is not needed lies at its limit, where a spring still changes |E*| by e^-12. In each residual this
-/// is 2e-4 of the standard deviation of 3 %.
+/// Expects that the misfit of the larger chain is not above that of the smaller one. An element that is not needed lies
+/// at its limit, where a spring still changes |E*| by e^-12 = 6e-6. In each residual this is 2e-4 of the standard
+/// deviation of 3 %.
 void expect_not_above(double larger, double smaller, std::size_t residuals, const std::string& what) {
   EXPECT_LE(std::sqrt(larger), std::sqrt(smaller) + 2e-4 * std::sqrt(static_cast<double>(residuals))) << what;
 }
@@ -177,7 +178,7 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   const laws::Shift truth = laws::Wlf{13.5, 140, 20};
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}})
     EXPECT_NEAR(table.log10_a_T[i], laws::log10_shift(truth, nominal[i]) - laws::log10_shift(truth, 15), 0.1);
-  options.reference_temperature = 15.3;  // within tenths of the readings, so the isotherm takes its name
+  options.reference_temperature = 15.3;  // within tenths of the readings, so the isotherm gets this temperature
   const Fit named = fit_modulus(data, options);
   EXPECT_EQ(named.options.reference_temperature, 15.3);
   EXPECT_EQ(std::get<laws::ShiftTable>(named.shift).temperatures[1], 15.3);

@@ -221,7 +221,7 @@ TEST(CtFaults, HalfAStackEndsWithTheScanAtOneEnd) {
   EXPECT_TRUE(o.says("in air at one end along z, and with the scan at the upper one")) << o.error << o.warnings;
 }
 
-/// No warning about missing air at the ends if the user gives the region.
+/// If the user gives the region, there is no warning about missing air at its ends.
 TEST(CtFaults, ARegionThatSomebodyGaveEndsWhereItWasGiven) {
   SegmentOptions options;
   options.smallest = 1.4e-3;
@@ -245,7 +245,7 @@ TEST(CtFaults, APhaseThatIsMissingIsSaid) {
   EXPECT_TRUE(outcome(in_air(spongy), ScanRegion::found).error.find("of the air around") != std::string::npos);
   EXPECT_TRUE(outcome(in_air(balls(no_mastic)), ScanRegion::found).error.find("of the air around") !=
               std::string::npos);
-  Image<float> brighter = in_air(balls(no_mastic));  // the same with another grey value of air
+  Image<float> brighter = in_air(balls(no_mastic));  // the same scan with another grey value of air
   for (float& grey : brighter.voxels) grey += 20000;
   EXPECT_TRUE(outcome(brighter, ScanRegion::found).error.find("of the air around") != std::string::npos);
   EXPECT_EQ(outcome(in_air(balls(no_mastic)), ScanRegion::whole, 0).grains, 8u) << "loose grains, as was said";

@@ -205,7 +205,7 @@ TEST(CtSegment, ASpecimenInAirIsFound) {
   const Segmentation out = segment_scan(scan, options);
   const auto inside = static_cast<double>(
       std::count_if(out.phases.voxels.begin(), out.phases.voxels.end(), [](std::uint8_t p) { return p != 255; }));
-  // half a voxel of radius is 3 % of the volume; the region is accurate to less
+  // An error of half a voxel in the radius would be 3 % of the volume. The region is more accurate than that.
   EXPECT_NEAR(inside / (pi * 30 * 30 * 57), 1, 0.02);
 }
 
