@@ -103,9 +103,9 @@ TEST(EvaluateCyclic, NoiseMovesTheFitByItsShare) {
   EXPECT_GT(std::abs(found.peaks.e_star_pa / modulus - 1), 5 * deviation);
 }
 
-// Ringing with r periods per cycle leaks into the fundamental over c cycles by at most (1/(r − 1) + 1/(r + 1))/(π·c) of
-// its amplitude; the bound is doubled for its effect on the trend. The evaluation by peaks contains almost the whole
-// ringing.
+// Ringing with r periods per cycle, in a fit over c cycles, changes the fundamental by at most
+// (1/(r − 1) + 1/(r + 1))/(π·c) of the amplitude of the ringing. The bound is doubled because ringing also changes the
+// fitted trend. The evaluation by peaks contains almost the whole ringing.
 TEST(EvaluateCyclic, RingingHardlyMovesTheFit) {
   constexpr double ringing = 0.02;
   const Signal signal;

@@ -89,8 +89,8 @@ TEST_P(Iterative, AgreesWithFactorsOnClusters) {
   }
 }
 
-// With almost no shear stiffness, facets still resist bending, but this is much softer. The condition increases, and so
-// does the error.
+// With almost no shear stiffness, facets still resist bending, but the bending stiffness is much smaller. The condition
+// number of the matrix increases, and so does the error.
 TEST_P(Iterative, AgreesWithFactorsAlmostWithoutShear) {
   Laws laws = am1_laws();
   for (auto& law : laws) std::visit([](auto& l) { l.alpha = 1e-3; }, *law);

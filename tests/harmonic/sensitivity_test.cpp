@@ -47,8 +47,9 @@ Laws changed(Laws laws, const std::string& parameter, double factor) {
   return laws;
 }
 
-/// A step of 1e-4 in the logarithm has an error of (1e-4)²/6 of the third derivative, and the rounding of the
-/// solutions, 1e-12, divided by the step. A tolerance of 1e-6 of |E*| and of a radian covers both.
+/// Compares the derivatives with central differences. With a step of 1e-4 in the logarithm these have two errors:
+/// (1e-4)²/6 of the third derivative, and the rounding of the solutions, 1e-12, divided by the step. A tolerance of
+/// 1e-6 of |E*| and of a radian covers both.
 void expect_derivatives(const TestScene& scene, double density_scaling) {
   constexpr double step = 1e-4, tolerance = 1e-6;
   const HarmonicResult here = solve(scene, scene.laws, density_scaling);

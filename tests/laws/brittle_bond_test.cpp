@@ -129,8 +129,8 @@ TEST_P(BrittleBond, BreakingCostsTheEnergyThatItHeld) {
       u = u_next, force = force_next;
     }
     const double energy = 0.5 * stiffness * opens * opens;
-    // The bond may break anywhere within a step, so the work is uncertain by that of the largest force over half a
-    // step.
+    // The bond may break anywhere within a step, so the work is uncertain by half of the work of the last step before
+    // it breaks.
     EXPECT_NEAR(work, reached > 1 ? energy : 0, reached > 1 ? 2 * reached / steps * energy : 1e-4 * energy) << reached;
   }
 }

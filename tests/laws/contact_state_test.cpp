@@ -51,8 +51,8 @@ TEST_P(ContactStates, ForcesAddUpToThoseOfTheBodies) {
   for (StepperOptions options : {shaking_options(scene), slow_options(scene)}) {
     const auto stepper = make(scene, options);
     stepper->advance(137);  // a step within a block of steps, for backends that have blocks
-    // With fixed geometry the stepper keeps the initial lever arms; strains of 1e-4 would change them by 1e-4. The
-    // sums here use the current ones.
+    // With fixed geometry the stepper keeps the initial lever arms, but the sums here use the current ones. At strains
+    // of 1e-4 they differ by 1e-4.
     const bool fixed = options.geometry == Geometry::fixed;
     const double rounding = options.precision == Precision::double_ ? 1e-12 : 2e-5;
     expect_sums(scene, *stepper, std::max(rounding, fixed ? 0.0 : 1e-3));

@@ -49,9 +49,9 @@ TEST_P(ExampleScene, HasEveryLaw) {
   EXPECT_EQ(scene.laws[int(PairType::aa)].has_value(), !scene.specimen.aggregate.empty());
 }
 
-/// Checks the moduli of elastic contacts. Between aggregates, the modulus is in Table 4 of [1]. Within an aggregate, it
-/// is the one with which a cube of fine or coarse spheres has the 60 GPa of the rock. At a wall, it is that of the
-/// stiffest spring of the material that touches the wall.
+/// Checks the moduli of elastic contacts. Contacts between aggregates have the modulus of Table 4 of [1]. Contacts
+/// within an aggregate have the modulus with which a cube of fine or coarse spheres has the 60 GPa of the rock.
+/// Contacts at a wall have the modulus of the stiffest spring of the material that touches the wall.
 TEST_P(ExampleScene, HasThePapersElasticLaws) {
   const Scene scene = this->scene();
   std::vector<std::pair<PairType, laws::Elastic>> expected;

@@ -42,9 +42,9 @@ bool has_warning(const Fit& fit, const std::string& part) {
   return false;
 }
 
-/// Expects that the misfit of the larger chain is not above that of the smaller one. An element that is not needed lies
-/// at its limit, where a spring still changes |E*| by e^-12 = 6e-6. In each residual this is 2e-4 of the standard
-/// deviation of 3 %.
+/// Expects that the misfit of the larger chain is not above the misfit of the smaller chain. An element that is not
+/// needed lies at its limit, at which a spring still changes |E*| by e^-12 = 6e-6. In each residual this is 2e-4 of the
+/// standard deviation of 3 %.
 void expect_not_above(double larger, double smaller, std::size_t residuals, const std::string& what) {
   EXPECT_LE(std::sqrt(larger), std::sqrt(smaller) + 2e-4 * std::sqrt(static_cast<double>(residuals))) << what;
 }
