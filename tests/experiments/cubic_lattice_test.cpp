@@ -99,8 +99,8 @@ TEST_P(LoadedLattice, SlowLoadingReachesTheStaticModulus) {
     const double square = kappa * kappa, fourth = square * square / 45;
     const double expected = 1 - square / 3 * (1 - 0.25 / (n * n)) - fourth;
     const Stiffness found = modulus(scene, kappa / (2 * std::numbers::pi * height * std::sqrt(density / E)));
-    // The discrete heights of the masses change the fourth-order term by about 1/n² of it; a tenth is allowed. The
-    // start is smooth enough to keep ringing below 1e-8.
+    // The discrete heights of the masses change the fourth-order term by a fraction of about 1/n²; a tenth is allowed.
+    // The start is smooth enough to keep ringing below 1e-8.
     EXPECT_NEAR(found.e_star_pa / E, expected, fourth / 10 + 1e-8);
     EXPECT_NEAR(found.phase_deg, 0, 1e-5);
   }

@@ -119,9 +119,9 @@ TEST(EvaluateCyclic, RingingHardlyMovesTheFit) {
   }
 }
 
-// Error of a parabola through three samples h apart, if the crest is δ from the nearest: the angle is (h/2)·tan
-// δ/tan(h/2) in place of δ, and the height is δ²·(h² − δ²)/8 too low. For |δ| ≤ h/2 these errors are at most h³/62 and
-// 3h⁴/128. Strain and stress have one error each.
+// Expects peaks within the errors of a parabola through three samples that are h apart. If the crest is δ from the
+// nearest sample, the parabola gives the angle (h/2)·tan δ/tan(h/2) in place of δ, and a height that is
+// δ²·(h² − δ²)/8 too low. For |δ| ≤ h/2 these errors are at most h³/62 and 3h⁴/128. Strain and stress each have them.
 void expect_peaks_good_to_the_sampling(double phase, int per_cycle, int left_out = 0) {
   SCOPED_TRACE(testing::Message() << phase << "°, " << per_cycle << " samples a cycle");
   const double h = 2 * pi / per_cycle;

@@ -140,9 +140,9 @@ double largest_estimate(const Case& c, std::size_t row, double truth) {
   return 1.55 + 0.15 * truth;
 }
 
-// With a law that is not linear, there is no solution without steps, and the error is estimated. Here bonds at the
-// walls could break but do not, so the true difference is known. The estimate must not be below it, and must not be
-// useless.
+// If a law is not linear, there is no solution without steps, so the error is estimated. Here bonds at the walls could
+// break but do not, so the true difference is known. The estimate must not be below the true difference, and not far
+// above it.
 TEST_F(LoadError, IsEstimatedWhereALawIsNotLinear) {
   const PronySeries e = exact_relaxation(scene(cases().front()));
   const std::string unbroken = "law = \"brittle_bond\"\nE = 1e10\nalpha = 0.1\ntensile_strength = 1e30\n";

@@ -172,7 +172,7 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
     TestScene stiff = scene;
     stiff.laws[inner] = laws::Elastic{s * 1.125e11, 0.05};
     const double yielded = s * (rigid - solve(stiff, 1).top.e_star_pa) / yields;
-    // The modulus has a relative rounding error, and `yields / s` is only a small part of the modulus.
+    // The modulus is accurate to about 1e-11. `yields / s` is only a small part of it, so its relative error is larger.
     const double rounding = 1e-10 * s * rigid / yields;
     EXPECT_LT(yielded, 1 + rounding) << s;
     EXPECT_GT(yielded, 0) << s;

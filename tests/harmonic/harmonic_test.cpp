@@ -153,7 +153,7 @@ TEST(Harmonic, ElasticSceneIsTheStaticModulus) {
 }
 
 // Walls in a laboratory are rigid. If the wall's reaction were computed as stiffness times opening, only four digits
-// would remain at a factor of 1e12. The effect of a finite wall stiffness decreases as its inverse.
+// would be right at a factor of 1e12. The effect of a finite stiffness of the walls is proportional to its inverse.
 TEST(Harmonic, WallsFarStifferThanTheSpecimen) {
   TestScene scene = t8();
   const auto with = [&](double factor) {

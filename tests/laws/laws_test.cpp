@@ -128,8 +128,8 @@ TEST_P(ComplexStiffness, IsExactAtTheWarpedFrequency) {
   }
 }
 
-// The error is of second order, so half the step gives a quarter of the error. The term of the next order is (ωΔt)² =
-// 0.01 of the error.
+// The error is of second order, so half the step gives a quarter of the error. The next term of the error is
+// (ωΔt)² = 0.01 times the first.
 TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
   const auto& law = GetParam().law;
   const double settling = GetParam().settling;

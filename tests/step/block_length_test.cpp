@@ -63,7 +63,7 @@ TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   options.blocks = 200;
   options.dt *= 10;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 500);
-  // with fewer, longer blocks rounding would be larger
+  // without a memory a block could be longer here too, but then rounding would be larger
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 500);
   options.blocks = 20000;
   options.dt /= 10;

@@ -254,9 +254,9 @@ TEST_P(RigidMotion, AFullTurnCreatesNoForce) {
   }
   const ParticleState end = stepper->particles();
   ASSERT_LT(largest(end.displacement), 1e-12);  // it is back at the start
-  // In a step the centres move along the chord 2·sin(θ/2)·d, while ω·Δt is the arc θ. This gives a slip of d·θ³/24 per
-  // step, and over all steps a strain of angle·θ²/24 = 2.6e-8. Times α = 0.3 it is the force of a contact; about
-  // fourteen contacts per particle act, in many directions.
+  // In a step the particles rotate by θ, but their centres move along the chord 2·sin(θ/2)·d, which is shorter than the
+  // arc. This gives a slip of d·θ³/24 per step, and over all steps a strain of angle·θ²/24 = 2.6e-8. A contact has the
+  // force of this strain times α = 0.3. A particle has about fourteen contacts, in many directions.
   const double strain = angle * step_angle * step_angle / 24;
   EXPECT_LT(force, 14 * 0.3 * strain * force_scale(scene));
   EXPECT_LT(moment, 14 * 0.3 * strain * force_scale(scene) * 1.5e-3);  // lever arms of up to 1.5 mm

@@ -162,8 +162,8 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   for (const Tile& tile : plan.tile) cells += tile.cells, inner += tile.inner;
   EXPECT_GT(inner, 0u);
   for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
-  // Each contact has a cell for end B. Each couple of two contacts has one for end A; the last couple of a particle may
-  // be half empty.
+  // Each contact has a cell for its end B. Two contacts of a couple share one cell for their ends A. The last couple of
+  // a particle may have only one contact.
   EXPECT_LE(cells, (3 * scene.network.contacts.size() + scene.specimen.size()) / 2);
   // At most the last double packet of a warp per tile, and its last packet, are partly empty.
   EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::couple + 1));

@@ -86,7 +86,8 @@ class FullSpecimen : public ::testing::Test {
 TEST_F(FullSpecimen, Invariants) {
   EXPECT_TRUE(tessellation->hidden.empty());
   const TessellationInvariants i = measure_invariants(*specimen, *tessellation);
-  // Sums of 2e5 positive terms with a relative error of a few ε each: 1e-15 to 1e-14. Promised is 1e-12.
+  // Sums of 2e5 positive terms with a relative error of a few ε each are accurate to 1e-15 to 1e-14. The test requires
+  // 1e-12.
   EXPECT_LT(i.volume, 1e-12);
   EXPECT_LT(i.walls, 1e-12);
   // The bound is ε times the size of the box over the smallest distance between two centres, 1e-16 · 100, divided by

@@ -179,8 +179,9 @@ TEST(Calibration, DeviationsAreThoseOfNoise) {
   }
 }
 
-/// One parameter of value 3, measured once or twice; each measurement is proportional to it. If no deviations are
-/// stated, the misfit of 50 gives the scale of the errors, provided that there are more measurements than parameters.
+/// A parameter has the value 3 and one or two measurements, which are proportional to it. If the data state no
+/// deviations, the misfit, here 50, gives the scale of the errors, provided that there are more measurements than
+/// parameters.
 TEST(Calibration, DeviationsFollowTheMisfitWhereNoneAreStated) {
   const auto deviation = [](bool stated, std::size_t measurements) {
     Calibration c;

@@ -123,8 +123,8 @@ TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
 }
 
 TEST(CtSegment, AnEdgeAlongTheSideOfAnotherGrainStaysWithItsOwn) {
-  // A stone with a thin plate lies on a block. The plate is nearer to the middle of the block than to that of its own
-  // stone.
+  // A stone with a thin plate lies on a block. The plate is nearer to the middle of the block than to the middle of the
+  // stone to which it belongs.
   const Body stone = ball(20, 32, 46, 15), plate = block({20, 22, 40.6}, {66, 42, 47}),
              below = block({26, 8, 10}, {74, 56, 40});
   const auto together = [&](double x, double y, double z) { return std::max(stone(x, y, z), plate(x, y, z)); };
