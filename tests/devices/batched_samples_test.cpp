@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// batched_samples_test.cpp  A device takes several samples per batch, the processor one after the other. Their results
-// must be equal bit by bit; this can be compared because the fake device computes on the processor (fake_plugin.cpp).
+// batched_samples_test.cpp  A device takes several samples per batch, but the processor takes one after the other. The
+// results must be equal bit by bit. This can be compared because the fake device computes on the processor
+// (fake_plugin.cpp).
 #include <gtest/gtest.h>
 
 #include <array>

@@ -38,7 +38,7 @@ struct Case {
   const InnerSpheres* spheres;
   CubeFilling filling;
   double gauge, walls;  ///< recorded means over twenty seeds [Pa]
-  double deviation;     ///< standard deviation among the seeds, the larger of the two [Pa]
+  double deviation;     ///< the larger of the standard deviations of gauge and walls among the seeds [Pa]
   unsigned seeds;  ///< number of seeds used here; a cube of coarse spheres costs a tenth of a fine one and scatters
                    ///< three times as much
   double contact_modulus;  ///< contact modulus with which the aggregate has 60 GPa; the one of [1] if it does so [Pa]

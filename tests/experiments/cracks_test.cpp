@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cracks_test.cpp  Broken contact points in tables, summary.json, cracks.csv and fields, and runs that end when the
-// specimen breaks in two.
+// cracks_test.cpp  Tests how broken contact points are reported in tables, summary.json, cracks.csv and fields, and
+// runs that end when the specimen breaks in two.
 #include <gtest/gtest.h>
 
 #include <algorithm>

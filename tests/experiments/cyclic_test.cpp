@@ -88,8 +88,8 @@ TEST(EvaluateCyclic, OffsetAndTrendAreTakenOutExactly) {
   EXPECT_LT(found.fit_rms, 1e-12);
 }
 
-// White noise of standard deviation s on N samples changes a fitted amplitude by s·√(2/N) in each direction; five such
-// deviations are allowed. The residual is s, accurate to s/√(2N).
+// White noise of standard deviation s on N samples changes the fitted amplitudes of sine and cosine by s·√(2/N) each.
+// Five such deviations are allowed. The residual is s, accurate to s/√(2N).
 TEST(EvaluateCyclic, NoiseMovesTheFitByItsShare) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.05);

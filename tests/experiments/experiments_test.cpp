@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// experiments_test.cpp  Relaxation, creep, constant rates and sweeps run as a user does. Results are compared with
-// numerical inversions of full solutions and with the harmonic solver; then the files are checked.
+// experiments_test.cpp  Runs relaxation, creep, constant rates and sweeps as a user does. Compares the results with
+// numerical inversions of full solutions and with the harmonic solver, and checks the files.
 #include <cmath>
 #include <map>
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// multi_sphere_test.cpp  Specimens of clusters in limiting cases: as single spheres, as mastic, as rigid clusters; and
-// equilibrium in the equations of the reference implementation.
+// multi_sphere_test.cpp  Tests specimens of clusters in limiting cases, in which they equal single spheres, mastic or
+// rigid clusters. Checks their equilibrium with the equations of the reference implementation.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// nonlinear_scene_test.cpp  Scenes with a law that is not linear: they can be stepped, and every use of the frequency
-// domain refuses them with the name of the law.
+// nonlinear_scene_test.cpp  Tests scenes with a law that is not linear: they can be stepped, and every use of the
+// frequency domain refuses them with the name of the law.
 #include "tests/support/program.hpp"
 
 namespace macadam::test {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_load_test.cpp  Stepped relaxation, creep and constant rates: compared with the solution without steps,
-// interrupted and resumed, and refused. The work of the load must equal stored, kinetic and damped energy.
+// stepped_load_test.cpp  Tests stepped relaxation, creep and constant rates: they are compared with the solution
+// without steps, interrupted and resumed, and refused. The work of the load must equal stored, kinetic and damped
+// energy.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t8_test.cpp  Complete runs on a specimen of 175 particles against |E*| and φ of an independent program without
+// t8_test.cpp  Compares complete runs on a specimen of 175 particles with |E*| and φ of an independent program without
 // inertia. The remaining difference comes from the scaled mass, the time step and the start.
 #include <gtest/gtest.h>
 #include <unistd.h>

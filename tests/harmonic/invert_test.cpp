@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// invert_test.cpp  The parallel inverse of a dense matrix, for sizes below, at and above the block size.
+// invert_test.cpp  Tests the parallel inverse of a dense matrix, for sizes below, at and above the block size.
 #include "host/harmonic/iterative/invert.hpp"
 
 #include <gtest/gtest.h>

@@ -63,7 +63,8 @@ TEST(Spectrum, OfOneContactIsTheClosedForm) {
   std::get<macadam::laws::Elastic>(*laws[static_cast<std::size_t>(PairType::mw)]).alpha = 0.1;
   const TestScene scene = make_scene(specimen, {}, laws);
   const Spectrum found = spectrum_of(scene.specimen, scene.network, scene.laws);
-  // Three contacts in series, each with area over distance a/d; those at the walls have half the distance.
+  // Three contacts are in series, each with the ratio a/d of area and distance. Contacts at the walls have half the
+  // distance.
   double compliance_at_walls = 0, between = 0;
   for (const Contact& c : scene.network.contacts) (c.b < 0 ? compliance_at_walls : between) += c.distance / c.moments.a;
   const auto& wall = *scene.laws[static_cast<std::size_t>(PairType::mw)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_state_test.cpp  The contact state that a stepper reports: forces add up to the forces on particles and
+// contact_state_test.cpp  Checks the contact state that a stepper reports: forces add up to the forces on particles and
 // walls, deformations follow from the displacements, and the chains match the laws.
 #include <gtest/gtest.h>
 

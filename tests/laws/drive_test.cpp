@@ -166,8 +166,8 @@ TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
   compare(of, options, 150);
 }
 
-// The usual load in laboratories: pulses with rests between them. The motion is so slow that a step rotates normals by
-// at most about 5e-7; stepper and reference differ by the square of this angle.
+// Laboratories usually apply pulses with rests between them. The motion is so slow that a step rotates normals by at
+// most about 5e-7; stepper and reference differ by the square of this angle.
 TEST_P(DrivenWalls, UnderHaversinePulses) {
   const TestScene of = scene(test_seed() + 4);
   StepperOptions options = shaking_options(of);

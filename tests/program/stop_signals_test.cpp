@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stop_signals_test.cpp  Stop signals at any time, single or several at once: either a checkpoint is left, or the
-// folder is unchanged.
+// stop_signals_test.cpp  Tests stop signals at any time, single or several at once: either the program leaves a
+// checkpoint, or the folder is unchanged.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/syscall.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// streams_test.cpp  Standard input, output and error that are closed, full, not read, limited in size, or a terminal
-// that has closed.
+// streams_test.cpp  Runs the program with standard input, output and error that are closed, full, not read, limited in
+// size, or a terminal that has closed.
 #include <pty.h>
 #include <signal.h>
 

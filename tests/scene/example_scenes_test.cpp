@@ -144,7 +144,7 @@ TEST(ExampleScenes, AC14ByMassIsTheDesignFormulation) {
   EXPECT_EQ(scene.materials.aggregate, design.materials.aggregate);
 }
 
-/// The gradation is the formula that the scene names, to the digits given.
+/// Checks that the gradation follows the formula that the scene names, to the digits given.
 TEST(ExampleScenes, AC20IsAFullerCurve) {
   const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / "ac20_recipe" / "scene.toml");
   for (const SievePassing& s : scene.recipe->gradation)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_command_test.cpp  macadam new: every scene that it writes can be read and run, and so can every key in its
+// new_command_test.cpp  Tests macadam new: every scene that it writes can be read and run, and so can every key in its
 // comments.
 #include <regex>
 #include <set>

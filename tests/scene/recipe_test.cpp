@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe_test.cpp  Mix designs by mass: hand calculations after EN 12697-5 and EN 12697-8, invariants of any
-/// design, and refused numbers.
+/// \file recipe_test.cpp  Tests mix designs by mass: hand calculations after EN 12697-5 and EN 12697-8, invariants of
+/// any design, and refused numbers.
 #include "macadam/recipe.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generate_test.cpp  The specimen generator: composition, placement, relaxation, reproducibility.
+/// \file generate_test.cpp  Tests the specimen generator: composition, placement, relaxation and reproducibility.
 #include <gtest/gtest.h>
 #include <omp.h>
 

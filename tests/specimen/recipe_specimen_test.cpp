@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe_specimen_test.cpp  Specimens of mix designs by mass: the measured composition of their particles is the
-/// requested one, and the program prints and writes it.
+/// \file recipe_specimen_test.cpp  Makes specimens of mix designs by mass. The measured composition of their particles
+/// must be the requested one, and the program must print and write it.
 #include <algorithm>
 #include <numbers>
 

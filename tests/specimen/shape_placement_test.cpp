@@ -119,7 +119,7 @@ TEST(ShapeBody, FieldBoundsTheTrueDistance) {
   }
 }
 
-/// Near the middle of a face the distance is that from its plane.
+/// Near the middle of a face, the distance from the box is the distance from the plane of the face.
 TEST(DistanceField, PointsStraightOutOfTheFacesOfABox) {
   const Surface box = test::box_surface(2, 2, 2);
   const ShapeSolid solid(box);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shaped_specimen_test.cpp  Specimens with shaped aggregates: each aggregate is a cluster of spheres, mastic is
-/// outside of the clusters, and contact types follow from the touching particles.
+/// \file shaped_specimen_test.cpp  Tests specimens with shaped aggregates: each aggregate is a cluster of spheres,
+/// mastic is outside of the clusters, and contact types follow from the touching particles.
 #include <fmt/format.h>
 #include <omp.h>
 #include <unistd.h>

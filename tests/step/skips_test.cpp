@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips_test.cpp  Parts of a step that are skipped as unnecessary do not change the result: equal bits, or equal to a
-// stated tolerance.
+// skips_test.cpp  Tests that skipping unnecessary parts of a step does not change the result: the bits are equal, or
+// the result is equal to a stated tolerance.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

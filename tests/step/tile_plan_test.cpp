@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tile_plan_test.cpp  The plan of tiles, executed here in plain loops: every load is added once, and in the same order
+// tile_plan_test.cpp  Executes the plan of tiles in plain loops. Every load must be added once, and in the same order
 // for any division into tiles.
 #include "kernels/layout/tile_plan.hpp"
 

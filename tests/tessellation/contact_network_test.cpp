@@ -184,7 +184,8 @@ TEST_F(RandomNetwork, LumpedMomentsAreThoseOfThePoints) {
   }
 }
 
-/// Exact second moments agree with a fine midpoint rule, and are less than those of the points (lumped).
+/// Exact second moments agree with a fine midpoint rule, and are less than the second moments of the contact points
+/// (lumped quadrature).
 TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
   spec.quadrature = Quadrature::exact;
   const ContactNetwork exact = build_network(specimen, tessellation, spec);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// packing_check_test.cpp  Specimens that do not fill their box, or overfill it, give a warning before a run.
+// packing_check_test.cpp  Tests that specimens that do not fill their box, or overfill it, give a warning before a run.
 #include "macadam/tessellation.hpp"
 
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bench_command_test.cpp  macadam bench: the rows have the right meaning, and the JSON has the format of Google
+// bench_command_test.cpp  Tests macadam bench: the rows have the right meaning, and the JSON has the format of Google
 // Benchmark.
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate_command_test.cpp  `macadam calibrate` run as a user does: the calibrated scene, the files, the messages.
+// calibrate_command_test.cpp  Runs `macadam calibrate` as a user does, and checks the calibrated scene, the files and
+// the messages.
 #include "tests/support/program.hpp"
 
 namespace macadam::test {

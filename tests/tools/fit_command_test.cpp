@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit_command_test.cpp  `macadam fit` run as a user does: data files, results, messages.
+// fit_command_test.cpp  Runs `macadam fit` as a user does, and checks data files, results and messages.
 #include <algorithm>
 #include <cmath>
 

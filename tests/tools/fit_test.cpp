@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit_test.cpp  Laws fitted to data: the law that made the data is recovered, and stated errors and confidence limits
-// hold.
+// fit_test.cpp  Fits laws to data: the law that made the data must be recovered, and stated errors and confidence
+// limits must hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// laboratory_table_test.cpp  Tables of measured moduli as laboratories write them: units, spellings, and error
+// laboratory_table_test.cpp  Reads tables of measured moduli as laboratories write them: units, spellings and error
 // messages.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Corrections of a scan: each removes the artefact for which it is made, and leaves differences of composition alone.
+// Tests corrections of a scan: each removes the artefact for which it is made, and leaves differences of composition
+// alone.
 #include <gtest/gtest.h>
 
 #include "host/tools/ct/voxels/correction.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faulty scans. Each ends with an error that names the fault, or with a warning and grains of low confidence.
+// Segments faulty scans. Each ends with an error that names the fault, or with a warning and grains of low confidence.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Headers of image files on which ITK hangs, aborts or silently misreads. They are refused; unusual but valid headers
-// are read.
+// Reads image files whose headers make ITK hang, abort or misread without an error. Such headers are refused; unusual
+// but valid headers are read.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

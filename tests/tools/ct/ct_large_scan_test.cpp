@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scans larger than the given memory. They are segmented on blocks of voxels and refined from the file; the grains must
-// equal those found in memory.
+// Segments scans larger than the given memory. They are segmented on blocks of voxels and refined from the file; the
+// grains must equal those found in memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of a segmented scan: valid PNG files, and the contents of their pixels.
+// Tests pictures of a segmented scan: they are valid PNG files, and their pixels show the scan.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

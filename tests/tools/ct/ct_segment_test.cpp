@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grains and phases of small scans whose contents are known exactly, and the refusal of images that are not scans.
+// Finds grains and phases of small scans whose contents are known exactly, and refuses images that are not scans.
 #include <gtest/gtest.h>
 #include <omp.h>
 

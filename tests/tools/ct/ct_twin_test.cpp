@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_twin_test.cpp  Specimens made from scans: grains and voids stay at their places, and the scene runs.
+/// \file ct_twin_test.cpp  Tests specimens made from scans: grains and voids stay at their places, and the scene runs.
 #include "macadam/twin.hpp"
 
 #include <algorithm>
