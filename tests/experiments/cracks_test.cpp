@@ -167,7 +167,8 @@ TEST_F(CracksOfATest, ACyclicTestThatBreaksTheSpecimenEndsTheFrequency) {
   const nlohmann::json all = summary("out");
   const auto events = rows_of(read(out("out") / "cracks.csv"), std::string("frequency_hz,") + crack_head);
   ASSERT_EQ(events.size(), 10u);
-  ASSERT_EQ(all.at("warnings").size(), 3u) << all.at("warnings");  // the first: the law has no complex stiffness
+  // the first says that the law has no complex stiffness
+  ASSERT_EQ(all.at("warnings").size(), 3u) << all.at("warnings");
   for (std::size_t i = 0; i < 2; ++i) {
     const experiments::SteppedFrequency& f = result.stepped().frequencies[i];
     ASSERT_TRUE(f.rupture);

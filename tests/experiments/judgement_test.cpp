@@ -105,7 +105,7 @@ TEST(Judgement, WallsThatDisagreeWithoutInertiaAreSaid) {
   std::vector<std::string> warnings;
   judge(f, stiffest, warnings);
   EXPECT_HAS(warnings.at(0), "the reactions of bottom and top wall differ by 9.8e-04");
-  f.density_scaling = 1;  // with inertia the walls may differ
+  f.density_scaling = 1;  // with inertia the forces on the two walls may differ
   judge(f, stiffest, warnings);
   EXPECT_EQ(warnings.size(), 1u);
 }

@@ -54,7 +54,7 @@ TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres)
     EXPECT_EQ(ss.network.count[aa], ms.network.count[aa] + ms.network.count[inner]);
     const Stiffness single = solve(ss, 10).top;
     EXPECT_LT(difference(solve(ms, 10).top, single), 1e-9);
-    laws[inner] = laws::Elastic{1.125e11 / 4, 0.05};  // the check: another inner law changes the modulus
+    laws[inner] = laws::Elastic{1.125e11 / 4, 0.05};  // checks that another inner law changes the modulus
     EXPECT_GT(difference(solve(make_scene(clusters, {}, laws), 10).top, single), 0.02);
   }
 }

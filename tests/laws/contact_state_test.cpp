@@ -36,12 +36,13 @@ void expect_sums(const TestScene& scene, const Stepper& stepper, double toleranc
     force[b] -= contacts.force[i];
     moment[b] += c.arm_b * cross(c.n, contacts.force[i]) - contacts.moment[i];
   }
-  double size = 0;  // the largest force of a single contact, because the sums nearly cancel
+  double size = 0;  // scale of the tolerance: the largest force of a single contact, because the sums nearly cancel
   for (const Vec3d& f : contacts.force) size = std::max(size, norm(f));
   ASSERT_GT(size, 0);
   for (std::size_t i = 0; i < force.size(); ++i) {
     ASSERT_LT(norm(force[i] - particles.force[i]), tolerance * size) << i;
-    ASSERT_LT(norm(moment[i] - particles.moment[i]), tolerance * size * 1e-3) << i;  // lever arms of about a millimetre
+    // lever arms are about a millimetre
+    ASSERT_LT(norm(moment[i] - particles.moment[i]), tolerance * size * 1e-3) << i;
   }
   for (std::size_t w = 0; w < wall.size(); ++w) EXPECT_LT(norm(wall[w] - walls.wall_force[w]), 10 * tolerance * size);
 }

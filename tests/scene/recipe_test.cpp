@@ -160,7 +160,7 @@ TEST(Recipe, MassInIsMassOut) {
                 tolerance);
     double mass = v.mastic_fine_mass + v.mastic_filler_mass, volume = 0;
     for (const MixClass& c : v.classes) mass += c.mass, volume += c.volume;
-    ASSERT_NEAR(mass, 1 - v.binder, tolerance);  // of the dry aggregate
+    ASSERT_NEAR(mass, 1 - v.binder, tolerance);  // mass of the dry aggregate
     ASSERT_NEAR(volume, v.aggregate_volume, tolerance);
     // EN 12697-8 with the effective binder: VMA = V_m + B·ρ_b/ρ_B
     const double effective = v.effective_binder * v.bulk_density / d.binder_density;

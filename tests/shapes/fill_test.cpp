@@ -225,7 +225,7 @@ TEST(FillReport, OneSphereInACube) {
   const Surface cube = test::box_surface(1, 1, 1);
   const FillReport r = measure_fill(cube, {{{0.5, 0.5, 0.5}}, {0.5}});
   EXPECT_NEAR(r.sphere_volume, pi / 6, 1e-15);
-  EXPECT_NEAR(r.covered, pi / 6, 5e-5);  // 400² columns
+  EXPECT_NEAR(r.covered, pi / 6, 5e-5);  // computed with 400² columns
   EXPECT_NEAR(r.outside, 0, 1e-12);
   EXPECT_EQ(r.largest_overlap, 0);
   EXPECT_NEAR(r.deviation_mean, mean_distance_of_cube() - 0.5, 1e-4);  // 20,000 samples, second order

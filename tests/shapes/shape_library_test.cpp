@@ -239,7 +239,8 @@ TEST(ShapeLibrary, DimensionsHaveTheStatisticsOfTable1) {
     const std::vector<double> v = values(property);
     EXPECT_NEAR(average(v), mean, 0.05 * mean) << name;
     const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
-    EXPECT_NEAR(*least, low, 0.1 * low) << name;  // the value of a single shape
+    // the minimum is the value of a single shape, so its tolerance is large
+    EXPECT_NEAR(*least, low, 0.1 * low) << name;
     EXPECT_NEAR(*greatest, high, 0.1 * high) << name;
   }
 }

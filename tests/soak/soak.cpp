@@ -54,7 +54,7 @@ Held held_now() {
 struct Case {
   Scene scene;
   fs::path out;
-  std::string response, first;  ///< first: output of the first time
+  std::string response, first;  ///< `first` is the output of the first run
 };
 
 class Soak {

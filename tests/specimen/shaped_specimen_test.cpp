@@ -114,7 +114,8 @@ TEST_P(ShapedSpecimen, MasticLeavesTheShapesAndFillsThePorosity) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (s.phase[i] == Phase::mastic) solid += 4 * M_PI / 3 * std::pow(s.radius[i], 3);
   }
-  const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);  // the number of spheres is an integer
+  // the tolerance is one sphere, because their number is an integer
+  const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);
   EXPECT_NEAR(solid, 0.95 * s.box.volume(), sphere);
   EXPECT_TRUE(particles_without_cell(s).empty());
 }

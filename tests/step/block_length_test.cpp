@@ -80,7 +80,7 @@ TEST(BlockLength, FollowsTheNumberOfBlocks) {
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 125);
   options.blocks = 1e6 / 3.9;  // blocks of three steps are not worth while, so steps are not grouped
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
-  options.blocks = 10;  // sums over this many steps are still accurate in single precision
+  options.blocks = 10;  // gives the longest block, whose sums are still accurate in single precision
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), kernels::longest_block);
 }
 

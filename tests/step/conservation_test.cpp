@@ -115,7 +115,7 @@ TEST_P(FreeAssembly, MomentaStayOverAHundredThousandSteps) {
     const double walk = 2 * rounding * std::sqrt(static_cast<double>(steps * scene.specimen.size()));
     EXPECT_LT(norm(after.linear - before.linear), walk * particle);
     EXPECT_LT(norm(after.angular - before.angular), walk * particle * norm(scene.specimen.box.size));
-    EXPECT_GT(norm(before.linear), 0.5 * particle);  // the momenta are large enough to be worth conserving
+    EXPECT_GT(norm(before.linear), 0.5 * particle);  // the momentum is not small, so its conservation is not trivial
     EXPECT_GT(norm(before.angular), 0.5 * particle * 1e-3);
   }
 }

@@ -174,7 +174,7 @@ TEST_P(TinyFacets, TheShareIsThatOfTheirAreas) {
   ASSERT_FALSE(gone.contacts.empty());
   EXPECT_EQ(static_cast<std::int64_t>(gone.contacts.size()), less.scene.network.dropped_area);
   EXPECT_NEAR(less.scene.network.dropped_share / (area(gone) / area(whole.scene.network)), 1,
-              1e-12);  // a thousand terms
+              1e-12);  // rounding of a sum of a thousand terms
 }
 
 /// Loss of modulus by dropped facets. Let a be the bilinear form of the whole network, d that of the dropped contacts,

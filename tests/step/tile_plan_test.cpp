@@ -171,7 +171,7 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
 
 TEST(TilePlan, EvenTilesTouchAboutAsManyContactsEach) {
   const test::TestScene scene = test::make_scene(test::random_specimen(4, 12, 12, 14));
-  const auto fullest = [&](bool even) {  // largest number of contacts per tile over the mean
+  const auto fullest = [&](bool even) {  // ratio of the largest to the mean number of contacts per tile
     const TilePlan plan = plan_tiles(scene.network, make_layout(scene.specimen, scene.network, 32, {500, even}));
     std::size_t most = 0, all = 0;
     for (const Tile& tile : plan.tile) {

@@ -137,7 +137,7 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
       {{0, 0, 0},
        {0.5, 0.5, 0},
        {0.5, 0, 0.5},
-       {0, 0.5, 0.5},  // diamond lattice, with up to 144 such vertices
+       {0, 0.5, 0.5},  // diamond lattice, with up to 144 vertices in the middle of edges
        {0.25, 0.25, 0.25},
        {0.75, 0.75, 0.25},
        {0.75, 0.25, 0.75},

@@ -275,7 +275,7 @@ TEST(CtFaults, OneGrainThatIsMostOfTheSpecimenIsDoubted) {
 TEST(CtFaults, AScanOfAirAloneHasNoContrast) {
   Image<float> nothing({40, 40, 40}, {1e-4, 1e-4, 1e-4}, {}, air);
   add_noise(nothing, 0.1);
-  Image<float> cut = nothing;  // a reconstruction that sets negative values to zero
+  Image<float> cut = nothing;  // like a reconstruction that sets negative values to zero
   for (float& grey : cut.voxels) grey = std::max(0.0f, grey - air);
   for (const ScanRegion region : {ScanRegion::whole, ScanRegion::found}) {
     EXPECT_TRUE(outcome(nothing, region).error.find("contrast") != std::string::npos);
