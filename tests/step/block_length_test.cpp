@@ -42,10 +42,10 @@ TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   Laws slow = lasting();
   slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // relaxation time of 0.01 s, times 2π
   EXPECT_EQ(block_steps(options, facts_of(slow), size), 157);
-  // limit from the geometry: 4e-3 / (1e-4·20π/s) = 0.64 s, longer than the load's
+  // The time scale of the geometry is 4e-3 / (1e-4·20π/s) = 0.64 s, longer than that of the load.
   options.geometry = Geometry::updated;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 250);
-  // limit from the geometry: 4e-3 / (1e-2·20π/s) = 6.4e-3 s, shorter than the load's
+  // The time scale of the geometry is 4e-3 / (1e-2·20π/s) = 6.4e-3 s, shorter than that of the load.
   options.boundary = moving_top(drives::Cyclic(1e-3, 10, 1000000));
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 15);
   options.boundary = {};

@@ -200,7 +200,7 @@ TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
     const auto cell = [&](double area, double x, double y) {
       ss += area * x * x, st += area * x * y, tt += area * y * y;
     };
-    // fan from vertex 0, unlike the fan about the centroid in the code under test
+    // Uses a fan from vertex 0, unlike the code under test, which uses a fan about the centroid.
     for (std::size_t v = 1; v + 1 < n; ++v) {
       const double us = s[v] - s[0], ut = t[v] - t[0], ws = s[v + 1] - s[0], wt = t[v + 1] - t[0];
       const double area = 0.5 * (us * wt - ws * ut) / (m * m);

@@ -226,7 +226,7 @@ TEST(CtFaults, ARegionThatSomebodyGaveEndsWhereItWasGiven) {
   SegmentOptions options;
   options.smallest = 1.4e-3;
   options.surfaces = false;
-  // from the lower end of the scan to a height within it
+  // The given region extends from the lower end of the scan to a height within the scan.
   options.given = GivenRegion{{0, 0, 0}, {4.5e-3, 4.5e-3, 3.4e-3}};
   const Segmentation found = segment_scan(balls(), options);
   for (const std::string& warning : found.warnings) EXPECT_EQ(warning.find("ends in air"), std::string::npos);
