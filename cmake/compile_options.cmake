@@ -70,7 +70,7 @@ function(macadam_unite)
   endif()
 endfunction()
 
-# ccache needs -fpch-preprocess for precompiled headers. The other options switch off false warnings: of gcc 12 for
-# std::string concatenation (bug 105329) and Eigen's fixed-size kernels, and of gcc 14 for copies of vectors.
+# ccache needs -fpch-preprocess for precompiled headers. The other options switch off false warnings: gcc 12 warns of
+# concatenated std::string (bug 105329) and of Eigen's fixed-size kernels, gcc 14 of copies of vectors.
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess -Wno-restrict
   -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized -Wno-free-nonheap-object>)

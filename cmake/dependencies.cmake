@@ -46,8 +46,8 @@ function(macadam_find_itk)
   if(ITK_FOUND)
     add_library(ITK::ITK INTERFACE IMPORTED)
     target_include_directories(ITK::ITK SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
-    # only the libraries whose code is used; ITK_LIBRARIES also names dependencies of modules of which only headers are
-    # used
+    # Links only the libraries whose code is used. ITK_LIBRARIES also names the dependencies of modules of which only
+    # headers are used.
     target_link_libraries(ITK::ITK INTERFACE ITKCommon ITKIOImageBase ITKIOMeta ITKIONRRD ITKIOTIFF ITKIOPNG ITKSmoothing)
   endif()
   set(ITK_FOUND ${ITK_FOUND} PARENT_SCOPE)
@@ -94,7 +94,7 @@ if(NOT MACADAM_CUDA STREQUAL "OFF")
     elseif(NOT CMAKE_CUDA_ARCHITECTURES AND DEFINED ENV{CUDAARCHS})  # CMake reads it only at the first configuration
       set(CMAKE_CUDA_ARCHITECTURES "$ENV{CUDAARCHS}")
     elseif(NOT CMAKE_CUDA_ARCHITECTURES)
-      # machine code for sm_90; for other devices from 7.5 on the driver compiles PTX
+      # Compiles machine code for compute capability 9.0. For other devices from 7.5 on, the driver compiles the PTX.
       set(CMAKE_CUDA_ARCHITECTURES "75-virtual;90-real")
     endif()
     enable_language(CUDA)

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes one library that runs on any x86-64 processor and is fast on new ones. The time step and the iteration of the
-# frequency domain are compiled again for each newer generation of processors (v3, v4), and at run time the library
-# chooses the newest code that the processor can run. In each of these parts, all symbols are made local except its two
-# tables, the one of the step and the one of the frequency domain. Otherwise the linker would keep only one copy of a
-# template that occurs in several parts (also those of the standard library), and an old processor could be given
-# instructions that it lacks.
+# frequency domain are compiled again for each newer generation of processors (v3, v4). At run time the library chooses
+# the newest code that the processor can run. In each of these parts all symbols are made local, except the table of the
+# functions for the time step and the table of those for the frequency domain. Otherwise the linker would keep only one
+# copy of a template that occurs in several parts (also of templates of the standard library), and an old processor
+# could be given instructions that it lacks.
 function(macadam_add_processors library sources)
   foreach(level v3 v4)
     set(part macadam_code_${level})
     add_library(${part} OBJECT ${sources})
     target_link_libraries(${part} PRIVATE macadam_options OpenMP::OpenMP_CXX fmt::fmt Eigen3::Eigen)
-    # unique symbols cannot be made local
+    # Without -fno-gnu-unique gcc would make some symbols unique, and unique symbols cannot be made local.
     target_compile_options(${part} PRIVATE -Wno-psabi -march=x86-64-${level} ${MACADAM_PACKETS} -fno-gnu-unique)
     target_compile_definitions(${part} PRIVATE MACADAM_CODE=${part} MACADAM_CODE_NAME="x86-64-${level}"
       MACADAM_HARMONIC_CODE=macadam_harmonic_code_${level})

@@ -11,7 +11,7 @@
 /// f = E·x up to |x| = x_0, and with the slope E_2 beyond. The only unit state is x itself.
 struct Bilinear {
   static constexpr const char* name = "bilinear";
-  static constexpr bool linear = false;  // so every contact point is stepped, instead of a condensed contact
+  static constexpr bool linear = false;  // so contact points are stepped one by one, not as a condensed contact
   static constexpr int only_units = 1;
   double E = 0, E_2 = 0;  ///< [Pa], E_2 ≤ E
   double x_0 = 0;         ///< [m]
@@ -34,7 +34,8 @@ struct Bilinear {
     }
     template <class S>
     MACADAM_HD S value(const S& x) const {
-      using std::abs;                                                    // for packets, abs is found by their type
+      // if S is a packet, its own abs() is found by the type
+      using std::abs;
       const S beyond = S(R(0.5)) * (abs(x - S(x_0)) - abs(x + S(x_0)));  // −x, limited to ±x_0
       return S(E_2) * x - S(E - E_2) * beyond;
     }

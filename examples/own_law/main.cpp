@@ -14,7 +14,8 @@ namespace {
 
 using namespace macadam;
 constexpr int spheres = 4;
-constexpr double side = 1e-3, area = side * side, height = spheres * side;  // side of a cubic cell [m]; of the column
+// side of a cubic cell [m]; cross-section [m²] and height [m] of the column
+constexpr double side = 1e-3, area = side * side, height = spheres * side;
 
 Specimen make_column() {
   Specimen out;
@@ -28,7 +29,7 @@ Specimen make_column() {
   return out;
 }
 
-/// Steps the column, whose top `drive` pulls. Returns the stress at the end [Pa], tension positive.
+/// Steps the column while `drive` pulls its top. Returns the stress at the end [Pa], tension positive.
 template <class D>
 double stress_after(const OwnLaw& law, StepperOptions options, D drive, double seconds) {
   const Specimen column = make_column();

@@ -55,7 +55,7 @@ int main() {
   StepperOptions options;
   options.damping_kind = Damping::local;
   options.damping = 0.3;
-  const double mass = 2e-6, force = -0.05;  // of the platen at the side +x [kg], on it [N]
+  const double mass = 2e-6, force = -0.05;  // mass of the platen at the side +x [kg], force on it [N]
   options.boundary.load(wall_x_hi, 0, std::make_shared<drives::Ramp>(), mass);
   options.dt = 0.3 * critical_step(network, laws, inertia, options).dt;
   const std::int64_t period = 2000;

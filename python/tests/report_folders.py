@@ -37,8 +37,8 @@ ENVIRONMENT = {
 
 
 def command(line: str) -> list[str]:
-    """Returns the arguments that run a line of the documents, `macadam report …`. The program passes it on to this
-    Python."""
+    """Returns the arguments of a process that runs a command `macadam report …` of the documents. The program passes
+    the command on to this Python interpreter."""
     words = shlex.split(line)
     assert words[0] == "macadam"
     return [str(PROGRAM), *words[1:]]

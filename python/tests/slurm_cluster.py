@@ -46,7 +46,7 @@ PartitionName=debug Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
 
 def why_not() -> str:
-    """Returns why a cluster cannot run on this machine; empty if it can be tried."""
+    """Returns why a cluster cannot run on this machine; empty if nothing speaks against it."""
     path = f"{os.environ.get('PATH', '')}:/usr/sbin:/sbin"
     missing = [p for p in PROGRAMS if not shutil.which(p, path=path)]
     if missing:

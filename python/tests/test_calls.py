@@ -19,14 +19,14 @@ LONG = {"loading.frequencies": [0.5], "solver.tolerance": None, "solver.density_
 
 
 def interrupted(work, said, tmp_path):
-    """Runs `work` in a Python of its own, which says `ready` while the call is under way and gets Ctrl-C then."""
+    """Runs `work` in a new Python process. It prints `ready` during the call, and is then interrupted as by Ctrl-C."""
     code = "import macadam as mc, numpy as np, sys\n" + textwrap.dedent(work)
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                              cwd=tmp_path, env={**os.environ, "PYTHONUNBUFFERED": "1"})
     before = child.stdout.readline()
     assert before.startswith("ready"), before + child.stdout.read()
     child.send_signal(signal.SIGINT)
-    out, _ = child.communicate(timeout=900)  # only a call that does not end takes that long
+    out, _ = child.communicate(timeout=900)  # only a call that never ends takes this long
     assert "KeyboardInterrupt" in out and said in out, out
 
 
@@ -79,7 +79,8 @@ def test_python_runs_beside_a_long_call(specimen):
     stepper = mc.Stepper(specimen, mc.Boundary(), backend="cpu", threads=1)
     beside.start()
     before, calls = counted[0], 0
-    while counted[0] - before <= 3 * calls + 20 and calls < 300:  # if a lock were held, one count at most between two calls
+    # If the call held a lock, the other thread could count at most once between two calls.
+    while counted[0] - before <= 3 * calls + 20 and calls < 300:
         stepper.advance(5000)
         calls += 1
     done.set()
@@ -102,7 +103,7 @@ def test_a_stepper_serves_one_thread_at_a_time(specimen):
     try:
         stepper.advance(1)
     except mc.RunError as error:
-        assert "another thread" in str(error)  # observe() and the like report it too
+        assert "another thread" in str(error)  # observe() and similar functions report it too
     other.join()
     assert stepper.observe().step in (3000, 3001)
     assert np.isfinite(stepper.particles().velocity).all()

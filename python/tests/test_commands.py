@@ -36,8 +36,8 @@ COMMANDS = [pytest.param(line, id=f"{page.relative_to(ROOT)}:{number}") for page
 
 @cache
 def options(command):
-    """Returns the options that a command's help lists. For commands written in Python it is the help of their
-    parser."""
+    """Returns the options that the help of a command lists. The help of a command written in Python is printed by its
+    argument parser."""
     words = [sys.executable, "-m", f"macadam.{command[0]}"] if command[0] in ("report", "study") else [PROGRAM, *command]
     told = subprocess.run([*words, "--help"], capture_output=True, text=True, timeout=60)
     assert told.returncode == 0, f"{' '.join(command)} --help: {told.stderr}"
@@ -63,8 +63,8 @@ INLINE = re.compile(r"`(--[a-z][\w-]*) ([^`]+)`")  # an option with a value in a
 
 
 def not_run(page):
-    """Yields the commands of a page's blocks that are not run; and each of them with every option for which a sentence
-    of the page gives a value."""
+    """Yields the commands in those blocks of a page that are not run. Yields each command again with every option for
+    which a sentence of the page gives a value."""
     text = page.read_text(encoding="utf-8")
     commands = [line for kind, _, language, code in FENCE.findall(text) if kind == "not run" and language == "sh"
                 for line in code.replace("\\\n", " ").splitlines() if line.startswith("macadam ")]
@@ -83,7 +83,7 @@ def values_not_run():
 
 @pytest.mark.parametrize("words", values_not_run())
 def test_values_of_options_are_accepted(words, tmp_path):
-    """In an empty folder such a command must fail because of missing inputs, not because of its options."""
+    """In an empty folder a command must fail because its inputs are missing, not because of its options."""
     ran = subprocess.run([PROGRAM, *words], cwd=tmp_path, text=True, capture_output=True, timeout=60)
     assert ran.returncode == 2 and not re.search(r"(?m)^macadam: (command line: )?--", ran.stderr), ran.stderr
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scans: phantom, segmentation and twin equal the files of the commands."""
+"""CT scans: phantom, segmentation and twin made from Python equal the files that the commands write."""
 import subprocess
 
 import numpy as np

@@ -48,14 +48,15 @@ def test_a_model_of_somebody_else(tmp_path):
 
 @pytest.fixture(scope="module")
 def lab(specimen):
-    """The moduli of the scene with another delta, as measurements."""
+    """Returns the moduli that the scene has with another delta; the tests use them as measurements."""
     stiff = mc.harmonic(specimen, frequencies=[5, 20], **{"contacts.M-A.delta": 1.3})
     return stiff.table[["frequency_hz", "e_star_pa", "phase_deg"]]
 
 
 def test_a_calibration_finds_what_was_there(scene, small_file, lab, tmp_path, program):
     found = mc.calibrate(scene, lab, free=["M-A.delta"])
-    assert found.parameters.value[0] == pytest.approx(1.3, rel=1e-6)  # the solver's tolerance over the sensitivity
+    # error: the solver's tolerance divided by the sensitivity
+    assert found.parameters.value[0] == pytest.approx(1.3, rel=1e-6)
     assert found.scene.as_dict()["contacts"][1]["delta"] == found.parameters.value[0]
     assert list(found.table.columns)[0] == "frequency_hz" and "M-A.delta" in str(found)
     lab.to_csv(tmp_path / "lab.csv", index=False)
@@ -70,14 +71,15 @@ def test_a_calibration_finds_what_was_there(scene, small_file, lab, tmp_path, pr
 
 
 def test_results_are_targets_and_data(specimen, scene, tmp_path):
-    """result.table can be used unchanged, with its columns that no laboratory has."""
+    """result.table can be used unchanged as measurements, although it has columns that laboratory tables lack."""
     found = mc.harmonic(specimen, frequencies=[2, 5, 20, 50], **{"contacts.M-A.delta": 1.3})
     assert not {"frequency_hz", "e_star_pa", "phase_deg"} >= set(found.table.columns)
     law = mc.fit(found.table, units=1)
     few = mc.fit(found.table[["frequency_hz", "e_star_pa", "phase_deg"]], units=1)
     assert law.files["law.toml"] == few.files["law.toml"]
     again = mc.calibrate(scene, found.table, free=["M-A.delta"])
-    assert again.parameters.value[0] == pytest.approx(1.3, rel=1e-6)  # the solver's tolerance over the sensitivity
+    # error: the solver's tolerance divided by the sensitivity
+    assert again.parameters.value[0] == pytest.approx(1.3, rel=1e-6)
 
 
 def test_other_units_and_columns(scene, lab):

@@ -34,8 +34,8 @@ def test_a_stepped_creep_nears_the_spectrum(specimen):
     stepped = CALLS["creep"](specimen, method="explicit", platen_mass=1e-4, **FAST).table
     spectrum = mc.spectrum(specimen, shortest=1e-4, longest=1e-2)
     expected = 1e5 * spectrum.creep.compliance(stepped.time_s.to_numpy())
-    # 5 %: the difference left at 4 ms by the ramp, some tenths of a millisecond long, and by damping, which the
-    # spectrum lacks
+    # The tolerance of 5 % covers the difference that is left at 4 ms. It comes from the ramp, which takes some tenths
+    # of a millisecond, and from damping. The spectrum has neither of them.
     assert stepped.strain.iloc[-1] == pytest.approx(expected[-1], rel=0.05)
 
 

@@ -97,7 +97,7 @@ def test_the_program_hands_on_what_is_python(name, tmp_path, program):
     environment.pop("MACADAM_PROGRAM", None)
     said = subprocess.run([alone, name, "DIR", "--out", "a b", "--help"], env=environment, capture_output=True, text=True,
                           cwd=tmp_path)
-    # the study gets the program that was called
+    # The Python command gets the path of the program that was called.
     told = f"told ['{name}', 'DIR', '--out', 'a b', '--help'] {Path(program).resolve()}\n"
     assert (said.returncode, said.stdout) == (0, told), said.stderr
     python.write_text(f"#!/bin/sh\nPYTHONPATH={tmp_path} exec {sys.executable} -S \"$@\"\n")

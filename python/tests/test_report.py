@@ -83,8 +83,8 @@ def test_every_kind_of_folder(kind: str, tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_cells_of_a_plane_are_those_of_least_power_distance() -> None:
-    """Compares with a search over all particles at every point. The cases include very large spheres, and gaps far from
-    any sphere."""
+    """Compares the cells in a plane with a search over all particles at every point. The cases include very large
+    spheres, and gaps far from any sphere."""
     draw = np.random.default_rng(5)
     for number, least, most in ((300, 0.4, 0.6), (40, 0.01, 3.0), (3, 0.1, 0.2)):
         centre = draw.uniform([0, 0, -5], [10, 12, 5], (number, 3))

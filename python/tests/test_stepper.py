@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steppers that Python advances itself: compared with a run, with the test's own drives, and their states."""
+"""Steppers that Python advances itself: they are compared with a run, use drives written in Python, and save their
+states."""
 import math
 
 import numpy as np
@@ -50,7 +51,7 @@ def test_samples_of_ones_own_are_evaluated():
     angle = 2 * np.pi * HZ * time
     found = mc.evaluate_cyclic(time, 1e-4 * np.sin(angle), 1e6 * np.sin(angle + np.radians(20)), HZ, fit_cycles=2)
     assert found["e_star_pa"] == pytest.approx(1e10) and found["phase_deg"] == pytest.approx(20)
-    # 1e-3: peaks are those of parabolas through three samples, with 200 samples per period
+    # Tolerance 1e-3: peaks are found by parabolas through three samples, and a period has 200 samples.
     assert found["e_star_peaks_pa"] == pytest.approx(1e10, rel=1e-3) and found["fit_rms"] < 1e-9
     with pytest.raises(mc.InputError, match=r"strain: found numbers of shape \(2,\), expected .*\(3,\)"):
         mc.evaluate_cyclic([0.0, 1.0, 2.0], [0.0, 1.0], [0.0, 1.0], HZ)
@@ -98,7 +99,8 @@ def test_forces_balance(specimen, dt):
     inner = contacts.b >= 0
     np.subtract.at(force, contacts.b[inner], state.force[inner])
     scale = abs(state.force).max()
-    assert np.allclose(force, stepping.particles().force, rtol=0, atol=1e-12 * scale)  # some twenty terms each
+    # each force is a sum of some twenty terms
+    assert np.allclose(force, stepping.particles().force, rtol=0, atol=1e-12 * scale)
     assert state.chain_begin.shape == (len(contacts) + 1,) and state.relative.shape == (len(contacts), 6)
 
 
@@ -117,8 +119,8 @@ def test_pulses_and_what_drives_say_of_themselves(specimen, dt):
 
 
 def test_stresses_of_cells_are_those_of_the_whole(specimen, dt):
-    """The volume-weighted sum of the cells' stresses equals the stress on the walls, exactly so in equilibrium, when no
-    momentum is left."""
+    """The volume-weighted sum of the cells' stresses equals the stress on the walls. In equilibrium, when no momentum
+    is left, this is exact."""
     ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=200)
     stepping = stepper(specimen, ramp, damping_kind="viscous", damping=0.05 / dt)
     stepping.advance(3000)
@@ -192,7 +194,8 @@ def test_broken_points_of_contacts(scene):
     assert state.broken.shape == (len(contacts),) and 0 < state.broken.max() <= 1
     begin, breaks, bond = state.chain_begin, [], mc.pair_names.index("M-M")
     for c, pair in enumerate(contacts.pair):
-        # state of a point of a bond: f and opening, then f and the break of each slip
+        # The state of a contact point of a bond has six values: f and opening, then f and break of each of the two
+        # slips.
         of_points = state.chain[begin[c]:begin[c + 1]].reshape(-1, 6)[:, 3] if pair == bond else np.zeros(1)
         assert state.broken[c] == pytest.approx(np.count_nonzero(of_points) / len(of_points))
         breaks += list(of_points[of_points != 0])

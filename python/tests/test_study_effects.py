@@ -95,7 +95,7 @@ def test_the_scatter_of_a_line() -> None:
     )
     design = asked(grid={"a": list(x), "seed": [1, 2]})
     (effect,) = effects(quantities(rows, design)[0])
-    # error of the slope; seeds deviate by sqrt(2), two per point
+    # Standard error of the slope. The seeds of a point deviate by sqrt(2), and each mean is of two seeds.
     error = 2**0.5 / 2**0.5 / ((x - x.mean()) ** 2).sum() ** 0.5
     assert np.isclose(effect.scatter, student_95(10) * 9 * error)
 
@@ -139,8 +139,8 @@ def test_small_differences_between_levels_are_within_the_scatter(tmp_path: Path)
 
 
 def test_names_of_pure_scatter_are_an_effect_in_one_of_twenty_studies() -> None:
-    """Twelve names with three seeds of one normal distribution, a thousand times. The difference between the largest
-    and the smallest mean exceeds the interval of two means in most of them."""
+    """A thousand studies have twelve names with three seeds each, all of one normal distribution. In most studies the
+    difference between the largest and the smallest mean exceeds the confidence interval of two means."""
     draw = np.random.default_rng(1)
     names, seeds = np.repeat([f"binder {k}" for k in range(12)], 3), np.tile([1, 2, 3], 12)
     found = []
@@ -151,7 +151,7 @@ def test_names_of_pure_scatter_are_an_effect_in_one_of_twenty_studies() -> None:
         of_two = student_95(24) * 2**0.5 * effect.errors[0]
         found.append((not effect.within_scatter, last - first > effect.scatter, last - first > of_two))
     effect, beyond, beyond_of_two = np.mean(found, axis=0)
-    assert 0.03 < effect < 0.07  # 5 % and three standard deviations of a thousand random numbers
+    assert 0.03 < effect < 0.07  # 5 % ± three standard deviations of a fraction of a thousand trials
     assert beyond <= effect and beyond_of_two > 0.5
 
 
@@ -169,7 +169,7 @@ def test_each_point_counts_with_its_own_number_of_seeds() -> None:
     chance = scatter(quantity)
     assert (chance.points, chance.fewest, chance.most, chance.freedom) == (3, 1, 4, 2 + 3 + 1)
     effect = next(e for e in effects(quantity) if e.factor == "a")
-    variances = [(1 / 1 + 1 / 3) / 4, (1 / 4 + 1 / 2) / 4]  # of the means of two points each
+    variances = [(1 / 1 + 1 / 3) / 4, (1 / 4 + 1 / 2) / 4]  # variances of the mean of two points, for each level
     assert np.allclose(effect.errors, chance.deviation * np.sqrt(variances))
     assert np.isclose(effect.scatter, student_95(6) * chance.deviation * sum(variances) ** 0.5)
 
@@ -186,7 +186,7 @@ def test_a_line_has_the_error_of_points_with_unequal_numbers_of_seeds() -> None:
     quantity = Quantity("|E*|", "GPa", "", "", jobs, ["a"], ["seed"])
     (effect,), chance = effects(quantity), scatter(quantity)
     off = x - x.mean()
-    error = chance.deviation * (off**2 / numbers).sum() ** 0.5 / (off**2).sum()  # of the slope
+    error = chance.deviation * (off**2 / numbers).sum() ** 0.5 / (off**2).sum()  # standard error of the slope
     assert np.isclose(effect.scatter, student_95(chance.freedom) * 9 * error) and effect.errors is None
 
 

@@ -91,7 +91,7 @@ def test_damaged_studies_and_scenes_are_read_or_refused(tmp_path: Path) -> None:
         except Exception as error:
             text = (scene if of_scene else study).read_text(errors="replace")
             raise AssertionError(f"case {case}: {text[:1000]!r}") from error
-        # far more than a slow processor needs, so it means an endless loop
+        # Even a slow processor needs far less than 60 s, so a longer time means an endless loop.
         assert time.process_time() - begin < 60, f"case {case}"
 
 

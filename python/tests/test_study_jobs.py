@@ -47,7 +47,7 @@ def asked(**more) -> dict:
 def test_threads_of_the_study_win_over_the_environment(
     name: str, options: list[str], log: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The policy of waiting is the user's if the environment has one."""
+    """The study sets OMP_NUM_THREADS itself. It sets OMP_WAIT_POLICY only if the user has not set it."""
     monkeypatch.setenv("OMP_NUM_THREADS", "7")
     monkeypatch.setenv("OMP_WAIT_POLICY", "active")
     run = {"on": "threads", "workers": 1, "threads": 3}

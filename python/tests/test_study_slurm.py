@@ -171,6 +171,6 @@ def test_the_words_of_slurm_are_told(tmp_path: Path) -> None:
     ],
 )
 def test_the_words_of_slurm_end_with_their_lines(message: str) -> None:
-    """Parsl's versions put Slurm's lines into their message as they are, or as a text of Python in quotes."""
+    """Some versions of Parsl put Slurm's lines unchanged into their message, others as a quoted Python string."""
     found = slurm_lines(message)
     assert found == ["error: User's group not permitted", "error: no partition 'a'"]

@@ -72,7 +72,7 @@ def test_fitted_laws_by_delta(folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
     }
     found = study(asked, folder / "out", on="threads", workers=1).table
     got = {(row["binder"], row[DELTA]): row["e_star_pa"] for _, row in found.iterrows()}
-    modulus = {  # of the specimen, by the formula above, with delta times E of M-A
+    modulus = {  # modulus of the specimen by the formula above, for each value of delta times E of M-A
         (name, delta): 1 / (0.25 / 1e10 + 0.5 / (delta * e) + 0.25 / 1e10)
         for name, e in (("fitted", 2e9), ("old", 1e9))
         for delta in (2, 3)
@@ -182,8 +182,8 @@ def test_the_command_refuses_with_exit_2(folder: Path, monkeypatch, capsys) -> N
 
 
 def test_equal_points_have_a_row_each_and_are_told(folder: Path, monkeypatch, capsys) -> None:
-    """Two points with the same scene are computed once and have two rows. A point with the same values has no second
-    row. Both are reported."""
+    """Two points whose scenes are equal are computed once and have two rows. A point that repeats the values of another
+    point has no row of its own. Both cases are reported."""
     scene(folder)
     program, log = stand_in(folder)
     monkeypatch.setenv("MACADAM_PROGRAM", program)

@@ -44,10 +44,10 @@ def _processor_time_of_ended_processes() -> float:
 @pytest.mark.parametrize("to_group", [False, True], ids=["process", "group"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_the_study(running: Running, number: int, to_group: bool) -> None:
-    """The test does not measure wall time, which depends on the other programs of the machine. A study that is stopped
-    waits for others once, for at most AFTER_INTERRUPT (Parsl) or GRACE (threads); a test below shows that the wait
-    ends. Otherwise it works. Therefore the bound holds for this wait and the processor time of the study's process
-    after the signal together."""
+    """The test does not measure wall time, which depends on the other programs of the machine. A stopped study waits
+    for other processes once, for at most AFTER_INTERRUPT (Parsl) or GRACE (threads); a test below shows that the wait
+    ends. The rest of the time it uses the processor. Therefore the test compares BOUND with the longest wait plus the
+    processor time that the study's process uses after the signal."""
     ours = running.left()
     ended_before = _processor_time_of_ended_processes()
     at_signal = sum(psutil.Process(running.process.pid).cpu_times()[:4])

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// batched_samples_test.cpp  A device takes several samples per batch, the processor one after the other. Their results
-// must be equal bit by bit; this can be compared because the fake device computes on the processor (fake_plugin.cpp).
+// batched_samples_test.cpp  A device takes several samples per batch, but the processor takes one after the other. The
+// results must be equal bit by bit. This can be compared because the fake device computes on the processor
+// (fake_plugin.cpp).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -75,7 +76,7 @@ TEST_F(BatchedSamples, NoneIsLostOrDoubledByInterruptions) {
   expect_same_files({"response.csv"});
 }
 
-/// The points of a monotonic load are taken from the step at which they are due, although the device computes ahead.
+/// The points of a monotonic test are recorded at the steps at which they are due, although the device computes ahead.
 TEST_F(BatchedSamples, PointsOfALoadKnowTheStepperOfTheirStep) {
   const std::string loading = "kind = \"monotonic\"\nrate = 0.01\nstrain = 4e-5\npoints = 40\n";
   for (const Backend backend : {Backend::cpu, Backend::cuda}) {
@@ -100,8 +101,8 @@ TEST_F(BatchedSamples, TheFirstThatDivergesIsNamed) {
   EXPECT_HAS(said[0], "at t = ");
 }
 
-/// Answers the watcher's question for devices with the lists in `named`, one per question, and records the steps left
-/// each time.
+/// Stands in for the callback of the watcher that names devices. Each call returns the next list in `named` and records
+/// the number of steps that are left.
 struct Asked {
   std::vector<DeviceList> named;
   std::vector<std::int64_t> steps;

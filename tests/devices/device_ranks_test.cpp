@@ -108,7 +108,7 @@ TEST_P(RanksOf, GoOnFromACheckpointOfAnotherNumber) {
   });
 }
 
-// Makes a new stepper from a used one, as a test does for its next frequency.
+// Makes a new stepper from a used one, as a cyclic test does for its next frequency.
 TEST_P(RanksOf, BeginAnew) {
   const auto alone = make();
   alone->advance(100);
@@ -156,8 +156,8 @@ TEST(Ranks, BeginInTheSteadyState) {
   for_ranks(3, [&](Ranks& rank) { expect_same(stepped(&rank), alone); });
 }
 
-/// Expects that two ranks are refused. Both make a stepper with options that `change` makes differ, then take 10 +
-/// more(rank) steps.
+/// Expects that two ranks are refused with the message `why`. Each rank makes a stepper with options that `change`
+/// makes different, then takes 10 + more(rank) steps.
 void expect_refused(const std::string& why, const std::function<void(int rank, StepperOptions& options)>& change,
                     const std::function<std::int64_t(int rank)>& more) {
   const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));

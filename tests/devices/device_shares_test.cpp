@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_shares_test.cpp  Which device a scene is assigned to, with several scenes and several devices.
+// device_shares_test.cpp  Tests which device a scene is assigned to if there are several scenes and several devices.
 #include "host/simulation/device_shares.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_test.cpp  Choice of the CUDA device, and devices for which a build has code.
+// device_test.cpp  Tests the choice of the CUDA device, and for which devices a build has code.
 #include <gtest/gtest.h>
 
 #ifdef MACADAM_CUDA

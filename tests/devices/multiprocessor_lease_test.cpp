@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// multiprocessor_lease_test.cpp  The order in which steppers and harmonic solutions get the multiprocessors of a
+// multiprocessor_lease_test.cpp  Tests the order in which steppers and harmonic solutions get the multiprocessors of a
 // device. Events are plain addresses here, so no device is needed.
 #include "kernels/cuda/device/multiprocessor_lease.hpp"
 
@@ -24,7 +24,7 @@ class Specimen {
  public:
   explicit Specimen(Share share) : share_(std::move(share)) {}
   /// Requests the multiprocessors in a new thread. The result is the event on the device behind which the steps are
-  /// queued, null if none.
+  /// queued, or null if the steps wait for nothing.
   std::future<Event> takes() {
     return std::async(std::launch::async, [this] {
       Share all;
@@ -47,8 +47,8 @@ class Specimen {
 void nowhere(Event) {}
 bool waits(std::future<Event>& taken) { return taken.wait_for(50ms) == std::future_status::timeout; }
 
-/// While the first specimen still queues steps the second waits. Then it is queued behind the end of the first; only
-/// one specimen may queue behind another.
+/// While the first specimen still queues steps, the second waits. Afterwards the steps of the second are queued behind
+/// the end of those steps. Only one specimen at a time may be queued behind another.
 TEST(MultiprocessorLease, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
   Specimen a(Share{{0, 90}}), b(Share{{0, 90}}), c(Share{{0, 90}});
   EXPECT_EQ(a.takes().get(), nullptr);
@@ -119,7 +119,7 @@ TEST(MultiprocessorLease, SmallSpecimensAreSideBySide) {
   c.gives();
 }
 
-/// A specimen on several devices waits until all of them are free or can be queued behind.
+/// A specimen on several devices waits until each of these devices is free or lets it queue behind running steps.
 TEST(MultiprocessorLease, SpecimensOnSeveralDevicesWaitForAllOfThem) {
   Specimen a(Share{{3, 90}}), both(Share{{3, 90}, {4, 90}}), b(Share{{4, 90}});
   a.takes().get();
@@ -197,8 +197,8 @@ TEST(MultiprocessorLease, ASolutionHasItsDevicesToItself) {
   for (Specimen* s : {&small, &other, &elsewhere}) s->gives();
 }
 
-/// A specimen cannot release its multiprocessors while another is being queued behind its event, which might be
-/// destroyed.
+/// A specimen cannot release its multiprocessors while another specimen is being queued behind its event. Otherwise the
+/// event could be destroyed meanwhile.
 TEST(MultiprocessorLease, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
   Specimen a(Share{{9, 90}});
   a.takes().get();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ranks_program_test.cpp  The program started several times by mpirun: which rank writes, and that all ranks end
-// together. The device of each rank is a fake that computes on the processor and steps the whole specimen.
+// ranks_program_test.cpp  Tests the program when mpirun starts it several times: which rank writes files, and that all
+// ranks end together. The device of each rank is a fake that computes on the processor and steps the whole specimen.
 // device_ranks_test.cpp and tests/ranks/run test devices that divide a specimen.
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ class RanksProgram : public Program {
     fs::create_symlink(cuda, plugins_ / "libmacadam_cuda.so");
   }
 
-  /// The shell's command for two processes, for at most ten minutes, which only a fault takes.
+  /// Returns the shell command that runs two processes. It stops them after ten minutes, which only a fault takes.
   std::string command(const std::string& arguments) const {
     return fmt::format(
         "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMPI_ALLOW_RUN_AS_ROOT=1 "
@@ -79,7 +79,7 @@ TEST_F(RanksProgram, WritesOnce) {
 TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
   write_scene("density_scaling = 10.0\n");
   std::atomic<bool> ended = false;
-  std::thread told([&] {  // one rank of the two
+  std::thread told([&] {  // interrupts one of the two ranks
     const fs::path response = folder_ / "two" / "response.csv";
     constexpr std::uintmax_t some_samples = 2000;  // bytes
     std::error_code error;

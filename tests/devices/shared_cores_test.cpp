@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shared_cores_test.cpp  The number of threads that generate each of several specimens while others wait for cores.
+// shared_cores_test.cpp  Tests how many threads generate each of several specimens while other specimens wait for
+// cores.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -15,8 +16,9 @@ namespace {
 
 using SharedCores = FakeDevices;
 
-// One of eight cores serves the device, and the first two specimens get three each. When the cells of one are made, it
-// keeps two threads; the third specimen starts with the one that was released and the one that was left.
+// One of eight cores serves the device. The first two specimens get three each of the other seven. When the cells of
+// one of them are made, it keeps two threads. The third specimen starts with two threads: the released one and the
+// seventh.
 TEST_F(SharedCores, ASceneGivesHalfOnceItsCellsAreMade) {
   std::vector<SceneJob> jobs;
   for (std::uint64_t seed : {1, 2, 3, 4}) {

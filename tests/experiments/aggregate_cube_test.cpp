@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// aggregate_cube_test.cpp  Checks that a cube of spheres, all of one aggregate, has the modulus that
-// docs/aggregate-cube.md reports: a cluster is a deformable particle.
+// aggregate_cube_test.cpp  Checks that a cube of spheres that all belong to one aggregate has the modulus that
+// docs/aggregate-cube.md reports. Such a cluster is a deformable particle.
 #include "tests/support/aggregate_cube.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ TEST(AggregateCube, GaugeOfALatticeIsExact) {
   s.body.assign(s.centre.size(), 0);
   for (const double wall : {1.0, 3.0}) {
     const CubeModulus m = cube_modulus(s, {E, inner_alpha}, wall * E);
-    // a tenth of the height, half a side at each wall, has the modulus of the wall contacts
+    // The wall contacts span half a side at each wall, together a tenth of the height.
     EXPECT_NEAR(m.walls / E, 1 / (0.9 + 0.1 / wall), 1e-9);
     EXPECT_NEAR(m.gauge / E, 1, 1e-9);
     EXPECT_NEAR(m.poisson, 0, 1e-9);
@@ -38,10 +38,10 @@ struct Case {
   const InnerSpheres* spheres;
   CubeFilling filling;
   double gauge, walls;  ///< recorded means over twenty seeds [Pa]
-  double deviation;     ///< standard deviation among the seeds, the larger of the two [Pa]
+  double deviation;     ///< the larger of the standard deviations of gauge and walls among the seeds [Pa]
   unsigned seeds;  ///< number of seeds used here; a cube of coarse spheres costs a tenth of a fine one and scatters
                    ///< three times as much
-  double contact_modulus;  ///< contact modulus that gives the aggregate 60 GPa; that of [1] if it does so [Pa]
+  double contact_modulus;  ///< contact modulus with which the aggregate has 60 GPa; the one of [1] if it does so [Pa]
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.spheres->name << ", " << to_string(c.filling); }
@@ -129,7 +129,8 @@ TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
   fmt::print("{} spheres: {:.4f} of the modulus of uniform strain, which is {:.4f} of the inner modulus\n", cube.size(),
              found / affine, affine / inner.E);
   EXPECT_LT(found, affine);
-  // regression: recorded cubes relax by 4 to 10 %, most where layers of flat facets lie along the walls
+  // Regression: relaxation lowers the modulus of the recorded cubes by 4 to 10 %, most in cubes with layers of flat
+  // facets along the walls.
   EXPECT_GT(found, 0.85 * affine);
 }
 

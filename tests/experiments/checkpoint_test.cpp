@@ -36,7 +36,7 @@ class CheckpointedRun : public TestFolder {
   }
   fs::path file(const std::string& name) const { return out(name) / "checkpoint.h5"; }
 
-  /// Runs the scene as TestFolder::run_until(). If it was interrupted, the summary must say so.
+  /// Runs the scene as TestFolder::run_until() does. If the run was interrupted, checks that its summary says so.
   bool run_until(const Scene& scene, const std::string& name, int asked, bool resume) const {
     const bool interrupted = TestFolder::run_until(scene, name, asked, resume);
     if (interrupted) { EXPECT_EQ(summary(name).at("status"), "interrupted"); }
@@ -363,8 +363,8 @@ TEST_F(CheckpointedRun, ARunOfAnotherKindLeavesTheCheckpointAlone) {
   expect_same("out", "one");
 }
 
-// A finished run removes the checkpoint of the same scene, because the results to which it would lead are there. It
-// leaves the checkpoint of another scene.
+// A finished run removes the checkpoint of its own scene, because all results of the scene exist. It leaves the
+// checkpoint of another scene.
 TEST_F(CheckpointedRun, AFinishedRunRemovesItsOwnCheckpointOnly) {
   const Scene scene = this->scene(steady);
   ASSERT_TRUE(run_until(scene, "out", 20, false));
@@ -423,7 +423,7 @@ TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
     const pid_t child = fork();
     if (child == 0) {
       const std::string to = out(name).string(), scene = (folder_ / "scene.toml").string();
-      // the shell that runs the tests may ignore them
+      // The shell that runs the tests may ignore these signals, and its children would inherit that.
       for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_DFL);
       if (!freopen((folder_ / "stdout.txt").c_str(), "w", stdout)) _exit(99);
       if (!freopen((folder_ / "stderr.txt").c_str(), "w", stderr)) _exit(99);

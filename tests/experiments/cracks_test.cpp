@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cracks_test.cpp  Broken contact points in tables, summary.json, cracks.csv and fields, and runs that end when the
-// specimen breaks in two.
+// cracks_test.cpp  Tests how broken contact points are reported in tables, summary.json, cracks.csv and fields, and
+// runs that end when the specimen breaks in two.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -110,7 +110,8 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
 
   const nlohmann::json all = summary("out"), test = all.at("results").at(0), bonds = all.at("cracks").at("M-M");
   EXPECT_EQ(all.at("status"), "done");
-  // the rupture is a result and no warning; the first rows have the inertia of a load that begins at once
+  // The only warning concerns the inertia in the first rows, because the load begins at once. The rupture is a result,
+  // not a warning.
   ASSERT_EQ(all.at("warnings").size(), 1u) << all.at("warnings");
   EXPECT_HAS(all.at("warnings").at(0).get<std::string>(), "the error is above 1 %");
   EXPECT_EQ(test.at("strength_pa"), found.peak->stress_pa);
@@ -166,15 +167,16 @@ TEST_F(CracksOfATest, ACyclicTestThatBreaksTheSpecimenEndsTheFrequency) {
   const nlohmann::json all = summary("out");
   const auto events = rows_of(read(out("out") / "cracks.csv"), std::string("frequency_hz,") + crack_head);
   ASSERT_EQ(events.size(), 10u);
-  ASSERT_EQ(all.at("warnings").size(), 3u) << all.at("warnings");  // the first: the law has no complex stiffness
+  // the first says that the law has no complex stiffness
+  ASSERT_EQ(all.at("warnings").size(), 3u) << all.at("warnings");
   for (std::size_t i = 0; i < 2; ++i) {
     const experiments::SteppedFrequency& f = result.stepped().frequencies[i];
     ASSERT_TRUE(f.rupture);
     ASSERT_TRUE(f.cracks);
     EXPECT_EQ(f.cracks->points(), 5);
     EXPECT_EQ(f.cracks->breakable(), 15);
-    const double looks = 0.02;  // of a cycle, between two counts of broken points
-    const double wave = 0.04;   // of a cycle, in which the strain changes by more than the waves do
+    const double looks = 0.02;  // time between two counts of broken points [cycles]
+    const double wave = 0.04;   // time in which the strain changes by more than the waves change it [cycles]
     EXPECT_NEAR(f.rupture->time_s * f.frequency_hz, 0.6161 + 0.5 * looks, wave + 0.5 * looks);
     EXPECT_NEAR((f.rupture->time_s - f.rupture->time_before_s) * f.frequency_hz, looks, 1e-9);
     EXPECT_NEAR(f.steps * f.dt_s, f.rupture->time_s, 1e-3 * f.dt_s);
@@ -279,8 +281,8 @@ TEST_F(CracksOfATest, ALaterSceneWithoutBondsLeavesNoCracks) {
   EXPECT_EQ(read(out("out") / "monotonic.csv").find("broken_points"), std::string::npos);
 }
 
-// The counts of broken points of a specimen that breaks gradually are equal on all backends. Their stresses differ by
-// about 1e-13, so a point could break at another sample only if its stress came that close to the strength.
+// In a specimen that breaks gradually, all backends count the same numbers of broken points. The backends differ in
+// stress by about 1e-13, so a point could break at another sample only if its stress came that close to the strength.
 TEST_F(CracksOfATest, EveryBackendCountsTheSame) {
   Scene asked = bonded();
   const auto found = [&](Backend backend) {

@@ -87,9 +87,9 @@ INSTANTIATE_TEST_SUITE_P(All, LoadedLattice,
                                           testing::Values(Geometry::updated, Geometry::fixed)),
                          [](const auto& info) { return name_of_case(info); });
 
-// A bar of height H that is held below and driven above at ω has the modulus E·κ/tan κ = E·(1 − κ²/3 − κ⁴/45 …) with κ
-// = ω·H·√(ρ/E). So inertia changes E by the square of the frequency. A column of n spheres has its mass at n heights;
-// therefore Σ ((i − ½)/n)²/n = ⅓·(1 − 1/(4n²)) replaces ⅓.
+// A bar of height H that is held at the bottom and driven at the top at ω has the modulus
+// E·κ/tan κ = E·(1 − κ²/3 − κ⁴/45 …) with κ = ω·H·√(ρ/E). So the effect of inertia on E grows with the square of the
+// frequency. A column of n spheres has its mass at n heights; therefore Σ ((i − ½)/n)²/n = ⅓·(1 − 1/(4n²)) replaces ⅓.
 TEST_P(LoadedLattice, SlowLoadingReachesTheStaticModulus) {
   constexpr int n = 5;
   const TestScene scene = make_scene(lattice(3, 3, n, 0.5 * side), {}, same_law(laws::Elastic{E, 0}));
@@ -99,8 +99,8 @@ TEST_P(LoadedLattice, SlowLoadingReachesTheStaticModulus) {
     const double square = kappa * kappa, fourth = square * square / 45;
     const double expected = 1 - square / 3 * (1 - 0.25 / (n * n)) - fourth;
     const Stiffness found = modulus(scene, kappa / (2 * std::numbers::pi * height * std::sqrt(density / E)));
-    // The discrete heights of the masses change the fourth-order term by about 1/n² of it; a tenth is allowed. The
-    // start is smooth enough to keep ringing below 1e-8.
+    // The discrete heights of the masses change the fourth-order term by a fraction of about 1/n²; a tenth is allowed.
+    // The start is smooth enough to keep ringing below 1e-8.
     EXPECT_NEAR(found.e_star_pa / E, expected, fourth / 10 + 1e-8);
     EXPECT_NEAR(found.phase_deg, 0, 1e-5);
   }

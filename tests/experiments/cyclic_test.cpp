@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cyclic_test.cpp  Evaluation of cyclic tests: signals of known |E*| and φ are recovered. Then the loading that such
-// tests apply.
+// cyclic_test.cpp  Tests the evaluation of cyclic tests with signals of known |E*| and φ. Then tests the loading of
+// cyclic tests.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -88,8 +88,8 @@ TEST(EvaluateCyclic, OffsetAndTrendAreTakenOutExactly) {
   EXPECT_LT(found.fit_rms, 1e-12);
 }
 
-// White noise of standard deviation s on N samples changes a fitted amplitude by s·√(2/N) in each direction; five such
-// deviations are allowed. The residual is s, accurate to s/√(2N).
+// White noise of standard deviation s on N samples changes the fitted amplitudes of sine and cosine by s·√(2/N) each.
+// Five such deviations are allowed. The residual is s, accurate to s/√(2N).
 TEST(EvaluateCyclic, NoiseMovesTheFitByItsShare) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.05);
@@ -103,9 +103,9 @@ TEST(EvaluateCyclic, NoiseMovesTheFitByItsShare) {
   EXPECT_GT(std::abs(found.peaks.e_star_pa / modulus - 1), 5 * deviation);
 }
 
-// Ringing with r periods per cycle leaks into the fundamental over c cycles by at most (1/(r − 1) + 1/(r + 1))/(π·c) of
-// its amplitude; the bound is doubled for its effect on the trend. The evaluation by peaks contains almost the whole
-// ringing.
+// Ringing with r periods per cycle, in a fit over c cycles, changes the fundamental by at most
+// (1/(r − 1) + 1/(r + 1))/(π·c) of the amplitude of the ringing. The bound is doubled because ringing also changes the
+// fitted trend. The evaluation by peaks contains almost the whole ringing.
 TEST(EvaluateCyclic, RingingHardlyMovesTheFit) {
   constexpr double ringing = 0.02;
   const Signal signal;
@@ -119,9 +119,9 @@ TEST(EvaluateCyclic, RingingHardlyMovesTheFit) {
   }
 }
 
-// Error of a parabola through three samples h apart, if the crest is δ from the nearest: the angle is (h/2)·tan
-// δ/tan(h/2) in place of δ, and the height is δ²·(h² − δ²)/8 too low. For |δ| ≤ h/2 these errors are at most h³/62 and
-// 3h⁴/128. Strain and stress have one error each.
+// Expects peaks within the errors of a parabola through three samples that are h apart. If the crest is δ from the
+// nearest sample, the parabola gives the angle (h/2)·tan δ/tan(h/2) in place of δ, and a height that is
+// δ²·(h² − δ²)/8 too low. For |δ| ≤ h/2 these errors are at most h³/62 and 3h⁴/128. Strain and stress each have them.
 void expect_peaks_good_to_the_sampling(double phase, int per_cycle, int left_out = 0) {
   SCOPED_TRACE(testing::Message() << phase << "°, " << per_cycle << " samples a cycle");
   const double h = 2 * pi / per_cycle;

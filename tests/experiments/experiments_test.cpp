@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// experiments_test.cpp  Relaxation, creep, constant rates and sweeps run as a user does. Results are compared with
-// numerical inversions of full solutions and with the harmonic solver; then the files are checked.
+// experiments_test.cpp  Runs relaxation, creep, constant rates and sweeps as a user does. Compares the results with
+// numerical inversions of full solutions and with the harmonic solver, and checks the files.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -107,14 +107,16 @@ TEST_F(Experiments, CreepGrowsAndRecovers) {
   }
 }
 
-// If the stress is released in a step at 1 s, it is zero at exactly this time. With a ramp it is still there.
+// If the stress is released in a step at 1 s, it is zero at exactly this time. With a ramp it still has its full value
+// then, and decreases afterwards.
 TEST_F(Experiments, RampsTakeTheirTime) {
   const std::string slow = "kind = \"creep\"\nstress = 1e5\nramp = 0.5\nrelease = 1\ntimes = [0.25, 0.5, 1, 1.25, 2]\n";
   const auto rows = rows_of(run_t8(slow, "creep.csv"));
   const double expected[] = {0.5e5, 1e5, 1e5, 0.5e5, 0};
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(rows[i].at("stress_pa"), expected[i], 1e-10);
   const FullSolutions modulus(folder_ / "scene.toml");
-  const auto ramp = [&](double t) {  // transform 1/(s²·ramp), minus the same from the end of the ramp on
+  // strain per stress; the stress has the transform 1/(s²·ramp), minus the same function from the end of the ramp on
+  const auto ramp = [&](double t) {
     const auto grows = [&](double since) {
       return since <= 0 ? 0 : talbot([&](Complex s) { return 1.0 / (0.5 * s * s * modulus(s)); }, since, 18);
     };

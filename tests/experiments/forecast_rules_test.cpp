@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_rules_test.cpp  The forecast's cycles and steps against the plan of the run, and its list of files against
-// the files that runs of every kind and method write.
+// forecast_rules_test.cpp  Compares the cycles and steps of the forecast with the plan of the run, and the forecast's
+// list of files with the files that runs of every kind and method write.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +16,9 @@
 namespace macadam::test {
 namespace {
 
-/// Factor between forecast and plan where the time step is estimated: from the smallest sphere and the stiffest contact
-/// beside it. For t8, whose spheres the walls cut, the estimate is 2.07 times too small. A factor of 2
-/// would need the areas of the contacts, and a forecast makes no cells.
+/// Logarithm of the largest factor between forecast and plan if the time step is estimated. The estimate uses the
+/// smallest sphere and the stiffest contact beside it. For t8, whose spheres the walls cut, it is 2.07 times too small.
+/// A bound of 2 would need the areas of the contacts, which a forecast does not have because it makes no cells.
 const double estimated_step = std::log(2.5);
 
 class ForecastRules : public TestFolder {
@@ -71,7 +71,7 @@ TEST_F(ForecastRules, CyclesAndStepsOfACyclicTestAreThoseOfItsPlan) {
   }
 }
 
-/// The same for the steps of relaxation, creep and constant rates.
+/// Compares the forecast's number of steps with the plan in the same way for relaxation, creep and constant rates.
 TEST_F(ForecastRules, StepsOfALoadAreThoseOfItsPlan) {
   const std::string times = "times = [1e-2, 5e-2]\n", method = "method = \"explicit\"\n";
   for (const std::string& loading :

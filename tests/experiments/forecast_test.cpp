@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_test.cpp  Predictions of `macadam check` against what is then made or was measured.
+// forecast_test.cpp  Compares predictions of `macadam check` with measurements and with the specimen that is then made.
 #include "host/simulation/forecast.hpp"
 
 #include <chrono>
@@ -43,8 +43,8 @@ std::vector<std::map<std::string, std::string>> measured(const std::string& file
   return table_of(read(fs::path(MACADAM_EXAMPLES).parent_path() / "bench/results" / file));
 }
 
-// The predicted memory is within 10 % of the measured memory of runs; a request on a cluster may be this much too
-// small.
+// The predicted memory is within 10 % of the measured memory of runs. A memory request on a cluster that follows the
+// prediction may therefore be up to 10 % too small.
 TEST_F(Check, FindsTheMemoryThatRunsTook) {
   const auto rows = measured("forecast.csv");
   ASSERT_GT(rows.size(), 5u);
@@ -161,8 +161,8 @@ TEST_F(Check, AStepOfElasticContactsTakesLessTimeThanOneOfChains) {
   EXPECT_LT(of_a_step(), 0.8 * with_chains);
 }
 
-// A fitted law has many Kelvin units, and each has a state. The predicted memory for them is within a tenth of the
-// stepper's.
+// A fitted law has many Kelvin units, and each has a state. The predicted memory of these states is within 10 % of the
+// memory that a stepper takes for them.
 TEST_F(Check, KelvinUnitsTakeTheMemoryThatAStepperTakes) {
   Scene scene = example("demo");
   scene.solver.backend = Backend::cpu;
@@ -228,7 +228,8 @@ TEST_F(Check, SaysWhatARunWouldDoAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "summary.json"));
 }
 
-// Warns if the specimen's file is in metres and the box in millimetres, and the reverse if such a scene can run at all.
+// The check warns if the file of the specimen is in metres and the box in millimetres. It warns of the reverse case too
+// if such a scene can run at all.
 TEST_F(Check, WarnsOfABoxThatIsAlmostEmpty) {
   const fs::path scene = write_scene("method = \"harmonic\"\n");
   const std::string usual = read(scene), box = "box = [0.008, 0.008, 0.011]";

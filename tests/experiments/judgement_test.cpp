@@ -105,7 +105,7 @@ TEST(Judgement, WallsThatDisagreeWithoutInertiaAreSaid) {
   std::vector<std::string> warnings;
   judge(f, stiffest, warnings);
   EXPECT_HAS(warnings.at(0), "the reactions of bottom and top wall differ by 9.8e-04");
-  f.density_scaling = 1;  // with inertia the walls may differ
+  f.density_scaling = 1;  // with inertia the forces on the two walls may differ
   judge(f, stiffest, warnings);
   EXPECT_EQ(warnings.size(), 1u);
 }
@@ -130,8 +130,8 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
 }
 
-// A particle without contacts prevents the harmonic solution as a check. The heavy specimens here are far beyond their
-// resonance, so their results cannot be right.
+// If a particle has no contacts, no harmonic solution can check the run. The specimens here are so heavy that they are
+// driven far above their resonance, so their results cannot be right.
 TEST_F(WithoutReference, ARunWithAToleranceFailsWhereItsResultCannotBeRight) {
   const std::string loose = "[network]\ngap_max = -0.2\n";
   for (const char* scaling : {"1e6", "1e7", "1e9"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error_test.cpp  The error that a stepped relaxation, creep or constant rate states for each row, against the
-// true difference from the solution for the requested load.
+// load_error_test.cpp  Compares the error that a stepped test of relaxation, creep or constant rate states for each row
+// with the true difference from the solution for the requested load.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -128,8 +128,8 @@ TEST_F(LoadError, IsTheTrueDifference) {
 /// up the largest values of the waves and of the drag, because it does not know their phases.
 ///   - Constant rate: the drag makes up nearly all of the difference, and the estimate contains it. Measured: at most
 ///     1.36 of the truth.
-///   - A wave that is as large as the load itself gives about 1 (with a load at once up to 1.51), whatever is left of
-///   it.
+///   - A wave that is as large as the load itself: the estimate is about 1 (up to 1.51 if the load acts at once), even
+///     if only a small part of the wave is left.
 ///   - Later rows of a specimen whose waves die out quickly: the wave has gone, and so must the estimate. Measured: at
 ///     most 4.8 of the truth after a load at once, and 4.7e-4 after a ramp that hardly makes a wave.
 double largest_estimate(const Case& c, std::size_t row, double truth) {
@@ -140,9 +140,9 @@ double largest_estimate(const Case& c, std::size_t row, double truth) {
   return 1.55 + 0.15 * truth;
 }
 
-// With a law that is not linear, there is no solution without steps, and the error is estimated. Here bonds at the
-// walls could break but do not, so the true difference is known. The estimate must not be below it, and must not be
-// useless.
+// If a law is not linear, there is no solution without steps, so the error is estimated. Here bonds at the walls could
+// break but do not, so the true difference is known. The estimate must not be below the true difference, and not far
+// above it.
 TEST_F(LoadError, IsEstimatedWhereALawIsNotLinear) {
   const PronySeries e = exact_relaxation(scene(cases().front()));
   const std::string unbroken = "law = \"brittle_bond\"\nE = 1e10\nalpha = 0.1\ntensile_strength = 1e30\n";

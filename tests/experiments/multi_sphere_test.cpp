@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// multi_sphere_test.cpp  Specimens of clusters in limiting cases: as single spheres, as mastic, as rigid clusters; and
-// equilibrium in the equations of the reference implementation.
+// multi_sphere_test.cpp  Tests specimens of clusters in limiting cases, in which they equal single spheres, mastic or
+// rigid clusters. Checks their equilibrium with the equations of the reference implementation.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -41,9 +41,9 @@ Specimen all_mastic(Specimen specimen) {
   return specimen;
 }
 
-// The number of its aggregate only chooses the law of a contact. With the law A–A for inner contacts, clusters equal
-// single spheres. Sums may be in another order: about a hundred rounded terms per row times the condition of 1e5 that
-// harmonic_test allows for.
+// The number of a sphere's aggregate only decides which law a contact has. With the law A–A for inner contacts,
+// clusters therefore equal single spheres. Only the order of sums may differ. The tolerance is the rounding of about a
+// hundred terms per row times the condition number of 1e5 that harmonic_test allows for.
 TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres) {
   const Specimen clusters = generate_specimen(cluster_recipe(test_seed(), {0.012, 0.012, 0.016})).specimen;
   for (Laws laws : {am1_laws(), am2_laws()}) {
@@ -54,7 +54,7 @@ TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres)
     EXPECT_EQ(ss.network.count[aa], ms.network.count[aa] + ms.network.count[inner]);
     const Stiffness single = solve(ss, 10).top;
     EXPECT_LT(difference(solve(ms, 10).top, single), 1e-9);
-    laws[inner] = laws::Elastic{1.125e11 / 4, 0.05};  // the check: another inner law changes the modulus
+    laws[inner] = laws::Elastic{1.125e11 / 4, 0.05};  // checks that another inner law changes the modulus
     EXPECT_GT(difference(solve(make_scene(clusters, {}, laws), 10).top, single), 0.02);
   }
 }
@@ -172,7 +172,7 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
     TestScene stiff = scene;
     stiff.laws[inner] = laws::Elastic{s * 1.125e11, 0.05};
     const double yielded = s * (rigid - solve(stiff, 1).top.e_star_pa) / yields;
-    // 1e-11 of the modulus, of which `yields / s` is a small part
+    // The modulus is accurate to about 1e-11. `yields / s` is only a small part of it, so its relative error is larger.
     const double rounding = 1e-10 * s * rigid / yields;
     EXPECT_LT(yielded, 1 + rounding) << s;
     EXPECT_GT(yielded, 0) << s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// nonlinear_scene_test.cpp  Scenes with a law that is not linear: they can be stepped, and every use of the frequency
-// domain refuses them with the name of the law.
+// nonlinear_scene_test.cpp  Tests scenes with a law that is not linear: they can be stepped, and every use of the
+// frequency domain refuses them with the name of the law.
 #include "tests/support/program.hpp"
 
 namespace macadam::test {
@@ -66,8 +66,8 @@ TEST_F(NonlinearScene, WhatRestsOnLinearityIsRefused) {
   EXPECT_HAS(refusal(), "quadrature in [network]: found \"exact\" with law brittle_bond of M-M, expected \"lumped\"");
 }
 
-// Such a scene is stepped by contact points, from rest, even if the scene asks for neither, and a warning explains the
-// meaning of |E*|. Bonds that do not break equal an elastic law.
+// The run steps such a scene by contact points and from rest, even if the scene does not ask for this, and a warning
+// explains the meaning of |E*|. Bonds that do not break give the same result as an elastic law.
 TEST_F(NonlinearScene, IsSteppedAndSaysWhatTheResultIs) {
   const auto solved = [&](const std::string& strength, const std::string& out, const std::string& loading) {
     scene(cyclic + loading, quick, strength);

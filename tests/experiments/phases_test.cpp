@@ -54,7 +54,7 @@ TEST(Phases, EndWithWhatIsThrown) {
   EXPECT_GE(all.stepping, 0.02);
 }
 
-/// Largest part of the wall time of a run that no phase has [s].
+/// Largest wall time of a run that may belong to no phase [s].
 constexpr double left_out = 0.05;
 
 /// Runs a scene of some tenths of a second, and checks the phases that its summary.json must have. Returns how far the
@@ -87,8 +87,9 @@ double missing_time(SolverMethod method, const std::vector<std::string>& expecte
   return 0.9 * wall - sum;
 }
 
-/// Only the last writing of summary.json is in no phase. Another program may interrupt just that, for however long; it
-/// does not do so in every one of many runs, while a part of the work without a phase is missing in all of them.
+/// Only the last writing of summary.json belongs to no phase. Another program may delay this writing for any time, but
+/// not in every one of many runs. If another part of the work belonged to no phase, its time would be missing in all
+/// runs.
 void expect_whole(SolverMethod method, const std::vector<std::string>& expected) {
   constexpr int runs = 20;
   double least = std::numeric_limits<double>::infinity();

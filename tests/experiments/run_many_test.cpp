@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_many_test.cpp  Several scenes in one process: each has the results of a run of its own.
+// run_many_test.cpp  Several scenes that run in one process have the same results as separate runs.
 #include "macadam/run_many.hpp"
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_load_test.cpp  Stepped relaxation, creep and constant rates: compared with the solution without steps,
-// interrupted and resumed, and refused. The work of the load must equal stored, kinetic and damped energy.
+// stepped_load_test.cpp  Tests stepped relaxation, creep and constant rates: they are compared with the solution
+// without steps, interrupted and resumed, and refused. The work of the load must equal stored, kinetic and damped
+// energy.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -162,7 +163,7 @@ TEST_F(SteppedLoad, ARunInPiecesGivesTheBitsOfOne) {
     EXPECT_TRUE(read(entry.path()) == read(other)) << other;
     frames += entry.path().extension() == ".vtp";
   }
-  // and one frame at the start
+  // There is one frame at the start and one at every third point.
   EXPECT_EQ(frames, 1 + static_cast<int>(one.at("results").at(0).at("points").size()) / 3);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t8_test.cpp  Complete runs on a specimen of 175 particles against |E*| and φ of an independent program without
+// t8_test.cpp  Compares complete runs on a specimen of 175 particles with |E*| and φ of an independent program without
 // inertia. The remaining difference comes from the scaled mass, the time step and the start.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -98,7 +98,8 @@ TEST_F(T8, TwentyHertzInBothForms) {
 
 TEST_F(T8, TwoHertzCondensed) { expect_accurate(run_t8(2, 1000, ContactForm::condensed), at_2_hz); }
 
-// The inertia, scaling × f², is the same as at 20 Hz with 100. It takes a third of the steps, with the same tolerances.
+// Inertia is proportional to scaling × f², so it is the same here as at 20 Hz with a scaling of 100, and the tolerances
+// are the same too. The run takes a third of the steps.
 TEST_F(T8, TwoHertzPoints) { expect_accurate(run_t8(2, 10'000, ContactForm::points), at_2_hz); }
 
 // The effect of inertia is proportional to the scaling: at 20 Hz a scaling of 1000 is visible in |E*|. The files are

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tolerance_test.cpp  The key `tolerance` in [solver]: the error stays below it and agrees with the predicted error.
+// tolerance_test.cpp  Tests the key `tolerance` in [solver]: the error of a run stays below it and agrees with the
+// predicted error.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

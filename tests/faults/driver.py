@@ -30,7 +30,8 @@ def harmonic(setting):
 
 
 def faults(setting, name, arguments, *solver):
-    """Makes single calls of the driver fail, kernels fail, and all calls fail from a launch on; some of each kind.
+    """Makes single calls of the driver fail, makes kernels fail, and makes all calls from a launch on fail. Tests a
+    sample of each kind.
 
     `solver` are words that the program must print about the solver, so that the intended one is tested."""
     library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")

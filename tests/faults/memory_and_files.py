@@ -103,7 +103,7 @@ def memory(setting):
 
 
 def starting(setting, ways, count):
-    """Makes allocations fail that come before any command: those of the command line, the same for all commands."""
+    """Makes allocations fail that come before any command. The command line makes them, equally for all commands."""
     for at in range(1, count + 1) if setting.every else setting.sample(ways, 40):
         outcome = setting.run(["--version"], {"LD_PRELOAD": setting.library, "FAULT_KIND": "memory", "FAULT_AT": str(at),
                                            "FAULT_TRACE": str(setting.folder / "trace.txt")})

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// field_files_test.cpp  Field files in HDF5 and XML: complete after each frame, also after a kill or on a full disk.
+// field_files_test.cpp  Tests field files in HDF5 and XML: they are complete after each frame, also after a kill or on
+// a full disk.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mman.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fields_test.cpp  Arrays of fields against sums and balances that they must satisfy.
+// fields_test.cpp  Checks that the arrays of fields satisfy the sums and balances that theory requires.
 #include "macadam/fields.hpp"
 
 #include <gtest/gtest.h>
@@ -56,10 +56,11 @@ TEST(FieldMeshes, EveryCellIsClosedAndHasItsVolume) {
     }
     volume[cell] += dot(first, twice) / 6;  // volume by the divergence theorem; facets point outwards
     EXPECT_TRUE((area.emplace(std::pair{particle[p], neighbour[p]}, 0.5 * norm(twice)).second));
-    // Corners are in single precision: 6e-8 of 8 mm, for facets of 2 mm.
+    // Corners are in single precision, so they are wrong by up to 6e-8 of 8 mm. For facets with sides of about 2 mm,
+    // the area is then wrong by less than 1e-6 of 4 mm².
     EXPECT_NEAR(floats(mesh.arrays, "area")[p], 0.5 * norm(twice), 1e-6 * 4e-6);
   }
-  // Rounding of 8 mm · 6e-8 over surfaces of about 2e-5 m².
+  // Corners are wrong by up to 6e-8 of 8 mm. Over a surface of about 2e-5 m² this changes the volume by about 1e-14 m³.
   for (std::size_t i = 0; i < s.cells(); ++i) EXPECT_NEAR(volume[i], t.cell_volume[i], 2e-14) << i;
   for (const auto& [pair, one] : area) {
     if (pair.second >= 0) { EXPECT_NEAR(one, area.at({pair.second, pair.first}), 1e-12); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoint_file.cpp  Fuzz target: a checkpoint as raw bytes, or a valid checksum around an HDF5 file that is made from a
+// checkpoint.cpp  Fuzz target: a checkpoint as raw bytes, or a valid checksum around an HDF5 file that is made from a
 // recipe.
 #include "host/files/checkpoint_file.hpp"
 

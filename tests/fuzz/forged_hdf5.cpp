@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forged_hdf5.cpp  Each byte of the recipe makes one decision; after its end all decisions are 0.
+// forged_hdf5.cpp  Makes an HDF5 file from a recipe. Each byte of the recipe makes one decision; after the end of the
+// recipe all decisions are 0.
 #include "tests/fuzz/forged_hdf5.hpp"
 
 #include <H5Cpp.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gzip.cpp  Compression by zlib in the gzip format.
+// gzip.cpp  Compresses and unpacks texts with zlib, in the gzip format.
 #include "tests/fuzz/gzip.hpp"
 
 #include <zlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file gzip.hpp  Texts compressed with gzip, for mutators.
+/// \file gzip.hpp  Compresses texts with gzip and unpacks them, for mutators.
 #pragma once
 
 #include <string>

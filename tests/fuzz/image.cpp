@@ -8,7 +8,8 @@
 namespace macadam::fuzz {
 namespace {
 
-// limit up to which voxels are read, because a header may announce 4000 bytes per byte of the file
+// Largest number of voxels that is read. A header may announce up to 4000 bytes of voxels per byte of the file, so
+// without this limit a small file could make the test slow.
 constexpr std::int64_t most_voxels = 100'000;
 
 MemoryFile& file() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file itk_with_clang.hpp  To be included before everything else in sources that include ITK. Debian's ITK headers
-/// check the compiler and know only GCC, so this file makes Clang look like GCC 12 while they check. Clang accepts what
-/// they do then.
+/// check the compiler and know only GCC, so this file makes Clang look like GCC 12 during the check. Clang accepts the
+/// code that the headers select for GCC 12.
 #pragma once
 
 #pragma push_macro("__clang__")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mutate.cpp  Mutation of lines and cells, with numbers that are difficult for readers.
+// mutate.cpp  Mutates lines and cells of texts, with numbers that are difficult for readers.
 #include "tests/fuzz/mutate.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// target.cpp  Runs one input and checks the rules for every reader: only errors of Macadam, whose messages name the
-// file; at most one second per kilobyte, but at least one second; memory of at most 64 MB plus a hundred times the
-// input. A violation aborts the program, which libFuzzer reports as a finding.
+// target.cpp  Runs one input and checks the rules for every reader. It may throw only errors of Macadam, whose messages
+// name the file. It may take at most one second per kilobyte, but at least one second is allowed. It may use at most 64
+// MB plus a hundred times the size of the input. A violation aborts the program, which libFuzzer reports as a finding.
 #include "tests/fuzz/target.hpp"
 
 #include <cxxabi.h>

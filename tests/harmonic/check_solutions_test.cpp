@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// check_solutions_test.cpp  The check of harmonic solutions, which is vectorized over tasks, against a plain loop over
-// contacts in complex numbers.
+// check_solutions_test.cpp  Compares the check of harmonic solutions, which is vectorized over tasks, with a plain loop
+// over contacts in complex numbers.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -56,7 +56,7 @@ SolutionCheck one_by_one(const TestScene& scene, const LinearTask& task) {
   return out;
 }
 
-// Counts of tasks: one alone, several that do not fill a block of four, and more than one block.
+// The numbers of tasks are one, several that do not fill a block of four, and more than one block.
 TEST(CheckSolutions, FindsWhatContactsSayOneByOne) {
   const TestScene scene = make_scene(random_specimen(test_seed(), 8, 8, 12));
   for (const int count : {1, 3, 4, 6}) {

@@ -66,8 +66,8 @@ class FreeMotions : public BackendTest<std::tuple<Backend>> {
     EXPECT_LT(r.held_force, 1e-10);
     return r.top.e_star_pa;
   }
-  /// Expects the modulus from both solvers. The tolerance is the rounding of about ten contacts times the condition, at
-  /// most 1e4.
+  /// Expects that both solvers find this modulus. The tolerance is the rounding of about ten contacts times the
+  /// condition number of the matrix, which is at most 1e4.
   void expect_by_both(const TestScene& scene, double expected) const {
     for (const LinearMethod linear : {LinearMethod::direct, LinearMethod::iterative})
       EXPECT_NEAR(modulus(scene, linear) / expected, 1, 1e-11) << to_string(linear);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic_test.cpp  The harmonic solver against known results, a dense solution, and its own invariants.
+// harmonic_test.cpp  Compares the harmonic solver with known results and with a dense solution, and checks its
+// invariants.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -57,7 +58,7 @@ TEST(Harmonic, InertiaOfScaledMass) {
   EXPECT_NEAR(solve(scene, 20, 100).top.e_star_pa / still - 1, at_1000 / 10, 0.01 * std::abs(at_1000));
   const HarmonicResult scaled = solve(scene, 20, 1000);
   EXPECT_GT(scaled.bottom.e_star_pa, scaled.top.e_star_pa);  // the inertia of the specimen acts between the walls
-  // Without care for free motions, inertia tripled the number of iterations.
+  // If the solver did not treat free motions separately, inertia would triple the number of iterations.
   EXPECT_LE(solve(scene, 20, 1).iterations, solve(scene, 20).iterations + 2);
 }
 
@@ -152,7 +153,7 @@ TEST(Harmonic, ElasticSceneIsTheStaticModulus) {
 }
 
 // Walls in a laboratory are rigid. If the wall's reaction were computed as stiffness times opening, only four digits
-// would remain at a factor of 1e12. The effect of a finite wall stiffness decreases as its inverse.
+// would be right at a factor of 1e12. The effect of a finite stiffness of the walls is proportional to its inverse.
 TEST(Harmonic, WallsFarStifferThanTheSpecimen) {
   TestScene scene = t8();
   const auto with = [&](double factor) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// invert_test.cpp  The parallel inverse of a dense matrix, for sizes below, at and above the block size.
+// invert_test.cpp  Tests the parallel inverse of a dense matrix, for sizes below, at and above the block size.
 #include "host/harmonic/iterative/invert.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(Invert, TimesTheMatrixIsOne) {
     Eigen::MatrixXd inverse = matrix;
     inverse.triangularView<Eigen::StrictlyUpper>().setConstant(std::numeric_limits<double>::quiet_NaN());
     ASSERT_TRUE(harmonic::invert_in_parallel(inverse)) << size;
-    // condition times rounding times terms: some 10·200 · 1.1e-16 · 200
+    // Bound: condition number × rounding × number of terms, about 10·200 × 1.1e-16 × 200.
     EXPECT_LT((inverse - inverse.transpose()).cwiseAbs().maxCoeff(), 5e-11) << size;
     EXPECT_LT((matrix * inverse - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff(), 5e-11) << size;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// iterative_test.cpp  The iterative solver of the frequency domain against the direct one, for every kind of network,
-// with several frequencies at once.
+// iterative_test.cpp  Compares the iterative solver of the frequency domain with the direct one, for every kind of
+// network, with several frequencies at once.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -42,8 +42,8 @@ class Iterative : public BackendTest<std::tuple<Backend>> {
 };
 INSTANTIATE_TEST_SUITE_P(Backends, Iterative, testing::Combine(all_backends()), name_of_case<Backend>);
 
-/// The error of E* is the square of the residual, 1e-11, times a condition of about 1e5, so the tolerance is the
-/// rounding of the sums.
+/// Expects the same E* from both solvers. The error of E* is the square of the residual of 1e-11 times a condition
+/// number of about 1e5. This is far below rounding, so the tolerance is the rounding of the sums.
 void Iterative::expect_same(const TestScene& scene, const std::vector<HarmonicLoad>& loads, const std::string& what,
                             double tolerance) const {
   const auto found = solve(scene, LinearMethod::iterative, loads), expected = solve(scene, LinearMethod::direct, loads);
@@ -89,8 +89,8 @@ TEST_P(Iterative, AgreesWithFactorsOnClusters) {
   }
 }
 
-// With almost no shear stiffness, facets still resist bending, but this is much softer. The condition increases, and so
-// does the error.
+// With almost no shear stiffness, facets still resist bending, but the bending stiffness is much smaller. The condition
+// number of the matrix increases, and so does the error.
 TEST_P(Iterative, AgreesWithFactorsAlmostWithoutShear) {
   Laws laws = am1_laws();
   for (auto& law : laws) std::visit([](auto& l) { l.alpha = 1e-3; }, *law);

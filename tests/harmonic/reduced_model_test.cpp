@@ -67,8 +67,8 @@ TEST_P(Reduced, WhereThereIsASolutionItIsThat) {
   EXPECT_EQ(model.motions(), 4) << "nothing new";
 }
 
-/// A Galerkin method has an error in the order of the square of the error of the known motions. This is of first order
-/// in the change of the laws, so the error of E* is of second order.
+/// The error of a Galerkin method is proportional to the square of the error of the known motions. The known motions
+/// are wrong to first order in the change of the laws, so E* is wrong to second order.
 TEST_P(Reduced, ErrorGoesWithTheSquareOfTheDistance) {
   ReducedModel model(specimen, network, inertia);
   model.add({solution(start, 2).motion});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sensitivity_test.cpp  Derivatives computed from one harmonic solution, against central differences of two solutions.
+// sensitivity_test.cpp  Compares derivatives computed from one harmonic solution with central differences of two
+// solutions.
 #include "macadam/sensitivity.hpp"
 
 #include <gtest/gtest.h>
@@ -46,8 +47,9 @@ Laws changed(Laws laws, const std::string& parameter, double factor) {
   return laws;
 }
 
-/// A step of 1e-4 in the logarithm has an error of (1e-4)²/6 of the third derivative, and the rounding of the
-/// solutions, 1e-12, divided by the step. A tolerance of 1e-6 of |E*| and of a radian covers both.
+/// Compares the derivatives with central differences. With a step of 1e-4 in the logarithm these have two errors:
+/// (1e-4)²/6 of the third derivative, and the rounding of the solutions, 1e-12, divided by the step. A tolerance of
+/// 1e-6 of |E*| and of a radian covers both.
 void expect_derivatives(const TestScene& scene, double density_scaling) {
   constexpr double step = 1e-4, tolerance = 1e-6;
   const HarmonicResult here = solve(scene, scene.laws, density_scaling);
@@ -129,7 +131,7 @@ TEST(Scaling, IsAsLargeAsAChangeOfTheModulusAllows) {
       EXPECT_GT(scaling, 1);
       const HarmonicResult scaled = harmonic.solve(frequency, scaling, viscous);
       const double reached = largest(difference(scaled.top, known.top));
-      // 1e-4: accuracy of a change of 1e-6
+      // A change of the modulus by 1e-6 is only accurate to 1e-4.
       EXPECT_NEAR(reached / wanted, 1, 3 * wanted + 1e-4) << wanted << " " << viscous;
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spectrum_test.cpp  Relaxation and creep spectra: closed forms, Laplace inversions of full solutions, and conversions
-// between both.
+// spectrum_test.cpp  Compares relaxation and creep spectra with closed forms and with Laplace inversions of full
+// solutions, and tests conversions between both spectra.
 #include "macadam/spectrum.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(Series, OfALawIsTheLaw) {
   for (const auto& law : {am1(PairType::mm), solid, maxwell, twins}) {
     const PronySeries series = prony_series(law);
     for (const Complex s : {Complex(1e-6, 0), Complex(0, 1e-3), Complex(3, 40), Complex(0, 1e5), Complex(-1e-3, 1)}) {
-      // few units, but roots whose last digits are rounding
+      // There are few units, but they are computed from roots, whose last digits are rounding errors.
       EXPECT_LT(std::abs(series.stiffness(s) / law.stiffness(s) - 1.0), 1e-12) << s;
     }
     EXPECT_EQ(series.long_term == 0, std::isfinite(law.C_m));
@@ -63,7 +63,8 @@ TEST(Spectrum, OfOneContactIsTheClosedForm) {
   std::get<macadam::laws::Elastic>(*laws[static_cast<std::size_t>(PairType::mw)]).alpha = 0.1;
   const TestScene scene = make_scene(specimen, {}, laws);
   const Spectrum found = spectrum_of(scene.specimen, scene.network, scene.laws);
-  // Three contacts in series, each with area over distance a/d; those at the walls have half the distance.
+  // Three contacts are in series, each with the ratio a/d of area and distance. Contacts at the walls have half the
+  // distance.
   double compliance_at_walls = 0, between = 0;
   for (const Contact& c : scene.network.contacts) (c.b < 0 ? compliance_at_walls : between) += c.distance / c.moments.a;
   const auto& wall = *scene.laws[static_cast<std::size_t>(PairType::mw)];
@@ -149,7 +150,8 @@ TEST(Series, RangesAreEvenInTheLogarithm) {
     EXPECT_NEAR(std::log10(widest[k]), static_cast<double>(k) - 300, 1e-9);
 }
 
-/// The spectrum of a network against Laplace inversions of its full solutions, which share only the solver with it.
+/// Compares the spectrum of a network with numerical Laplace inversions of solutions of the whole network. The two
+/// computations have only the solver in common.
 TEST(Spectrum, OfANetworkIsTheInversionOfItsSolutions) {
   for (const TestScene& scene : {make_scene(random_specimen(3)), make_scene(random_specimen(4), {}, am2_laws())}) {
     SpectrumOptions options;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_spectrum_test.cpp  Relaxation, creep and recovery stepped in time with driven walls, against the spectrum,
-// which is computed without steps.
+// stepped_spectrum_test.cpp  Steps relaxation, creep and recovery in time with driven walls, and compares them with the
+// spectrum, which is computed without steps.
 #include <gtest/gtest.h>
 
 #include "tests/support/long_tests.hpp"
@@ -52,7 +52,7 @@ class SteppedSpectrum : public testing::Test {
   }
 };
 
-// A ramp of 0.2 ms at true mass, and a slow one with scaled inertia.
+// The first case is a ramp of 0.2 ms at true mass, the second a slow ramp with scaled inertia.
 TEST_F(SteppedSpectrum, IsTheRelaxation) {
   EXPECT_LT(spectrum_.error, 1e-5);
   expect_relaxation(1, 2e4, 2e-4, 1e-3, long_tests ? 5e-3 : 2e-3);
@@ -77,7 +77,7 @@ TEST_F(SteppedSpectrum, IsTheCreepAndTheRecovery) {
                   (now.time > held_until ? spectrum_.creep.after_ramp(now.time - held_until, rise) : 0));
     last = now.top_displacement() / height_;
     largest = std::max(largest, expected);
-    // the waves of a ramp of 20 ms, about 0.3 ms long, decay within twice its length
+    // A ramp of 20 ms causes waves of about 0.3 ms. They decay within twice the length of the ramp.
     const bool rings = now.time < 3 * rise || (now.time > held_until && now.time < held_until + 3 * rise);
     EXPECT_NEAR(last, expected, (rings ? 1e-2 : 1e-4) * largest) << now.time << " s";
   });

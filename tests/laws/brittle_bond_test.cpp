@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// brittle_bond_test.cpp  Bonds that break for good: a single contact against closed forms, the energy that breaking
-// costs, and specimens against the reference implementation.
+// brittle_bond_test.cpp  Tests bonds that break permanently: compares a single contact with closed forms, checks the
+// energy that breaking costs, and compares specimens with the reference implementation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,7 +129,8 @@ TEST_P(BrittleBond, BreakingCostsTheEnergyThatItHeld) {
       u = u_next, force = force_next;
     }
     const double energy = 0.5 * stiffness * opens * opens;
-    // Breaking may fall anywhere within a step, so the work is uncertain by half a step of the largest force.
+    // The bond may break anywhere within a step, so the work is uncertain by half of the work of the last step before
+    // it breaks.
     EXPECT_NEAR(work, reached > 1 ? energy : 0, reached > 1 ? 2 * reached / steps * energy : 1e-4 * energy) << reached;
   }
 }

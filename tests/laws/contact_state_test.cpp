@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_state_test.cpp  The contact state that a stepper reports: forces add up to the forces on particles and
+// contact_state_test.cpp  Checks the contact state that a stepper reports: forces add up to the forces on particles and
 // walls, deformations follow from the displacements, and the chains match the laws.
 #include <gtest/gtest.h>
 
@@ -36,12 +36,13 @@ void expect_sums(const TestScene& scene, const Stepper& stepper, double toleranc
     force[b] -= contacts.force[i];
     moment[b] += c.arm_b * cross(c.n, contacts.force[i]) - contacts.moment[i];
   }
-  double size = 0;  // the largest force of a single contact, because the sums nearly cancel
+  double size = 0;  // scale of the tolerance: the largest force of a single contact, because the sums nearly cancel
   for (const Vec3d& f : contacts.force) size = std::max(size, norm(f));
   ASSERT_GT(size, 0);
   for (std::size_t i = 0; i < force.size(); ++i) {
     ASSERT_LT(norm(force[i] - particles.force[i]), tolerance * size) << i;
-    ASSERT_LT(norm(moment[i] - particles.moment[i]), tolerance * size * 1e-3) << i;  // lever arms of about a millimetre
+    // lever arms are about a millimetre
+    ASSERT_LT(norm(moment[i] - particles.moment[i]), tolerance * size * 1e-3) << i;
   }
   for (std::size_t w = 0; w < wall.size(); ++w) EXPECT_LT(norm(wall[w] - walls.wall_force[w]), 10 * tolerance * size);
 }
@@ -51,8 +52,8 @@ TEST_P(ContactStates, ForcesAddUpToThoseOfTheBodies) {
   for (StepperOptions options : {shaking_options(scene), slow_options(scene)}) {
     const auto stepper = make(scene, options);
     stepper->advance(137);  // a step within a block of steps, for backends that have blocks
-    // With fixed geometry the stepper keeps the initial lever arms; strains of 1e-4 would change them by 1e-4. The
-    // sums here use the current ones.
+    // With fixed geometry the stepper keeps the initial lever arms, but the sums here use the current ones. At strains
+    // of 1e-4 they differ by 1e-4.
     const bool fixed = options.geometry == Geometry::fixed;
     const double rounding = options.precision == Precision::double_ ? 1e-12 : 2e-5;
     expect_sums(scene, *stepper, std::max(rounding, fixed ? 0.0 : 1e-3));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// drive_test.cpp  Drives against their formulas. Driven walls, platens, fixed particles and body forces on every
-// backend, against the reference, conservation of momentum and static solutions.
+// drive_test.cpp  Compares drives with their formulas. Tests driven walls, platens, fixed particles and body forces on
+// every backend: against the reference, conservation of momentum and static solutions.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -106,7 +106,8 @@ class DrivenWalls : public BackendTest<StepperCase> {
     const double tolerance = rounding * static_cast<double>(std::max<std::int64_t>(steps, 100));
     const ParticleState expected = reference->particles(), found = stepper->particles();
     EXPECT_LT(relative_difference(found.displacement, expected.displacement), tolerance);
-    // Rotations are differences of slips, and a drive tangential to the facets leaves little of them.
+    // Rotations are differences of slips. Under a drive tangential to the facets they are small, so their relative
+    // error is larger.
     EXPECT_LT(relative_difference(found.rotation, expected.rotation), 10 * tolerance);
     EXPECT_LT(relative_difference(found.velocity, expected.velocity), tolerance);
     EXPECT_LT(relative_difference(found.force, expected.force), tolerance);
@@ -165,8 +166,8 @@ TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
   compare(of, options, 150);
 }
 
-// The usual load in laboratories: pulses with rests between them. The motion is so slow that a step rotates normals by
-// at most about 5e-7; stepper and reference differ by the square of this angle.
+// Laboratories usually apply pulses with rests between them. The motion is so slow that a step rotates normals by at
+// most about 5e-7; stepper and reference differ by the square of this angle.
 TEST_P(DrivenWalls, UnderHaversinePulses) {
   const TestScene of = scene(test_seed() + 4);
   StepperOptions options = shaking_options(of);
@@ -180,7 +181,7 @@ TEST_P(DrivenWalls, UnderHaversinePulses) {
   compare(of, options, 120);
 }
 
-// A wall with more contacts than one thread on a device sums up.
+// The wall has more contacts than one thread on a device sums up.
 TEST_P(DrivenWalls, APlatenOnManyParticles) {
   const TestScene of = make_scene(random_specimen(test_seed() + 5, 9, 9, 2));
   std::int64_t on_top = 0;
@@ -193,7 +194,7 @@ TEST_P(DrivenWalls, APlatenOnManyParticles) {
   compare(of, options, 100);
 }
 
-// More steps than a stepper tabulates for the walls at once.
+// The run has more steps than a stepper tabulates for the walls at once.
 TEST_P(DrivenWalls, OverMoreStepsThanOnePieceOfTheTable) {
   const std::int64_t piece = kernels::WallTable<double>::most_rows;
   const TestScene of = make_scene(random_specimen(test_seed() + 6, 2, 2, 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// law_contract_test.cpp  The members that a law must have to be stepped, and to be used in the frequency domain.
+// law_contract_test.cpp  Tests which members a law must have to be stepped, and to be used in the frequency domain.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file laws_test.cpp  The contact laws against closed forms, and against their implementation in the reference.
+/// \file laws_test.cpp  Compares the contact laws with closed forms and with the laws of the reference implementation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ class Element {
   double f_;
 };
 
-/// The same with the chain of the reference implementation, for an area over distance of 1.
+/// One displacement component with the chain of the reference implementation, for an area over distance of 1.
 class ReferenceElement {
  public:
   ReferenceElement(const Law& law, double dt, double f = 0) : law_(reference::make_reference_law(law, "M-M")), dt_(dt) {
@@ -128,7 +128,8 @@ TEST_P(ComplexStiffness, IsExactAtTheWarpedFrequency) {
   }
 }
 
-// The error is of second order: half the step gives a quarter of the error. The next order is (ωΔt)² = 0.01 of it.
+// The error is of second order, so half the step gives a quarter of the error. The next term of the error is
+// (ωΔt)² = 0.01 times the first.
 TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
   const auto& law = GetParam().law;
   const double settling = GetParam().settling;
@@ -153,8 +154,8 @@ TEST_P(ComplexStiffness, TendsToTheInstantaneousStiffness) {
   EXPECT_LT(std::abs(law.stiffness(std::complex<double>(0, 1e12)) - law.instantaneous()) / law.instantaneous(), 1e-6);
 }
 
-// Library and reference implementation follow the same random motion. Rounding is a random walk over 1e4 steps:
-// 100·1.1e-16 of forces up to E_m·1.
+// Library and reference implementation follow the same random motion. Rounding errors grow as a random walk over 1e4
+// steps to 100·1.1e-16 of the largest force, which is E_m times a displacement of 1.
 TEST_P(ComplexStiffness, LibraryAndReferenceAgree) {
   const auto& law = GetParam().law;
   for (double dt : {1e-7, 1e-3, 1.0}) {
@@ -177,8 +178,8 @@ double creep(const GeneralisedKelvin& law, double t) {
   return x;
 }
 
-/// Returns the displacement after `steps` steps under a unit force. Each dx is the one that keeps f constant, by Eq. 13
-/// with f(t+Δt) = f(t).
+/// Returns the displacement after `steps` steps under a unit force. In each step, dx is chosen so that f stays
+/// constant, by Eq. 13 with f(t+Δt) = f(t).
 double computed_creep(const GeneralisedKelvin& law, double dt, int steps) {
   Element element(law, dt, 1.0);
   double x = 1 / law.E_m;
@@ -222,7 +223,7 @@ void expect_relaxation(const GeneralisedKelvin& law, double t, double exact) {
   const double coarse = std::abs(computed_relaxation(law, t / 100, 100) / exact - 1);
   const double fine = std::abs(computed_relaxation(law, t / 200, 200) / exact - 1);
   EXPECT_LT(coarse, 1e-3);
-  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next order is (Δt/τ)², less than 1e-2 of the error
+  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next term is (Δt/τ)² times the first, less than 1e-2 of it
 }
 
 TEST(Relaxation, Maxwell) {
@@ -371,8 +372,8 @@ TEST(Block, OfTheLengthThatAnErrorAllowsKeepsIt) {
   EXPECT_LT(block_error(4000), 3e-7);
 }
 
-// In single precision, computing 1 − b/a would give 0 or 1.2e-7 here. Rounding it once from double precision is
-// accurate to 6e-8.
+// In single precision, 1 − b/a would come out as 0 or 1.2e-7 here. If it is computed in double precision and rounded
+// once, its relative error is at most 6e-8.
 TEST(Step, SinglePrecisionCoefficientsDoNotCancel) {
   const auto step = GeneralisedKelvin{1, 1, {1, 10}, {1, 1}}.step<float>(1e-9);
   EXPECT_NEAR(step.recover[0], 1e-9, 1e-16);

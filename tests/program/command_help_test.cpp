@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// command_help_test.cpp  The help of every command: readable, complete, and with examples that the command line
-// accepts.
+// command_help_test.cpp  Tests that the help of every command is readable and complete, and has examples that the
+// command line accepts.
 #include <gtest/gtest.h>
 
 #include <filesystem>

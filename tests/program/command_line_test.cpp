@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// command_line_test.cpp  The program run as a user does: exit codes, messages, files.
+// command_line_test.cpp  Runs the program as a user does, and checks exit codes, messages and files.
 #include <map>
 #include <regex>
 

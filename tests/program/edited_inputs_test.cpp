@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// edited_inputs_test.cpp  Valid input files with one change each: the readers' reports are compared with the recorded
-// reports in tests/recorded/edits, one text per file. After an intended change, record again with MACADAM_RECORD=1 in
-// the environment and review the difference. These tests notice changes; other tests check that reports are right.
+// edited_inputs_test.cpp  Makes one change at a time in valid input files, and compares the readers' reports with the
+// recorded reports in tests/recorded/edits, one text per file. After an intended change, record again with
+// MACADAM_RECORD=1 in the environment and review the difference. These tests notice changes; other tests check that
+// reports are right.
 #include <functional>
 #include <set>
 

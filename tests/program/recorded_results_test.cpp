@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// recorded_results_test.cpp  Everything that commands print and write, compared with recorded output to nine digits.
-// Other tests check that results are right; these notice every change, intended or not.
+// recorded_results_test.cpp  Compares everything that commands print and write with recorded output, to nine digits.
+// Other tests check that results are right. These tests notice every change, intended or not.
 //
 // Each folder of tests/recorded is a case. Its file `commands` has one macadam command per line, run in a copy of the
 // folder, which contains the inputs; laws.toml is appended to every scene without contacts. If a case has a file

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stop_signals_test.cpp  Stop signals at any time, single or several at once: either a checkpoint is left, or the
-// folder is unchanged.
+// stop_signals_test.cpp  Tests stop signals at any time, single or several at once: either the program leaves a
+// checkpoint, or the folder is unchanged.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/syscall.h>
@@ -47,7 +47,7 @@ class StopSignals : public Program {
     std::fflush(stdout);  // otherwise the child would print buffered text again
     const pid_t child = fork();
     if (child != 0) return child;
-    // the shell that runs the tests may ignore them
+    // The shell that runs the tests may ignore these signals, and its children would inherit that.
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);
     if (output >= 0 ? dup2(output, STDOUT_FILENO) < 0 : !freopen((folder_ / "stdout.txt").c_str(), "w", stdout))
       _exit(99);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// streams_test.cpp  Standard input, output and error that are closed, full, not read, limited in size, or a terminal
-// that has closed.
+// streams_test.cpp  Runs the program with standard input, output and error that are closed, full, not read, limited in
+// size, or a terminal that has closed.
 #include <pty.h>
 #include <signal.h>
 
@@ -91,7 +91,8 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
   GTEST_SKIP() << "the address sanitizer takes terabytes of addresses";
 #endif
   write_scene("method = \"harmonic\"\nlinear = \"direct\"\n");
-  // seconds of processor time, which a busy machine does not lengthen; twelve times more lines by the clock
+  // `seconds` limits the processor time, which does not grow on a busy machine. The wall time is limited to twelve
+  // times as much.
   const auto limited = [&](int megabytes, int seconds, const char* command) {
     return shell(fmt::format(
         "unset OPENBLAS_NUM_THREADS; export OMP_NUM_THREADS=1; ulimit -v {}; ulimit -t {}; timeout -k 5 {} $M {}",
@@ -117,7 +118,8 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
   EXPECT_GT(done, 0);
 }
 
-// After 0.3 s for a tenth of the work at least 2.7 s are left, and at the end nothing, however slow the machine is.
+// If a tenth of the work took at least 0.3 s, at least 2.7 s are left, and at the end nothing is left. This holds
+// however slow the machine is.
 TEST(ProgressLine, SaysTheTimeThatIsLeft) {
   std::fflush(stdout);
   int terminal = -1;

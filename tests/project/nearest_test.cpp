@@ -13,7 +13,7 @@ TEST(Nearest, GuessesAWordWithFewEdits) {
   const std::string list = " (the nearest of specimen, contacts, loading, solver, output, seed)";
   EXPECT_EQ(expected_one_of("specimens", sections), "specimen" + list);
   EXPECT_EQ(expected_one_of("LOADING", sections), "loading" + list);  // upper and lower case are equal
-  EXPECT_EQ(expected_one_of("sede", sections), "seed" + list);        // exchanged neighbours are one edit, of 4 letters
+  EXPECT_EQ(expected_one_of("sede", sections), "seed" + list);        // two exchanged letters are one edit
   EXPECT_EQ(expected_one_of("sovler", sections), "solver" + list);
   EXPECT_EQ(expected_one_of("spezimen", sections), "specimen" + list);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_conservation_test.cpp  Conservation laws of the reference stepper: loads rotate with the pair,
-/// momenta, energy.
+/// \file reference_conservation_test.cpp  Tests conservation laws of the reference stepper: loads rotate with the pair,
+/// and momenta and energy are conserved.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,9 +49,9 @@ TEST(Reference, RigidRotationCreatesNoForce) {
     stepper->set_velocities({{}, (1 / dt) * move}, {spin, spin});
     stepper->advance(1);
   }
-  // The remaining error: ω·Δt is the arc, but the move is the chord, which is (5e-5)³/24·d shorter. After 40,000 steps
-  // this is 2e-10·d, a slip of 4e-13 m compared with a stretch of 4e-6 m. Rounding of n·d adds about 40,000·ε·d = 1e-14
-  // m.
+  // One error remains. In each step B rotates by ω·Δt but moves along the chord, which is (5e-5)³/24·d shorter than the
+  // arc. After 40,000 steps this is 2e-10·d, a slip of 4e-13 m compared with a stretch of 4e-6 m. Rounding of n·d adds
+  // about 40,000·ε·d = 1e-14 m.
   const double tolerance = 1e-7 * norm(before.force[0]);
   const ParticleState after = stepper->particles();
   expect_near(after.force[0], turned(before.force[0], 2.0), tolerance, "force on A");

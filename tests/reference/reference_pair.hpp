@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_pair.hpp  Shared by the tests of the reference stepper: an elastic law, a pair that moves as
-/// prescribed, a comparison of vectors.
+/// \file reference_pair.hpp  Helpers for the tests of the reference stepper: an elastic law, a pair that moves as
+/// prescribed, and a comparison of vectors.
 #pragma once
 
 #include <gtest/gtest.h>

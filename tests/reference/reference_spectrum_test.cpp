@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_spectrum_test.cpp  Largest frequency and static modulus of small networks, against values worked out
-/// on paper.
+/// \file reference_spectrum_test.cpp  Compares the largest frequency and the static modulus of small networks with
+/// values worked out on paper.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_test.cpp  The reference stepper against solutions worked out on paper.
+/// \file reference_test.cpp  Compares the reference stepper with solutions worked out on paper.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -154,7 +154,8 @@ TEST(Reference, ViscousDampingDecaysAsItsClosedForm) {
   EXPECT_NEAR(discrete / std::exp(-25 * 0.1), 1, 2e-6);                                      // β³Δt²·T/12 = 1.3e-6
 }
 
-// After one step the force on A is known, k·Δt·v along z. Local damping adds χ times its size, against the motion.
+// After one step the force on A is known, k·Δt·v along z. Local damping adds χ times the size of this force, against
+// the motion.
 TEST(Reference, LocalDampingOpposesEveryComponent) {
   const HandMade made = test::two_sphere_network();
   const Contact& c = made.network.contacts[0];

@@ -49,8 +49,9 @@ TEST_P(ExampleScene, HasEveryLaw) {
   EXPECT_EQ(scene.laws[int(PairType::aa)].has_value(), !scene.specimen.aggregate.empty());
 }
 
-/// Elastic contacts. Between aggregates: the modulus in Table 4 of [1]. The modulus within an aggregate with which a
-/// cube of fine or coarse spheres has the rock's 60 GPa. At a wall: the stiffest spring of the touching material.
+/// Checks the moduli of elastic contacts. Contacts between aggregates have the modulus of Table 4 of [1]. Contacts
+/// within an aggregate have the modulus with which a cube of fine or coarse spheres has the 60 GPa of the rock.
+/// Contacts at a wall have the modulus of the stiffest spring of the material that touches the wall.
 TEST_P(ExampleScene, HasThePapersElasticLaws) {
   const Scene scene = this->scene();
   std::vector<std::pair<PairType, laws::Elastic>> expected;
@@ -143,7 +144,7 @@ TEST(ExampleScenes, AC14ByMassIsTheDesignFormulation) {
   EXPECT_EQ(scene.materials.aggregate, design.materials.aggregate);
 }
 
-/// The gradation is the formula that the scene names, to the digits given.
+/// Checks that the gradation follows the formula that the scene names, to the digits given.
 TEST(ExampleScenes, AC20IsAFullerCurve) {
   const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / "ac20_recipe" / "scene.toml");
   for (const SievePassing& s : scene.recipe->gradation)

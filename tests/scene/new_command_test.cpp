@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_command_test.cpp  macadam new: every scene that it writes can be read and run, and so can every key in its
+// new_command_test.cpp  Tests macadam new: every scene that it writes can be read and run, and so can every key in its
 // comments.
 #include <regex>
 #include <set>
@@ -85,7 +85,7 @@ TEST_F(NewCommand, KeysAreExplainedWhereTheirSectionComesFirst) {
   }
 }
 
-// Every key is explained behind it or above it, including keys that only this kind of loading or this law has.
+// A comment behind or above every key explains it, also for keys that only this kind of loading or this law has.
 TEST_F(NewCommand, KeysOfTheTestAndOfTheLawAreExplained) {
   for (const std::string& test : scene::tests_of_new_scenes()) {
     std::set<std::string> sections;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe_test.cpp  Mix designs by mass: hand calculations after EN 12697-5 and EN 12697-8, invariants of any
-/// design, and refused numbers.
+/// \file recipe_test.cpp  Tests mix designs by mass: hand calculations after EN 12697-5 and EN 12697-8, invariants of
+/// any design, and refused numbers.
 #include "macadam/recipe.hpp"
 
 #include <fmt/format.h>
@@ -44,10 +44,10 @@ MixDesign limestone() {
 /// Compares with a hand calculation of seven digits.
 void expect_hand(double value, double by_hand) { EXPECT_NEAR(value / by_hand, 1, 1e-6) << value << " for " << by_hand; }
 
-/// 1 kg of mix: 0.948 kg of aggregate in 0.948/2630 = 3.604563e-4 m³, 0.052 kg of binder in 0.052/1030 = 5.048544e-5
-/// m³. EN 12697-5: 1/(3.604563e-4 + 5.048544e-5) = 1/4.109417e-4 = 2433.435 kg/m³. EN 12697-6, -8: V_m = 5 % is a bulk
-/// density of 0.95 · 2433.435 = 2311.763 kg/m³; VMA = V_m + B·ρ_b/ρ_B = 5 % + 5.2 % · 2311.763/1030 = 5 % + 11.67104 %
-/// = 16.67104 %; VFB = 11.67104/16.67104 = 70.00787 %.
+/// Hand calculation for 1 kg of mix. 0.948 kg of aggregate have 0.948/2630 = 3.604563e-4 m³, 0.052 kg of binder have
+/// 0.052/1030 = 5.048544e-5 m³. EN 12697-5: the maximum density is 1/(3.604563e-4 + 5.048544e-5) = 1/4.109417e-4 =
+/// 2433.435 kg/m³. EN 12697-6, -8: V_m = 5 % is a bulk density of 0.95 · 2433.435 = 2311.763 kg/m³; VMA = V_m +
+/// B·ρ_b/ρ_B = 5 % + 5.2 % · 2311.763/1030 = 5 % + 11.67104 % = 16.67104 %; VFB = 11.67104/16.67104 = 70.00787 %.
 TEST(Recipe, AC14ByHand) {
   const MixVolumes v = volumes_of(ac14());
   expect_hand(v.maximum_density, 2433.435);
@@ -56,7 +56,8 @@ TEST(Recipe, AC14ByHand) {
   expect_hand(v.vfb, 0.7000787);
   EXPECT_EQ(v.air_voids, 0.05);
   EXPECT_EQ(v.effective_binder, 0.052);
-  // 16.3, 12.5, 23.4 and 15.3 % of 0.948 kg; divided by 2630 kg/m³, times 2311.763 kg of mix per m³ of the box.
+  // The volumes are 16.3, 12.5, 23.4 and 15.3 % of 0.948 kg, divided by 2630 kg/m³, times 2311.763 kg of mix per m³ of
+  // the box.
   ASSERT_EQ(v.classes.size(), 4u);
   const double mass[] = {0.154524, 0.1185, 0.221832, 0.145044};
   const double volume[] = {0.1358262, 0.1041612, 0.1949898, 0.1274933};
@@ -76,10 +77,11 @@ TEST(Recipe, AC14ByHand) {
   expect_hand(v.mastic_binder_mass, 0.052);
 }
 
-/// 1 kg of aggregate and 0.05 kg of binder. Volumes including pores: 0.4/2500 = 1.6e-4, 0.3/2800 = 1.071429e-4,
-/// 0.2/2600 = 7.692308e-5, 0.1/2700 = 3.703704e-5, in all 3.811030e-4 m³. 0.01 kg of the binder is in the pores, 0.04
-/// kg takes 4e-5 m³. Maximum density 1.05/4.211030e-4 = 2493.452, bulk density 0.96 · 2493.452 = 2393.714 kg/m³. VMA =
-/// 1 − 2393.714 · 3.811030e-4/1.05 = 1 − 0.8688109 = 0.1311891, VFB = (0.1311891 − 0.04)/0.1311891 = 0.6950966.
+/// Hand calculation for 1 kg of aggregate and 0.05 kg of binder. Volumes including pores: 0.4/2500 = 1.6e-4, 0.3/2800 =
+/// 1.071429e-4, 0.2/2600 = 7.692308e-5, 0.1/2700 = 3.703704e-5, in all 3.811030e-4 m³. 0.01 kg of the binder is in the
+/// pores, 0.04 kg takes 4e-5 m³. The maximum density is 1.05/4.211030e-4 = 2493.452, the bulk density 0.96 · 2493.452 =
+/// 2393.714 kg/m³. VMA = 1 − 2393.714 · 3.811030e-4/1.05 = 1 − 0.8688109 = 0.1311891, VFB = (0.1311891 −
+/// 0.04)/0.1311891 = 0.6950966.
 TEST(Recipe, DensitiesASizeAndAbsorbedBinderByHand) {
   const MixVolumes v = volumes_of(limestone());
   expect_hand(v.maximum_density, 2493.452);
@@ -139,7 +141,7 @@ MixDesign random_design(std::mt19937& random) {
   d.binder_of = random() % 2 ? BinderOf::mix : BinderOf::aggregate;
   if (random() % 2) d.filler_density = uniform(2000, 4000);
   d.binder_density = uniform(900, 1200);
-  // below the smallest binder content, 0.02/1.02 of a kg of aggregate
+  // less than the smallest binder content, which is 0.02/1.02 per kg of aggregate
   if (random() % 2) d.absorbed_binder = uniform(0, 0.019);
   d.air_voids = uniform(0, 0.3);
   return d;
@@ -160,7 +162,7 @@ TEST(Recipe, MassInIsMassOut) {
                 tolerance);
     double mass = v.mastic_fine_mass + v.mastic_filler_mass, volume = 0;
     for (const MixClass& c : v.classes) mass += c.mass, volume += c.volume;
-    ASSERT_NEAR(mass, 1 - v.binder, tolerance);  // of the dry aggregate
+    ASSERT_NEAR(mass, 1 - v.binder, tolerance);  // mass of the dry aggregate
     ASSERT_NEAR(volume, v.aggregate_volume, tolerance);
     // EN 12697-8 with the effective binder: VMA = V_m + B·ρ_b/ρ_B
     const double effective = v.effective_binder * v.bulk_density / d.binder_density;

@@ -102,7 +102,7 @@ TEST_F(SceneRecipe, GivesClassesPorosityAndDensities) {
 
 TEST_F(SceneRecipe, DensitiesOfMaterialsAgreeOrAreRefused) {
   const std::string aggregate = "[materials.aggregate]\ndensity = 2650\n", mastic = "[materials.mastic]\ndensity = ";
-  // rounded: differs by less than half a unit of the third digit
+  // The given density is rounded, so it differs by less than half a unit of its third digit.
   const Scene s = scene({}, aggregate + mastic + "\"2.23 g/cm3\"\n");
   EXPECT_NEAR(s.materials.aggregate, 2646.524, 1e-3);  // the recipe's densities are used
   EXPECT_NEAR(s.materials.mastic, 2227.850, 1e-3);
@@ -168,13 +168,13 @@ INSTANTIATE_TEST_SUITE_P(
          "an effective binder of 4.7619 % - 5.71429 % = -0.952381 %",
          "at most 5 % of the aggregate's mass"},
         {"AbsorbedTwice", {{12, "maximum_density = 2500"}}, 14, "absorbed_binder and maximum_density", "one of them"},
-        // without absorption: 1.05/(3.811030e-4 + 5e-5) = 2435.613
+        // Without absorption the maximum density is 1.05/(3.811030e-4 + 5e-5) = 2435.613 kg/m³.
         {"NegativeAbsorption",
          {{14, "maximum_density = 2400"}},
          14,
          "2400 kg/m3, by which -0.6397",
          "at least 2435.61 kg/m3, without absorption: 1 kg / (0.952381 kg / 2623.96 kg/m3 + 0.047619 kg / 1000 kg/m3)"},
-        // if all binder is absorbed: 1.05/3.811030e-4 = 2755.16
+        // If all binder is absorbed, the maximum density is 1.05/3.811030e-4 = 2755.16 kg/m³.
         {"NegativeEffectiveBinder",
          {{14, "maximum_density = 2800"}},
          14,
@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"VoidsTwice", {{16, "bulk_density = 2400"}}, 16, "air_voids and bulk_density", "exactly one"},
         {"NoVoids", {{15, ""}}, 3, "neither air_voids nor bulk_density", "exactly one"},
         {"AllVoids", {{15, "air_voids = \"100 %\""}}, 15, "100 %", "below 100 %"},
-        // 1 − 2600/2493.45 = −4.27312 %
+        // The air voids would be 1 − 2600/2493.45 = −4.27312 %.
         {"NegativeVoids", {{15, "bulk_density = 2600"}}, 15, "1 - 2600 / 2493.45 = -4.27312 %", "at most the maximum"},
         {"EnvelopeUpsideDown",
          {{16, "envelope = [[\"5 mm\", \"70 %\", \"50 %\"]]"}},

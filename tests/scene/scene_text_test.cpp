@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scene_text_test.cpp  Paths in the text of a scene that is written into another folder.
+// scene_text_test.cpp  Tests how paths in the text of a scene change if the scene is written into another folder.
 #include "host/scene/scene_text.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// temperature_test.cpp  Temperature in a scene shifts the laws; a specimen whose laws shift equally is shifted with
-// them.
+// temperature_test.cpp  Tests that temperature in a scene shifts the laws, and that a specimen whose laws all shift
+// equally is shifted by the same amount.
 #include <cmath>
 
 #include "tests/support/program.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fill_test.cpp  Shapes filled with spheres, and the report on a filling against closed forms.
+/// \file fill_test.cpp  Tests shapes that are filled with spheres, and compares the report on a filling with closed
+/// forms.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -224,7 +225,7 @@ TEST(FillReport, OneSphereInACube) {
   const Surface cube = test::box_surface(1, 1, 1);
   const FillReport r = measure_fill(cube, {{{0.5, 0.5, 0.5}}, {0.5}});
   EXPECT_NEAR(r.sphere_volume, pi / 6, 1e-15);
-  EXPECT_NEAR(r.covered, pi / 6, 5e-5);  // 400² columns
+  EXPECT_NEAR(r.covered, pi / 6, 5e-5);  // computed with 400² columns
   EXPECT_NEAR(r.outside, 0, 1e-12);
   EXPECT_EQ(r.largest_overlap, 0);
   EXPECT_NEAR(r.deviation_mean, mean_distance_of_cube() - 0.5, 1e-4);  // 20,000 samples, second order

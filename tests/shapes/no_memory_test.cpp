@@ -40,7 +40,7 @@ namespace {
 /// Runs `work` repeatedly and lets a different allocation fail each time: all of them, or `tries` of them if there are
 /// more. Each failure must be std::bad_alloc.
 void expect_bad_alloc(const std::string& what, const std::function<void()>& work, int tries = 100) {
-  work();  // makes what is created once and kept
+  work();  // creates objects that are made only once and kept
   counted = 0;
   work();
   const int all = counted;

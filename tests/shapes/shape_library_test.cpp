@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_library_test.cpp  The aggregate shapes that ship with the program, and the generator that made them.
+// shape_library_test.cpp  Tests the aggregate shapes that ship with the program, and the generator that made them.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 #include <omp.h>
@@ -104,8 +104,8 @@ const Property elongation = [](const ShapeMeasure& m) { return m.elongation(); }
 const Property sphericity_true = [](const ShapeMeasure& m) { return m.sphericity_true; };
 const Property sphericity_working = [](const ShapeMeasure& m) { return m.sphericity_working(); };
 
-/// A ratio of Table 1 in [1]: the average must be within 5 % of that in [1]. The range must cover that of [1], to the
-/// two decimals printed there, and exceed it by at most 5 %.
+/// Compares a ratio with Table 1 in [1]. The average must be within 5 % of the average in [1]. The range must cover the
+/// range in [1], to the two decimals printed there, and exceed it by at most 5 %.
 void expect_ratio(const char* name, const std::vector<double>& v, double low, double mean, double high) {
   EXPECT_NEAR(average(v), mean, 0.05 * mean) << name;
   const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
@@ -239,7 +239,8 @@ TEST(ShapeLibrary, DimensionsHaveTheStatisticsOfTable1) {
     const std::vector<double> v = values(property);
     EXPECT_NEAR(average(v), mean, 0.05 * mean) << name;
     const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
-    EXPECT_NEAR(*least, low, 0.1 * low) << name;  // the value of a single shape
+    // the minimum is the value of a single shape, so its tolerance is large
+    EXPECT_NEAR(*least, low, 0.1 * low) << name;
     EXPECT_NEAR(*greatest, high, 0.1 * high) << name;
   }
 }

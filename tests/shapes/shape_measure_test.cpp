@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_measure_test.cpp  Dimensions, volumes and indices of shapes, against closed forms and against a calliper in
+// shape_measure_test.cpp  Compares dimensions, volumes and indices of shapes with closed forms and with a calliper in
 // random directions.
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@
 namespace macadam::test {
 namespace {
 
-/// Coordinates of order 1, rotated, moved and scaled: a few ulp per number, about ten operations per length.
+/// Relative rounding error of a length. Coordinates of order 1 are rotated, moved and scaled, which costs a few ulp per
+/// number, and a length takes about ten operations.
 constexpr double rounding = 1e-13;
 
 void expect_lengths(const ShapeMeasure& m, double l, double i, double s) {
@@ -322,7 +323,7 @@ TEST(Statistics, TablesOfThreeBoxes) {
   EXPECT_NEAR(volume.average, 2e-9 * (1 + 8 + 64) / 3, 1e-21);
   EXPECT_NEAR(volume.max, 128e-9, 1e-20);
   EXPECT_EQ(volume.shapes, 3);
-  // D^I is √2·√6/2 of 1, 2 and 4 mm, so only one box is above 4 mm
+  // D^I is √2·√6/2 = 1.73 times 1, 2 and 4 mm, so only one box has more than 4 mm.
   EXPECT_EQ(spread_of(property("shape_index"), shapes).shapes, 1);
   EXPECT_EQ(spread_of(property("shape_index"), {}).shapes, 0);
   EXPECT_TRUE(std::isnan(spread_of(property("shape_index"), {}).average));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shapes_command_test.cpp  `macadam shapes` run as a user does: files, tables, exit codes, messages.
+// shapes_command_test.cpp  Runs `macadam shapes` as a user does, and checks files, tables, exit codes and messages.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -176,7 +176,7 @@ TEST_F(ShapesCommand, FillWritesSpheresAndSaysHowWellTheyFit) {
   ASSERT_EQ(done.code, 0) << done.err;
   const std::string csv = read(folder_ / "spheres" / "spheres.csv");
   const auto spheres = static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n') - 1);
-  EXPECT_GT(spheres, 24u);  // the number with spheres of 2 mm only
+  EXPECT_GT(spheres, 24u);  // the shape holds 24 spheres if all have a radius of 2 mm
   EXPECT_EQ(csv.rfind("x,y,z,radius\n", 0), 0u);
   EXPECT_TRUE(contains(done.out, fmt::format("ball: {} spheres of 1.5", spheres))) << done.out;
   for (const char* word : {"D^L", "covered", "overlap", "deviation"}) EXPECT_TRUE(contains(done.out, word)) << done.out;

@@ -21,7 +21,8 @@ namespace {
 
 using Facets = std::vector<std::int32_t>;
 
-/// Expects faults, and that none remain after `expect` has checked and removed the expected ones.
+/// Expects that the surface has faults. `expect` must check the expected faults and remove them from the verdict; then
+/// no other fault may remain.
 void expect_only(SurfaceVerdict verdict, const std::function<void(SurfaceVerdict&)>& expect) {
   EXPECT_FALSE(verdict.good());
   EXPECT_NE(verdict.text(), "closed");

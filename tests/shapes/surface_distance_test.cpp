@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_distance_test.cpp  Depth of points below a surface, against closed forms.
+/// \file surface_distance_test.cpp  Compares the depth of points below a surface with closed forms.
 #include "host/shapes/surface/surface_distance.hpp"
 
 #include <gtest/gtest.h>
@@ -53,8 +53,8 @@ TEST(SurfaceDistance, GrowsAlongTheDirectionItGives) {
     const Vec3d q = p - Vec3d{0.5, 0.5, 0.5};
     const auto [depth, inward] = distance.below(q, 10);
     ASSERT_NEAR(norm(inward), 1, tolerance);
-    // Inside, a step against the direction reduces the distance to the nearest point by its length, and no other point
-    // becomes nearer. Outside of a convex surface a step away increases it by its length.
+    // A step of 0.1 against the direction reduces the depth by 0.1. Inside the surface, the step leads towards the
+    // nearest point, and no other point becomes nearer. Outside of a convex surface, it leads away from this point.
     ASSERT_NEAR(distance.depth(q - 0.1 * inward), depth - 0.1, 1e-12);
   });
 }

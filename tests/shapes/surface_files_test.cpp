@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_files_test.cpp  Writing and reading of every surface format, and files that are truncated, corrupt or
+// surface_files_test.cpp  Writes and reads every surface format, and reads files that are truncated, corrupt or
 // nonsensical.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_ply_test.cpp  PLY files: every number type, as text and in both byte orders, and headers that announce data
-// that are missing.
+// surface_ply_test.cpp  Reads PLY files: every number type, as text and in both byte orders, and headers that announce
+// data that are missing.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_repair_test.cpp  Repair of faulty surfaces, and the limit on the change of volume and area.
+// surface_repair_test.cpp  Tests the repair of faulty surfaces, and the limit on the change of volume and area.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -132,7 +132,7 @@ TEST(RepairSurface, WrapsWhatCutsItself) {
   EXPECT_FALSE(check_surface(s).self_intersecting.empty());
   const SurfaceRepair repair = repaired(s, 1.52, 0.03, true);
   EXPECT_TRUE(contains(repair.what, "wrapped")) << repair.what;
-  EXPECT_NEAR(repair.volume_before, 2, 1e-12);  // by the facets, which count the common part twice
+  EXPECT_NEAR(repair.volume_before, 2, 1e-12);  // the facets count the common part twice
   EXPECT_NEAR(repair.area_before, 12, 1e-12);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// soak.cpp  Runs for hours in one process, many of them interrupted and resumed. Every run must give the same bits each
-// time, and neither memory nor the number of open files may grow.
+// soak.cpp  Repeats runs for hours in one process, and interrupts and resumes many of them. Every run must give the
+// same bits each time, and neither memory nor the number of open files may grow.
 //
 // usage: soak SECONDS [cpu|cuda] [TABLE.csv]
 #include <fmt/chrono.h>
@@ -54,7 +54,7 @@ Held held_now() {
 struct Case {
   Scene scene;
   fs::path out;
-  std::string response, first;  ///< first: output of the first time
+  std::string response, first;  ///< `first` is the output of the first run
 };
 
 class Soak {

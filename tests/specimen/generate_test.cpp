@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generate_test.cpp  The specimen generator: composition, placement, relaxation, reproducibility.
+/// \file generate_test.cpp  Tests the specimen generator: composition, placement, relaxation and reproducibility.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -195,8 +195,8 @@ TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
   }
 }
 
-/// Three spheres of the largest size have the volume of 3.49 mean spheres, three of the smallest size that of 2.54. The
-/// number must be three in both cases.
+/// Three spheres of the largest size have the volume of 3.49 mean spheres. Three spheres of the smallest size have the
+/// volume of 2.54 mean spheres. The number must be three in both cases.
 TEST(ClassRequest, ThreeOfOneSizeAreThree) {
   for (const double largest : {0.001, 0.0047, 0.0125, 1.0}) {
     ClassRequest request{"", {SizeLaw::uniform, 0.9 * largest, largest}, 1, {}, {}};
@@ -222,8 +222,9 @@ TEST(Generate, MasticByCountSolvesForTheSolidVolume) {
 TEST(Generate, MasticIsSpreadEvenly) {
   const Specimen s = generate_specimen(small_mix()).specimen;
   EXPECT_TRUE(particles_without_cell(s).empty());
-  // Of 440 random points in this box, a dozen pairs are closer than 0.2 of the sum of radii. Evenly spread spheres at
-  // porosity 0.05 keep about 0.9 of it, and somewhat less if they are squeezed between a wall and an aggregate.
+  // Of 440 random points in this box, a dozen pairs are closer than 0.2 of the sum of their radii. Evenly spread
+  // spheres at porosity 0.05 keep a distance of about 0.9 of this sum, and somewhat less if they are squeezed between a
+  // wall and an aggregate.
   double closest = 1;
   for (std::size_t i = 0; i < s.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -295,11 +296,11 @@ TEST(Generate, AClassWithoutRoomSaysHowMuchHadRoom) {
   EXPECT_LT(percent, 100.0 * placed / 40 * std::pow(5 / 4.7, 3));
 }
 
-/// Counts the positions near which `taken` is called, that is those clear of the large aggregate. The centre of the
-/// small sphere may be anywhere in 9.8³ mm³, of which 448 mm³ are clear, so each of the first 20,000 attempts is clear
-/// with probability 0.476. Later attempts are made only in cells of 0.2 mm that are not fully taken. No such cell is
-/// nearer to the middle than 4.9 mm minus a diagonal, so they have at most 604 mm³, and an attempt is clear with
-/// probability 0.74.
+/// Counts the attempts that are clear of the large aggregate, because `taken` is called only for these. The centre of
+/// the small sphere may be anywhere in 9.8³ mm³, of which 448 mm³ are clear, so each of the first 20,000 attempts is
+/// clear with probability 0.476. Later attempts are made only in cells of 0.2 mm that are not fully taken. No such cell
+/// is nearer to the middle than 4.9 mm minus a diagonal, so the cells have at most 604 mm³, and an attempt is clear
+/// with probability 0.74.
 TEST(Placement, LaterTriesAreWhereThereMayBeRoom) {
   Specimen specimen;
   specimen.box.size = {0.01, 0.01, 0.01};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// neighbours_test.cpp  Lists of neighbours against a comparison of all pairs: their content and order, after every kind
-// of move.
+// neighbours_test.cpp  Compares lists of neighbours with lists made by comparing all pairs: content and order, after
+// every kind of move.
 #include "host/spheres/neighbours.hpp"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,8 @@ TEST_P(NeighboursOf, HoldAllThatTouchAfterManyMoves) {
   for (int round = 0; round < 20; ++round) {
     std::vector<std::int32_t> strayed;
     const double step = round % 5 == 4 ? skin : 0.1 * skin;
-    const double share = round % 3 == 2 ? 0.02 : 0.004;  // so that relisting uses several threads, or only one
+    // makes relisting use several threads in some rounds, and one in others
+    const double share = round % 3 == 2 ? 0.02 : 0.004;
     for (int i = first; i < n; ++i) {
       const bool far = random.uniform() < share;
       const auto moved = [&](double x, double length) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// parallel_blocks_test.cpp  Ranges that threads process in parallel: every number once, in ascending order, and the
-// first exception is thrown.
+// parallel_blocks_test.cpp  Tests ranges that threads process in parallel: every number occurs once, in ascending
+// order, and the first exception is thrown.
 #include "host/spheres/parallel_blocks.hpp"
 
 #include <gtest/gtest.h>

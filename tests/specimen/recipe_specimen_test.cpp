@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe_specimen_test.cpp  Specimens of mix designs by mass: the measured composition of their particles is the
-/// requested one, and the program prints and writes it.
+/// \file recipe_specimen_test.cpp  Makes specimens of mix designs by mass. The measured composition of their particles
+/// must be the requested one, and the program must print and write it.
 #include <algorithm>
 #include <numbers>
 
@@ -58,7 +58,8 @@ void expect_classes(const Scene& scene, const std::vector<Body>& bodies, double 
   for (const MixClass& c : asked.classes) {
     double volume = 0, smallest = box;
     for (const Body& b : bodies) {
-      // rounding: a diameter is twice a radius that was half of it, and may equal a sieve size
+      // A diameter may equal a sieve size. It is twice the radius, which is half of an earlier diameter, so it may
+      // differ by rounding.
       if (b.size < c.sieve_min * (1 - 1e-12) || b.size > c.sieve_max * (1 + 1e-12)) continue;
       ++counted, volume += b.volume, smallest = std::min(smallest, b.volume);
     }
@@ -90,7 +91,7 @@ TEST_F(RecipeSpecimen, OfSpheresHasItsShares) {
   }
   expect_classes(scene, bodies, mastic_volume(made.specimen));
 
-  // The gradation recomputed from the particles: the dry mass finer than each sieve; the mastic contains its fixed
+  // Recomputes the gradation from the particles: the dry mass finer than each sieve. The mastic contains its fixed
   // fraction of fines.
   const MixVolumes v = volumes_of(*scene.recipe);
   const double fines =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_packing_test.cpp  The complete design formulation of Table 3 of [1]: 56.3 % of the box is aggregate.
+/// \file shape_packing_test.cpp  Packs the complete design formulation of Table 3 of [1], in which 56.3 % of the box is
+/// aggregate.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_placement_test.cpp  Shaped aggregates in small boxes: overlap checks, composition, placement by
+/// \file shape_placement_test.cpp  Places shaped aggregates in small boxes: overlap checks, composition, placement by
 /// insertion and by packing.
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -119,7 +119,7 @@ TEST(ShapeBody, FieldBoundsTheTrueDistance) {
   }
 }
 
-/// Near the middle of a face the distance is that from its plane.
+/// Near the middle of a face, the distance from the box is the distance from the plane of the face.
 TEST(DistanceField, PointsStraightOutOfTheFacesOfABox) {
   const Surface box = test::box_surface(2, 2, 2);
   const ShapeSolid solid(box);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shaped_specimen_test.cpp  Specimens with shaped aggregates: each aggregate is a cluster of spheres, mastic is
-/// outside of the clusters, and contact types follow from the touching particles.
+/// \file shaped_specimen_test.cpp  Tests specimens with shaped aggregates: each aggregate is a cluster of spheres,
+/// mastic is outside of the clusters, and contact types follow from the touching particles.
 #include <fmt/format.h>
 #include <omp.h>
 #include <unistd.h>
@@ -114,7 +114,8 @@ TEST_P(ShapedSpecimen, MasticLeavesTheShapesAndFillsThePorosity) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (s.phase[i] == Phase::mastic) solid += 4 * M_PI / 3 * std::pow(s.radius[i], 3);
   }
-  const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);  // the number of spheres is an integer
+  // the tolerance is one sphere, because their number is an integer
+  const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);
   EXPECT_NEAR(solid, 0.95 * s.box.volume(), sphere);
   EXPECT_TRUE(particles_without_cell(s).empty());
 }
@@ -134,8 +135,8 @@ TEST_P(ShapedSpecimen, MasticHasTheVolumeAndTheRadiiAskedFor) {
       EXPECT_LT(x, 1);
     }
   }
-  // One radius is taken from each of n equal parts of the range, then all are adjusted to the volume. This changes the
-  // mean by half a sphere of n.
+  // One radius is taken from each of n equal parts of the range, then all are adjusted to the volume. The number n is
+  // rounded, so the adjustment changes the volume by at most half a sphere.
   EXPECT_NEAR(radii / static_cast<double>(count), 0.5 * (asked.radius_min + asked.radius_max), 1e-3 * asked.radius_max);
   double aggregates = 0;
   for (const Aggregate& a : made_.aggregates) aggregates += a.volume;
@@ -340,7 +341,7 @@ TEST(ShapedSpecimens, TakeTheIcosahedronAsOneMoreOfTheLibrary) {
   spec.shapes->fill.least = 2;
   std::map<std::string, int> times;
   const std::string icosahedron = subdivided_icosahedron().name;
-  // 60/83 = 0.7 of each shape are expected per seed
+  // Each seed draws 60 aggregates from 83 shapes, so each shape is expected 60/83 = 0.7 times per seed.
   for (spec.seed = 1; spec.seed <= 10 && times[icosahedron] == 0; ++spec.seed)
     for (const Aggregate& a : generate_specimen(spec).aggregates) ++times[a.shape];
   EXPECT_GT(times[icosahedron], 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen_test.cpp  Reading, writing and checking of specimen files.
+/// \file specimen_test.cpp  Tests reading, writing and checking of specimen files.
 #include "macadam/specimen.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// block_length_test.cpp  Number of steps per block. A block is a set fraction of the shortest time scale of laws and
-// load, and ends at observations if that costs little.
+// block_length_test.cpp  Tests the number of steps per block. A block is a set fraction of the shortest time scale of
+// laws and load, and ends at observations if that costs little.
 #include "kernels/step/block_length.hpp"
 
 #include <gtest/gtest.h>
@@ -42,18 +42,18 @@ TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   Laws slow = lasting();
   slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // relaxation time of 0.01 s, times 2π
   EXPECT_EQ(block_steps(options, facts_of(slow), size), 157);
-  // limit from the geometry: 4e-3 / (1e-4·20π/s) = 0.64 s, longer than the load's
+  // The time scale of the geometry is 4e-3 / (1e-4·20π/s) = 0.64 s, longer than that of the load.
   options.geometry = Geometry::updated;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 250);
-  // limit from the geometry: 4e-3 / (1e-2·20π/s) = 6.4e-3 s, shorter than the load's
+  // The time scale of the geometry is 4e-3 / (1e-2·20π/s) = 6.4e-3 s, shorter than that of the load.
   options.boundary = moving_top(drives::Cyclic(1e-3, 10, 1000000));
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 15);
   options.boundary = {};
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
 }
 
-/// With elastic laws and fixed geometry nothing changes within a block, so it may be longer; one law with memory or
-/// updated geometry ends this.
+/// With elastic laws and fixed geometry nothing changes within a block, so it may be longer. With a single law that has
+/// a memory, or with updated geometry, it must be short.
 TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   StepperOptions options = options_of_10_hz();
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), kernels::longest_block);
@@ -63,7 +63,7 @@ TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   options.blocks = 200;
   options.dt *= 10;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 500);
-  // with fewer, longer blocks rounding would be larger
+  // without a memory a block could be longer here too, but then rounding would be larger
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 500);
   options.blocks = 20000;
   options.dt /= 10;
@@ -80,7 +80,7 @@ TEST(BlockLength, FollowsTheNumberOfBlocks) {
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 125);
   options.blocks = 1e6 / 3.9;  // blocks of three steps are not worth while, so steps are not grouped
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
-  options.blocks = 10;  // sums over this many steps are still accurate in single precision
+  options.blocks = 10;  // gives the longest block, whose sums are still accurate in single precision
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), kernels::longest_block);
 }
 

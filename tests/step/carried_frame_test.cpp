@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// carried_frame_test.cpp  The series that rotate a contact's frame from step to step, against closed forms. They are
-// meant for the small rotations of a step. The rotations here are so large that the first omitted term is visible, and
-// so is any other error.
+// carried_frame_test.cpp  Compares the series that rotate a contact's frame from step to step with closed forms. The
+// series are meant for the small rotations of a step. The rotations here are so large that the first omitted term is
+// visible, and so is any other error.
 #include "kernels/contact/carried_frame.hpp"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ TEST(CarriedFrame, InverseRootIsASeriesOfFiveTerms) {
   }
 }
 
-// The divisor omits e⁴/32, multiplied by a vector along the sum of the normals, whose length is 2. The step that
-// restores unit length leaves only the square of an error.
+// The series for the divisor omits the term e⁴/32, which multiplies a vector along the sum of the normals, of length 2.
+// Of an error in length only the square is left, because the last step restores unit length.
 TEST(CarriedFrame, ATangentIsSwungWithItsNormal) {
   for (const double about : {0.0, 1.0, 2.0}) {  // tangents in all directions
     const Vec3d tangent = turned(s, n, about);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// conservation_test.cpp  Conservation in free assemblies, on every backend: momenta, energy, and no force from rigid
-// motion.
+// conservation_test.cpp  Tests free assemblies on every backend: momenta and energy are conserved, and rigid motion
+// causes no force.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -115,7 +115,7 @@ TEST_P(FreeAssembly, MomentaStayOverAHundredThousandSteps) {
     const double walk = 2 * rounding * std::sqrt(static_cast<double>(steps * scene.specimen.size()));
     EXPECT_LT(norm(after.linear - before.linear), walk * particle);
     EXPECT_LT(norm(after.angular - before.angular), walk * particle * norm(scene.specimen.box.size));
-    EXPECT_GT(norm(before.linear), 0.5 * particle);  // the momenta are large enough to be worth conserving
+    EXPECT_GT(norm(before.linear), 0.5 * particle);  // the momentum is not small, so its conservation is not trivial
     EXPECT_GT(norm(before.angular), 0.5 * particle * 1e-3);
   }
 }
@@ -180,7 +180,7 @@ TEST_P(FreeAssembly, EnergyOfElasticContactsStays) {
     elastic_share = std::max(elastic_share, elastic / first);
     now = next;
   }
-  EXPECT_GT(elastic_share, 0.3);  // energy is exchanged between both forms
+  EXPECT_GT(elastic_share, 0.3);  // kinetic and elastic energy are exchanged
   // Fixed geometry is linear: each step rounds by a few ε of the energy, a random walk. Updated geometry rotates
   // normals and lever arms by angles of the order of the strain, 1e-6, and so changes the stiffness and the energy.
   EXPECT_LT(error, options.geometry == Geometry::fixed ? 10 * rounding * std::sqrt(steps) : 10 * strain);
@@ -254,9 +254,9 @@ TEST_P(RigidMotion, AFullTurnCreatesNoForce) {
   }
   const ParticleState end = stepper->particles();
   ASSERT_LT(largest(end.displacement), 1e-12);  // it is back at the start
-  // In a step the centres move along the chord 2·sin(θ/2)·d, while ω·Δt is the arc θ. This gives a slip of d·θ³/24 per
-  // step, and over all steps a strain of angle·θ²/24 = 2.6e-8. Times α = 0.3 it is the force of a contact; about
-  // fourteen contacts per particle act, in many directions.
+  // In a step the particles rotate by θ, but their centres move along the chord 2·sin(θ/2)·d, which is shorter than the
+  // arc. This gives a slip of d·θ³/24 per step, and over all steps a strain of angle·θ²/24 = 2.6e-8. A contact has the
+  // force of this strain times α = 0.3. A particle has about fourteen contacts, in many directions.
   const double strain = angle * step_angle * step_angle / 24;
   EXPECT_LT(force, 14 * 0.3 * strain * force_scale(scene));
   EXPECT_LT(moment, 14 * 0.3 * strain * force_scale(scene) * 1.5e-3);  // lever arms of up to 1.5 mm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_data_test.cpp  The memory predicted for a group of contacts equals the size of its arrays.
+// contact_data_test.cpp  Checks that the memory predicted for a group of contacts equals the size of its arrays.
 #include "kernels/contact/contact_data.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// critical_step_test.cpp  The computed time step against the true limit 2/ω_max: it is not above the limit, and at most
-// a factor √2 below it.
+// critical_step_test.cpp  Compares the computed time step with the true limit 2/ω_max. It must not be above the limit,
+// and at most a factor √2 below it.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -118,7 +118,7 @@ TEST(Inertia, IsThatOfSolidSpheres) {
   }
 }
 
-// Steppers at the limit: stable just below the computed step, unstable above the true one.
+// Tests steppers at the limit: they are stable just below the computed step, and unstable above the true one.
 
 using Case = std::tuple<Backend, ContactForm, Geometry, bool /* AM1, else elastic */, bool /* local damping */>;
 

@@ -16,8 +16,8 @@ namespace {
 template <class P>
 class PacketWidth : public testing::Test {
  protected:
-  /// A stepper with the other packet width (4 or 8). The library has the width of this machine if it is compiled for
-  /// it; if it contains code for several processors, this file is compiled for the oldest.
+  /// A stepper with the other packet width (4 or 8). If the library is compiled for this machine, it has the width of
+  /// this machine. If it contains code for several processors, this file is compiled for the oldest of them.
   using OtherExec = kernels::ExecCpu<P, Law, 12 - kernels::packet_width<P>>;
 
   static void expect_same(const TestScene& scene, StepperOptions options) {

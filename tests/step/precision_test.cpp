@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// precision_test.cpp  The estimated rounding error is above every measured one, and the program says where the
-// measurements end.
+// precision_test.cpp  Tests that the estimated rounding error is above every measured error, and that the program
+// reports when a run lies outside the range of the measurements.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -220,7 +220,7 @@ TEST_F(PlannedPrecision, IsDoubleBeyondTheMeasuredStiffnesses) {
             std::string::npos);
 }
 
-// More steps than were measured in single precision, fewer than in mixed precision.
+// The run has more steps than were measured in single precision, and fewer than were measured in mixed precision.
 TEST_F(PlannedPrecision, IsMixedBeyondTheStepsOfSingle) {
   Scene scene = asked(0.1);
   scene.cyclic().frequencies = {1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips_test.cpp  Parts of a step that are skipped as unnecessary do not change the result: equal bits, or equal to a
-// stated tolerance.
+// skips_test.cpp  Tests that skipping unnecessary parts of a step does not change the result: the bits are equal, or
+// the result is equal to a stated tolerance.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -174,7 +174,7 @@ TEST_P(TinyFacets, TheShareIsThatOfTheirAreas) {
   ASSERT_FALSE(gone.contacts.empty());
   EXPECT_EQ(static_cast<std::int64_t>(gone.contacts.size()), less.scene.network.dropped_area);
   EXPECT_NEAR(less.scene.network.dropped_share / (area(gone) / area(whole.scene.network)), 1,
-              1e-12);  // a thousand terms
+              1e-12);  // rounding of a sum of a thousand terms
 }
 
 /// Loss of modulus by dropped facets. Let a be the bilinear form of the whole network, d that of the dropped contacts,

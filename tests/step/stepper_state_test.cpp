@@ -182,8 +182,8 @@ std::vector<std::complex<double>> some_motion(std::size_t particles) {
   return out;
 }
 
-// Making a stepper from a used one, as consecutive frequencies of a run do: with other steps, masses, loads and starts
-// it must behave like a new one.
+// Makes steppers from used ones, as a run does for consecutive frequencies. With other steps, masses, loads and starts,
+// each must behave like a new stepper.
 TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   StepperOptions slow = slow_options(scene_);
   std::tie(slow.precision, slow.form, slow.geometry) = std::tie(options_.precision, options_.form, options_.geometry);
@@ -211,7 +211,8 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   struct Use {
     const char* name;
     const StepperOptions* options;
-    bool kept;  ///< on the processor; a device keeps less if it steps in blocks before or after
+    /// whether the processor reuses the stepper; a device reuses less if it steps in blocks before or after
+    bool kept;
   };
   std::unique_ptr<Stepper> used;
   for (const Use& use : {Use{"slow", &slow, false}, Use{"slower, heavier, damped", &slower, true},

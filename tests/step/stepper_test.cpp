@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_test.cpp  Every backend, precision, form and geometry against the reference stepper, on random specimens.
+// stepper_test.cpp  Compares every backend, precision, form and geometry with the reference stepper, on random
+// specimens.
 #include <gtest/gtest.h>
 
 #include <tuple>
@@ -120,7 +121,8 @@ TEST_P(StepperAgainstReference, LawsOfAnotherKindThanThoseOfTheUsedStepper) {
   options.form = form;
   options.precision = precision;
   options.geometry = geometry;
-  const Laws elastic = elastic_laws();  // softer laws, so the time step suits both
+  // these laws are softer, so a time step that is stable for the other laws is stable for them too
+  const Laws elastic = elastic_laws();
   Laws slippery = elastic;
   std::get<laws::Elastic>(*slippery[static_cast<std::size_t>(PairType::mm)]).alpha = 0;
   const auto with = [&](const Laws& laws, std::unique_ptr<Stepper> used) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// thread_choice_test.cpp  The choice between all threads and one, given measured times of steps: it takes the faster
-// and notices changes.
+// thread_choice_test.cpp  Tests the choice between all threads and one, given measured times of steps: it must take the
+// faster and notice changes.
 #include "kernels/cpu/thread_choice.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tile_plan_test.cpp  The plan of tiles, executed here in plain loops: every load is added once, and in the same order
+// tile_plan_test.cpp  Executes the plan of tiles in plain loops. Every load must be added once, and in the same order
 // for any division into tiles.
 #include "kernels/layout/tile_plan.hpp"
 
@@ -162,8 +162,8 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   for (const Tile& tile : plan.tile) cells += tile.cells, inner += tile.inner;
   EXPECT_GT(inner, 0u);
   for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
-  // Each contact has a cell for end B. Each couple of two contacts has one for end A; the last couple of a particle may
-  // be half empty.
+  // Each contact has a cell for its end B. Two contacts of a couple share one cell for their ends A. The last couple of
+  // a particle may have only one contact.
   EXPECT_LE(cells, (3 * scene.network.contacts.size() + scene.specimen.size()) / 2);
   // At most the last double packet of a warp per tile, and its last packet, are partly empty.
   EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::couple + 1));
@@ -171,7 +171,7 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
 
 TEST(TilePlan, EvenTilesTouchAboutAsManyContactsEach) {
   const test::TestScene scene = test::make_scene(test::random_specimen(4, 12, 12, 14));
-  const auto fullest = [&](bool even) {  // largest number of contacts per tile over the mean
+  const auto fullest = [&](bool even) {  // ratio of the largest to the mean number of contacts per tile
     const TilePlan plan = plan_tiles(scene.network, make_layout(scene.specimen, scene.network, 32, {500, even}));
     std::size_t most = 0, all = 0;
     for (const Tile& tile : plan.tile) {

@@ -81,7 +81,7 @@ std::string refusal(int) { return "it is made of paper"; }
 constexpr auto make = nullptr;
 #endif
 
-/// The frequency domain: no test needs it on a device that is the processor.
+/// Refuses to solve: no test needs the frequency domain on a fake device.
 std::unique_ptr<DeviceSolver> make_solver(const LinearSystem&, const DeviceList&, std::int64_t&) {
   throw RunError("the device of paper has no solver for the frequency domain");
 }

@@ -35,8 +35,8 @@ class TestFolder : public testing::Test {
   }
   fs::path out(const std::string& name) const { return folder_ / name; }
 
-  /// Runs the scene until `stop` has been asked `asked` times after planning; 0 means to the end. Returns whether the
-  /// run was interrupted.
+  /// Runs the scene, and interrupts the run when it has called `stop` `asked` times after planning; if `asked` is 0,
+  /// the run continues to its end. Returns whether the run was interrupted.
   bool run_until(const Scene& scene, const std::string& name, int asked, bool resume = false) const {
     Watcher watcher;
     int count = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_network_test.cpp  Contacts of a network: frames, lever arms, point areas, moments, pair types,
-/// filters, and the rows that list contacts by particle.
+/// \file contact_network_test.cpp  Tests the contacts of a network: frames, lever arms, point areas, moments, pair
+/// types, filters, and the rows that list contacts by particle.
 #include "macadam/contact_network.hpp"
 
 #include <gtest/gtest.h>
@@ -117,8 +117,8 @@ TEST_F(RandomNetwork, ArmsPutTheReferencePointOnTheFacetsPlane) {
     const Contact& c = network.contacts[k];
     const Facet& f = tessellation.facets[k];
     const Vec3d x0 = specimen.centre[c.a] + c.arm_a * c.n;
-    // A vertex has an error of ε of the box over the flatness of its tetrahedron, which is at least 1e-3 in double
-    // precision.
+    // The error of a vertex is ε times the size of the box, divided by the flatness of its tetrahedron. The flatness is
+    // at least 1e-3 in double precision.
     for (const Vec3d& v : tessellation.polygon(f)) EXPECT_NEAR(dot(v - x0, c.n), 0, 1e-12);
     if (c.b < 0) {
       EXPECT_EQ(c.arm_b, 0);
@@ -152,8 +152,8 @@ TEST_F(RandomNetwork, PointAreasAndFirstMoments) {
       t += network.point_area[j] * network.point_t[j];
       reach = std::max(reach, std::hypot(network.point_s[j], network.point_t[j]));
     }
-    // Local coordinates have an error of ε of the box and of the distance to x0, so a facet of length l has a relative
-    // error of 1e-16/l in its area.
+    // Local coordinates have an error of ε times the size of the box and the distance to x0. The area of a facet of
+    // length l therefore has a relative error of 1e-16/l.
     const double relative = 1e-14 / std::sqrt(c.area) * (1 + reach);
     EXPECT_NEAR(area, c.area, relative * c.area);
     EXPECT_NEAR(c.moments.a, area, 1e-14 * area);
@@ -184,7 +184,8 @@ TEST_F(RandomNetwork, LumpedMomentsAreThoseOfThePoints) {
   }
 }
 
-/// Exact second moments agree with a fine midpoint rule, and are less than those of the points (lumped).
+/// Exact second moments agree with a fine midpoint rule, and are less than the second moments of the contact points
+/// (lumped quadrature).
 TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
   spec.quadrature = Quadrature::exact;
   const ContactNetwork exact = build_network(specimen, tessellation, spec);
@@ -199,7 +200,7 @@ TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
     const auto cell = [&](double area, double x, double y) {
       ss += area * x * x, st += area * x * y, tt += area * y * y;
     };
-    // fan from vertex 0, unlike the fan about the centroid in the code under test
+    // Uses a fan from vertex 0, unlike the code under test, which uses a fan about the centroid.
     for (std::size_t v = 1; v + 1 < n; ++v) {
       const double us = s[v] - s[0], ut = t[v] - t[0], ws = s[v + 1] - s[0], wt = t[v + 1] - t[0];
       const double area = 0.5 * (us * wt - ws * ut) / (m * m);

@@ -61,8 +61,8 @@ void expect_partition(const Specimen& s, const CrossSection& section, double tol
   EXPECT_NEAR(sum / area, 1, tolerance);
 }
 
-// An error of a few ε of the box per edge of a cell; the edges together are about as long as the number of cells per
-// side.
+// Tolerance of areas. The error of an area is a few ε times the length of the edges of cells. The total length of all
+// edges is about n sides of the box, for n cells per side.
 constexpr double rounding = 1e-13;
 
 TEST(CrossSection, OneParticleShowsTheWholeRectangle) {

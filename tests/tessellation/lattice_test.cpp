@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file lattice_test.cpp  Tessellations of lattices, whose cells are known exactly.
+/// \file lattice_test.cpp  Tests tessellations of lattices, whose cells are known exactly.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,7 +137,7 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
       {{0, 0, 0},
        {0.5, 0.5, 0},
        {0.5, 0, 0.5},
-       {0, 0.5, 0.5},  // diamond lattice, with up to 144 such vertices
+       {0, 0.5, 0.5},  // diamond lattice, with up to 144 vertices in the middle of edges
        {0.25, 0.25, 0.25},
        {0.75, 0.75, 0.25},
        {0.75, 0.25, 0.75},
@@ -163,8 +163,8 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
         const auto p = t.polygon(t.facets[f]), q = exact.polygon(exact.facets[f]);
         ASSERT_EQ(p.size(), q.size()) << "lattice " << b << ", unit " << unit << ", facet " << f;
         EXPECT_NEAR(t.facets[f].area, exact.facets[f].area * unit * unit, facet_tolerance * unit * unit);
-        // Second moment about the centroid, by the points of the contact: a third of each fan triangle's area times
-        // Σ|x|².
+        // Returns the second moment about the centroid as the points of the contact give it: the sum over the fan
+        // triangles of a third of the area times Σ|x|².
         const auto moment = [](const Facet& facet, const auto& polygon) {
           double sum = 0;
           for (std::size_t v = 0; v < polygon.size(); ++v) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// packing_check_test.cpp  Specimens that do not fill their box, or overfill it, give a warning before a run.
+// packing_check_test.cpp  Tests that specimens that do not fill their box, or overfill it, give a warning before a run.
 #include "macadam/tessellation.hpp"
 
 #include <numbers>
@@ -107,8 +107,8 @@ TEST(PackingCheck, LoosePackingsAreNoFault) {
   }
 }
 
-// A layer of large spheres below a layer of small ones: gaps between the large spheres are many mean spacings wide,
-// which is not a fault.
+// A layer of large spheres lies below a layer of small ones. The gaps between the large spheres are many mean spacings
+// wide, which is not a fault.
 TEST(PackingCheck, LayersOfDifferentSizesAreNoFault) {
   Specimen s = touching(4, 4, 2);
   for (int z = 0; z < 10; ++z)

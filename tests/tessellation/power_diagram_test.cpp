@@ -109,7 +109,7 @@ TEST(PowerDiagram, PartsGiveTheWholeWithoutSomeParticles) {
   expect_same_in_parts(s, active);
 }
 
-/// Properties of the arrays that hold for any number of parts.
+/// Checks properties of the arrays that hold for any number of parts.
 TEST(PowerDiagram, TetrahedraAreInOrderAndKnowTheirNeighbours) {
   const Specimen s = random_spheres(800, 8);
   const PowerDiagram d = power_diagram(s, std::vector<std::uint8_t>(s.size(), 1), 3);
@@ -131,9 +131,9 @@ TEST(PowerDiagram, TetrahedraAreInOrderAndKnowTheirNeighbours) {
   }
 }
 
-/// At a dual point no site has less power than the four corners. Tolerance: rounding of squared lengths up to the
-/// bounding sites, about 100 m², is 1e-16 · 100; the flattest tetrahedron that is solved in double precision enlarges
-/// it by 1e3.
+/// At a dual point no site has less power than the four corners. The tolerance is the rounding error of squared lengths
+/// up to the bounding sites, about 100 m² · 1e-16, times 1e3 for the flattest tetrahedron that is solved in double
+/// precision.
 TEST(PowerDiagram, NobodyIsInsideADualSphere) {
   const Specimen s = random_spheres(400, 9);
   const WeightedSites sites(s);

@@ -11,9 +11,9 @@
 
 namespace macadam::test {
 
-// Tolerance of facets. A facet follows from a few operations on coordinates that are good to ε of the box, about 1e-15
-// · (box / spacing). With up to ten spacings per box, and tetrahedra solved in double precision down to a flatness of
-// 1e-3, this is 1e-11.
+// Tolerance of facets. A facet follows from a few operations on coordinates that are accurate to ε times the size of
+// the box, about 1e-15 · (box / spacing) of a spacing. With up to ten spacings per box, and tetrahedra solved in double
+// precision down to a flatness of 1e-3, this is 1e-11.
 inline constexpr double facet_tolerance = 1e-11;
 
 inline Specimen empty_box(const Vec3d& box) {

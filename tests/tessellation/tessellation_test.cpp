@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation_test.cpp  Tessellation of few particles, of degenerate and difficult input, and of random
+/// \file tessellation_test.cpp  Tests tessellations of few particles, of degenerate and difficult input, and of random
 /// specimens.
 #include "macadam/tessellation.hpp"
 

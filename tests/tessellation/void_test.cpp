@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file void_test.cpp  Air voids: cells that are not particles and whose facets are free surfaces, in files, in
+/// \file void_test.cpp  Tests air voids, which are cells without particles whose facets are free surfaces: in files, in
 /// generated specimens and in every solver.
 #include <algorithm>
 #include <numbers>
@@ -62,8 +62,8 @@ TEST(Voids, HaveTheCellsOfParticlesAndNoContacts) {
       EXPECT_EQ(d.a, number(c.a));
       EXPECT_EQ(d.b, number(c.b));
       EXPECT_EQ(d.pair, c.pair);
-      // The triangulation processes the sites in another order, and a facet's area is a sum of differences of its
-      // corners.
+      // Areas differ by rounding: the triangulation processes the sites in another order, and the area of a facet is a
+      // sum of differences of its corners.
       EXPECT_NEAR(d.area, c.area, 1e-9 * 4e-6);
       EXPECT_NEAR(d.moments.ss, c.moments.ss, 1e-9 * 4e-12);
     }
@@ -198,7 +198,7 @@ void expect_sound(const SpecimenSpec& spec, const GeneratedSpecimen& made, doubl
   for (std::size_t i = 0; i < s.size(); ++i) solid += s.phase[i] == Phase::mastic ? volume_of(s.radius[i]) : 0;
   const double box = spec.box.volume();
   EXPECT_NEAR(air / box, fraction, volume_of(0.0012) / box);
-  // The porosity refers to the volume without voids; the tolerance is the last sphere.
+  // The porosity refers to the volume without voids. The tolerance is the volume of the last sphere.
   EXPECT_NEAR(solid / box, 0.95 * (1 - fraction), volume_of(0.001) / box);
   EXPECT_EQ(made.composition.back().name, "voids");
   EXPECT_EQ(made.composition.back().count, static_cast<std::int64_t>(s.voids.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bench_command_test.cpp  macadam bench: the rows have the right meaning, and the JSON has the format of Google
+// bench_command_test.cpp  Tests macadam bench: the rows have the right meaning, and the JSON has the format of Google
 // Benchmark.
 #include <algorithm>
 #include <cmath>
@@ -79,8 +79,8 @@ TEST_F(BenchCommand, TimesWhatComesBeforeAStep) {
   EXPECT_NEAR(parts, last["real_time"].get<double>(), 1e-6 * parts);
 }
 
-/// Against recorded times a thousandth as long, the command reports slower rows and exits with 1; against longer times
-/// it succeeds. A damaged record is refused.
+/// Compared with recorded times that are a thousandth as long, the command reports slower rows and exits with 1.
+/// Compared with longer times it succeeds. A damaged record is refused.
 TEST_F(BenchCommand, SaysWhatBecameSlowerBeyondNoise) {
   ASSERT_EQ(bench("lattice:500 --only step --precision double --json " + path("now.json")).code, 0);
   json before = read_json("now.json");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate_command_test.cpp  `macadam calibrate` run as a user does: the calibrated scene, the files, the messages.
+// calibrate_command_test.cpp  Runs `macadam calibrate` as a user does, and checks the calibrated scene, the files and
+// the messages.
 #include "tests/support/program.hpp"
 
 namespace macadam::test {
@@ -89,8 +90,8 @@ TEST_F(CalibrateCommand, OnlyTheValuesOfTheTextChange) {
   EXPECT_EQ(made, expected);
 }
 
-/// Finds the modulus that bench/results/aggregate-cube.csv lists for this cube. There it was found by the secant method
-/// from two solutions.
+/// Finds the modulus that bench/results/aggregate-cube.csv lists for this cube. The listed modulus was found by the
+/// secant method from two solutions.
 TEST_F(CalibrateCommand, TheCubeOfAggregateGivesItsInnerModulus) {
   const std::string cube = MACADAM_EXAMPLES "/aggregate_cube";
   const Outcome outcome = macadam(fmt::format(
@@ -133,8 +134,8 @@ TEST_F(CalibrateCommand, ScenesOfOtherTestsAreCalibratedToo) {
   }
 }
 
-/// With `--misfit modulus` the targets need no phase, with `--misfit phase` no modulus; given values that do not count
-/// change nothing.
+/// With `--misfit modulus` the targets need no phase, with `--misfit phase` no modulus. If values that do not count are
+/// given, they change nothing.
 TEST_F(CalibrateCommand, WhatTheMisfitDoesNotCountNeedNotBeMeasured) {
   write_scene(harmonic);
   target("frequency_hz,e_star_mpa\n20,11000\n5,9500\n");

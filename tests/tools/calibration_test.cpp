@@ -172,15 +172,16 @@ TEST(Calibration, DeviationsAreThoseOfNoise) {
       sum += off * off;
       within += std::abs(off) < 1.96;
     }
-    // The mean square is a χ² of `trials` degrees of freedom over `trials`, the number within is binomial. Both may be
-    // off by four standard deviations.
+    // The mean square is a χ² variable of `trials` degrees of freedom, divided by `trials`. The number of fits within
+    // 1.96 deviations is binomial. Both may be off by four standard deviations.
     EXPECT_NEAR(sum / trials, 1, 4 * std::sqrt(2.0 / trials)) << free.free.size();
     EXPECT_NEAR(within, 0.95 * trials, 4 * std::sqrt(0.95 * 0.05 * trials)) << free.free.size();
   }
 }
 
-/// One parameter of value 3, measured once or twice; each measurement is proportional to it. If no deviations are
-/// stated, the misfit of 50 gives the scale of the errors, provided that there are more measurements than parameters.
+/// A parameter has the value 3 and one or two measurements, which are proportional to it. If the data state no
+/// deviations, the misfit, here 50, gives the scale of the errors, provided that there are more measurements than
+/// parameters.
 TEST(Calibration, DeviationsFollowTheMisfitWhereNoneAreStated) {
   const auto deviation = [](bool stated, std::size_t measurements) {
     Calibration c;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit_command_test.cpp  `macadam fit` run as a user does: data files, results, messages.
+// fit_command_test.cpp  Runs `macadam fit` as a user does, and checks data files, results and messages.
 #include <algorithm>
 #include <cmath>
 
@@ -71,7 +71,7 @@ TEST_F(FitCommand, TheCovarianceMatrixIsSquareAndHasTheDeviations) {
   ASSERT_EQ(matrix.size(), parameters.size());
   for (const auto& row : matrix) ASSERT_EQ(row.size(), matrix.size());
   for (std::size_t i = 0; i < matrix.size(); ++i) {
-    // Sums of a few terms, each at most the root of both variances.
+    // An entry is a sum of a few terms, none of which is larger than the root of the product of both variances.
     for (std::size_t k = 0; k < i; ++k)
       EXPECT_NEAR(matrix[i][k], matrix[k][i], 1e-14 * std::sqrt(matrix[i][i] * matrix[k][k])) << i << " " << k;
     const bool logarithmic = of[i].get<std::string>().starts_with("ln ");
@@ -236,7 +236,7 @@ TEST_F(FitCommand, FaultyDataAreNamedByLineAndColumn) {
   EXPECT_HAS(macadam("fit --out x").err, "what to fit: found nothing");
 }
 
-/// Curves without a slope do not say how far apart they are: the shift between them is bounded, and the fit ends.
+/// Curves without a slope do not determine the shift between them. The shift is bounded, and the fit ends.
 TEST_F(FitCommand, FlatIsothermsFarApartAreFitted) {
   std::string table = "temperature_c,frequency_hz,e_star_pa,phase_deg\n";
   for (const auto& [temperature, modulus] : {std::pair{-20.0, 3e10}, {60.0, 1e9}}) {

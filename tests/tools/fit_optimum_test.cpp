@@ -42,8 +42,9 @@ bool has_warning(const Fit& fit, const std::string& part) {
   return false;
 }
 
-/// An element that is not needed lies at its limit, where a spring still changes |E*| by e^-12. In each residual this
-/// is 2e-4 of the standard deviation of 3 %.
+/// Expects that the misfit of the larger chain is not above the misfit of the smaller chain. An element that is not
+/// needed lies at its limit, at which a spring still changes |E*| by e^-12 = 6e-6. In each residual this is 2e-4 of the
+/// standard deviation of 3 %.
 void expect_not_above(double larger, double smaller, std::size_t residuals, const std::string& what) {
   EXPECT_LE(std::sqrt(larger), std::sqrt(smaller) + 2e-4 * std::sqrt(static_cast<double>(residuals))) << what;
 }
@@ -84,8 +85,8 @@ TEST(FitOptimum, AFreeShiftFitsNoWorseThanALawAnd2S2P1DNoWorseThanHuetSayegh) {
                      to_string(shift));
 }
 
-/// Arrhenius is WLF with C2 = T_r in kelvins. WLF fitted from its own starts alone has misfits of 206.9 and 138.2 with
-/// the first two seeds, above the 199.6 and 136.2 of Arrhenius.
+/// Arrhenius is WLF with C2 = T_r in kelvins, so WLF must not fit worse. If WLF did not also start from the Arrhenius
+/// fit, it would have misfits of 206.9 and 138.2 with the first two seeds, above the 199.6 and 136.2 of Arrhenius.
 TEST(FitOptimum, WlfFitsNoWorseThanArrhenius) {
   for (const unsigned seed : {17u, 6u, 27u}) {
     const ModulusData data = measured({5, 60, 75}, 2, seed, 4, laws::Arrhenius{180e3, 20});
@@ -104,13 +105,15 @@ TEST(FitOptimum, WlfFitsNoWorseThanArrhenius) {
   }
 }
 
-/// Expects that the law at one reference temperature is that at another, with all times multiplied by a.
+/// Expects that the laws at two reference temperatures differ only in their times: those of `found` are `a` times those
+/// of `first`.
 void expect_rescaled(const laws::GeneralisedKelvin& found, const laws::GeneralisedKelvin& first, double a,
                      const std::string& what) {
   ASSERT_EQ(found.units(), first.units()) << what;
   EXPECT_DOUBLE_EQ(found.E_m, first.E_m) << what;
   EXPECT_EQ(std::isfinite(found.C_m), std::isfinite(first.C_m)) << what;
-  // The logarithms of a viscosity (about 20) and of a_T are added, with a rounding error of 1e-15 of 50.
+  // The logarithms of a viscosity (about 20) and of a_T are added. The sum is below 50, so its rounding error is 1e-15
+  // of 50.
   if (std::isfinite(first.C_m)) { EXPECT_NEAR(found.C_m / (a * first.C_m), 1, 1e-12) << what; }
   for (std::size_t l = 0; l < first.E.size(); ++l) {
     EXPECT_DOUBLE_EQ(found.E[l], first.E[l]) << what;
@@ -177,7 +180,7 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   const laws::Shift truth = laws::Wlf{13.5, 140, 20};
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}})
     EXPECT_NEAR(table.log10_a_T[i], laws::log10_shift(truth, nominal[i]) - laws::log10_shift(truth, 15), 0.1);
-  options.reference_temperature = 15.3;  // within tenths of the readings, so the isotherm takes its name
+  options.reference_temperature = 15.3;  // within tenths of the readings, so the isotherm gets this temperature
   const Fit named = fit_modulus(data, options);
   EXPECT_EQ(named.options.reference_temperature, 15.3);
   EXPECT_EQ(std::get<laws::ShiftTable>(named.shift).temperatures[1], 15.3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// laboratory_table_test.cpp  Tables of measured moduli as laboratories write them: units, spellings, and error
+// laboratory_table_test.cpp  Reads tables of measured moduli as laboratories write them: units, spellings and error
 // messages.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -173,7 +173,7 @@ TEST_F(LaboratoryTable, MisspeltColumnsAreNotPassedOver) {
   EXPECT_HAS(refusal("frequency_hz,e_star_pa,g_star_pa,phase_deg\n1,9e9,9e3,15\n"), "columns of E* and of G*");
   EXPECT_HAS(refusal("frequency_hz;e_star_pa;phase_deg\n1,5;9.000,0;15\n"), "found \"9.000,0\"");
   EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_deg\n1,\"9e9,15\n"), "as many opening as closing");
-  // One of the two separates thousands.
+  // Either the comma of 0,1 or the point of 14.082 separates thousands, so the table is ambiguous.
   EXPECT_HAS(refusal("frequency_hz;e_star_mpa;phase_deg\n0,1;14.082;15\n"),
              "decimal sign: found \"14.082\", expected the same as in \"0,1\" of line 2");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `macadam ct segment` run as a user does: regions by coordinates, units, warnings, and the source of the voxel size.
+// Runs `macadam ct segment` as a user does: regions by coordinates, units, warnings, and the source of the voxel size.
 #include <fstream>
 #include <sstream>
 

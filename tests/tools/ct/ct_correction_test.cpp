@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Corrections of a scan: each removes the artefact for which it is made, and leaves differences of composition alone.
+// Tests corrections of a scan: each removes the artefact for which it is made, and leaves differences of composition
+// alone.
 #include <gtest/gtest.h>
 
 #include "host/tools/ct/voxels/correction.hpp"
@@ -116,8 +117,8 @@ TEST_F(CtCorrection, RingsGoAndTheRestStays) {
   });
   const double before = difference(scan, true_).second;
   for (int round = 0; round < 3; ++round) ct::correct_rings(scan, region_);
-  // A ring passes through only about a dozen balls. The correction itself therefore changes a clean scan by 0.03, which
-  // remains of the 0.07 here.
+  // A ring passes through only about a dozen balls. Therefore the correction itself changes a clean scan by 0.03. Here
+  // it reduces a difference of 0.07 to this 0.03.
   EXPECT_LT(difference(scan, true_).second, 0.5 * before);
   Image<float> clean = true_;
   ct::correct_rings(clean, region_);
@@ -127,8 +128,8 @@ TEST_F(CtCorrection, RingsGoAndTheRestStays) {
 /// The stated strength of the rings is their root mean square over all radii, and the recorded correction can be
 /// evaluated anywhere.
 TEST(CtRings, AreAsStrongAsIsSaidAndStepsTakeTheSameOutOfEveryPlace) {
-  // Two layers, so that every ring contains the same fractions of both phases. Rings of 0.1 of the contrast are at 4 of
-  // the 43 whole radii.
+  // The scan has two layers, so that every ring contains the same fractions of both phases. Rings of 0.1 of the
+  // contrast are at 4 of the 43 whole radii.
   Image<float> layers({61, 61, 48}, {1e-4, 1e-4, 1e-4}, {}, mastic);
   std::fill(layers.voxels.begin() + 61 * 61 * 30, layers.voxels.end(), aggregate);
   add_noise(layers, 0.05);
@@ -138,7 +139,7 @@ TEST(CtRings, AreAsStrongAsIsSaidAndStepsTakeTheSameOutOfEveryPlace) {
   });
   Image<float> scan = before;
   ct::CorrectionSteps steps;
-  // The level of a ring of more than a thousand voxels is known to a hundredth of 0.1.
+  // The level of a ring is a mean of more than a thousand voxels, so it is accurate to a hundredth of 0.1.
   EXPECT_NEAR(ct::correct_rings(scan, Image<std::uint8_t>::like(scan, 1), &steps), 0.1 * std::sqrt(4.0 / 43), 0.002);
   EXPECT_NEAR(scan.at(30, 41, 7) - before.at(30, 41, 7), -0.1 * contrast, 0.01 * contrast);
   ASSERT_EQ(steps.size(), 1u);

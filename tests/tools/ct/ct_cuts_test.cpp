@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The file that lists the cuts between fragments of grains, and cuts that do not fit the scan.
+// Tests the file that lists the cuts between fragments of grains, and cuts that do not fit the scan.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faulty scans. Each ends with an error that names the fault, or with a warning and grains of low confidence.
+// Segments faulty scans. Each ends with an error that names the fault, or with a warning and grains of low confidence.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -221,12 +221,12 @@ TEST(CtFaults, HalfAStackEndsWithTheScanAtOneEnd) {
   EXPECT_TRUE(o.says("along z the specimen ends in air at one end, but at its upper end")) << o.error << o.warnings;
 }
 
-/// No warning about missing air at the ends if the user gives the region.
+/// If the user gives the region, there is no warning about missing air at its ends.
 TEST(CtFaults, ARegionThatSomebodyGaveEndsWhereItWasGiven) {
   SegmentOptions options;
   options.smallest = 1.4e-3;
   options.surfaces = false;
-  // from the lower end of the scan to a height within it
+  // The given region extends from the lower end of the scan to a height within the scan.
   options.given = GivenRegion{{0, 0, 0}, {4.5e-3, 4.5e-3, 3.4e-3}};
   const Segmentation found = segment_scan(balls(), options);
   for (const std::string& warning : found.warnings) EXPECT_EQ(warning.find("ends in air"), std::string::npos);
@@ -245,7 +245,7 @@ TEST(CtFaults, APhaseThatIsMissingIsSaid) {
   EXPECT_TRUE(outcome(in_air(spongy), ScanRegion::found).error.find("of the air around") != std::string::npos);
   EXPECT_TRUE(outcome(in_air(balls(no_mastic)), ScanRegion::found).error.find("of the air around") !=
               std::string::npos);
-  Image<float> brighter = in_air(balls(no_mastic));  // the same with another grey value of air
+  Image<float> brighter = in_air(balls(no_mastic));  // the same scan with another grey value of air
   for (float& grey : brighter.voxels) grey += 20000;
   EXPECT_TRUE(outcome(brighter, ScanRegion::found).error.find("of the air around") != std::string::npos);
   EXPECT_EQ(outcome(in_air(balls(no_mastic)), ScanRegion::whole, 0).grains, 8u) << "loose grains, as was said";
@@ -275,7 +275,7 @@ TEST(CtFaults, OneGrainThatIsMostOfTheSpecimenIsDoubted) {
 TEST(CtFaults, AScanOfAirAloneHasNoContrast) {
   Image<float> nothing({40, 40, 40}, {1e-4, 1e-4, 1e-4}, {}, air);
   add_noise(nothing, 0.1);
-  Image<float> cut = nothing;  // a reconstruction that sets negative values to zero
+  Image<float> cut = nothing;  // like a reconstruction that sets negative values to zero
   for (float& grey : cut.voxels) grey = std::max(0.0f, grey - air);
   for (const ScanRegion region : {ScanRegion::whole, ScanRegion::found}) {
     EXPECT_TRUE(outcome(nothing, region).error.find("contrast") != std::string::npos);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scans in HDF5 files: choice of the dataset, its axes and voxel sizes, and files that are not HDF5 or hold less data
-// than they state.
+// Reads scans in HDF5 files: choice of the dataset, its axes and voxel sizes, and files that are not HDF5 or hold less
+// data than they state.
 #include <H5Cpp.h>
 #include <gtest/gtest.h>
 

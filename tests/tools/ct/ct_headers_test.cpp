@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Headers of image files on which ITK hangs, aborts or silently misreads. They are refused; unusual but valid headers
-// are read.
+// Reads image files whose headers make ITK hang, abort or misread without an error. Such headers are refused; unusual
+// but valid headers are read.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -51,7 +51,7 @@ std::string mha(const std::string& line, const std::string& data = "LOCAL") {
   return "ObjectType = Image\n" + line + "\nDimSize = 2 1\nElementType = MET_UCHAR\nElementDataFile = " + data + "\nab";
 }
 
-/// MetaImage headers that ITK misreads, each refused with line and key.
+/// Refuses MetaImage headers that ITK misreads, each with its line and key.
 TEST_F(CtHeaders, OfAMetaImage) {
   for (const char* dimensions : {"3e9", "3 3", "+3", "1", "4", "", "2147483648"})
     refused("a.mha", mha("NDims = " + std::string(dimensions)),
@@ -83,7 +83,7 @@ TEST_F(CtHeaders, OfAMetaImage) {
           "CompressedDataSize: found 4294967296, expected at most the 147 bytes of a.mha");
 }
 
-/// MetaImage headers that are unusual but valid.
+/// Reads MetaImage headers that are unusual but valid.
 TEST_F(CtHeaders, OfAMetaImageThatAreUnusualAndGood) {
   const std::string more = "Other = " + std::string(400, 'o') + "\r\nComment = " + std::string(254, 'c') +
                            "\r\n0008|0090 =\r\nLong = " + std::string(300, 'l') + "\r\nName = \xc3\xa4\x1b";
@@ -106,7 +106,7 @@ std::string nrrd(const std::string& sizes, const std::string& more = "") {
   return "NRRD0004\r\ntype: uchar\r\ndimension: 3\r\nencoding: raw\r\n" + sizes + "\r\n" + more + "\r\nabcdef";
 }
 
-/// NRRD headers that ITK misreads, each refused with its line.
+/// Refuses NRRD headers that ITK misreads, each with its line.
 TEST_F(CtHeaders, OfAnNrrd) {
   for (const std::string sizes : {"1 4294967324 1", "3 2 0", "3 2 1.0", "3 x 1"})  // ITK reads the first size as 28
     refused("a.nrrd", nrrd("sizes: " + sizes), ":5: sizes: found \"" + sizes + "\", expected whole numbers");
@@ -120,7 +120,7 @@ TEST_F(CtHeaders, OfAnNrrd) {
   refused("a.nrrd", nrrd("sizes: 3 2 1", "byte skip: -1\r\nencoding: gzip\r\n"), "byte skip: found below 0");
 }
 
-/// NRRD headers that are unusual but valid.
+/// Reads NRRD headers that are unusual but valid.
 TEST_F(CtHeaders, OfAnNrrdThatAreUnusualAndGood) {
   write("a.nrrd", nrrd("sizes: 3 2 1", "# sizes: x\r\nsizes:=many\r\ndata file:=LIST\r\nbyte skip: -1\r\n"));
   EXPECT_EQ(voxels("a.nrrd"), "abcdef");
@@ -227,7 +227,7 @@ std::string tiff(const std::vector<Page>& pages, std::uint32_t last = 0) {
   return out;
 }
 
-/// TIFF directories that ITK misreads, each refused with its tag.
+/// Refuses TIFF directories that ITK misreads, each with its tag.
 TEST_F(CtHeaders, OfATiff) {
   const auto refused_page = [&](const Page& page, const std::string& words) { refused("a.tif", tiff({page}), words); };
   refused_page({{277, Entry{3, 1, 3}}}, "tag 277 of the TIFF file: found 3 values per voxel, expected one grey");

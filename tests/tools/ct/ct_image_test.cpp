@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Image files of computed tomography: written images are read back unchanged, and faulty files are refused with a
+// Tests image files of computed tomography: written images are read back unchanged, and faulty files are refused with a
 // reason.
 #include <gtest/gtest.h>
 #include <sys/resource.h>

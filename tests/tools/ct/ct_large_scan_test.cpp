@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scans larger than the given memory. They are segmented on blocks of voxels and refined from the file; the grains must
-// equal those found in memory.
+// Segments scans larger than the given memory. They are segmented on blocks of voxels and refined from the file; the
+// grains must equal those found in memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,8 +82,8 @@ void by_place(Segmentation& scan) {
             [](const ScannedGrain& a, const ScannedGrain& b) { return a.measure.volume < b.measure.volume; });
 }
 
-/// The mean of a block is the mean of its voxels, its middle the central voxel; incomplete blocks at the ends are left
-/// out.
+/// A block has the mean grey value of its voxels and the grey value of its central voxel. Incomplete blocks at the ends
+/// are left out.
 TEST_F(CtLargeScan, ABlockHasItsMeanAndTheVoxelInItsMiddle) {
   constexpr std::int64_t n = 3;
   Image<float> scan({3 * n + 1, 2 * n, 2 * n + 2}, {voxel, voxel, voxel});

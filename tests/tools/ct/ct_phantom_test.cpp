@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_phantom_test.cpp  Synthetic scans: volumes of known grains, sawn faces, artefacts of the requested size,
-/// files.
+/// \file ct_phantom_test.cpp  Tests synthetic scans: volumes of known grains, sawn faces, artefacts of the requested
+/// size, files.
 #include "macadam/phantom.hpp"
 
 #include <unistd.h>
@@ -208,7 +208,8 @@ TEST_F(CtPhantom, FaultsAreAsLargeAsAsked) {
   };
   const Phantom noisy = scanned(&PhantomSpec::noise, 0.05);
   const auto corner = [](auto i, auto, auto) { return i < 2; };
-  // 3,872 voxels give it to 1.1 %; grey values are not clipped, because air is 3.3 standard deviations above 0
+  // The standard deviation of 3,872 voxels is accurate to 1.1 %. No grey value is clipped, because air is 3.3 standard
+  // deviations above 0.
   EXPECT_NEAR(statistics(noisy, corner).second, 1800, 75);
   const Phantom cupped = scanned(&PhantomSpec::cupping, 0.2);
   const auto axis = [](auto i, auto j, auto k) { return (i == 26 || i == 27) && (j == 21 || j == 22) && k == 22; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of a segmented scan: valid PNG files, and the contents of their pixels.
+// Tests pictures of a segmented scan: they are valid PNG files, and their pixels show the scan.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -54,7 +54,8 @@ TEST_F(CtPictures, ThreePlanesLieSideBySideWithNothingBetweenThem) {
     for (std::size_t x = 0; x < picture.width; ++x) {
       const auto& [red, green, blue] = picture.at(x, y);
       const bool plane = x < 6 * edge || (y < 4 * edge && ((x >= second && x < second + 6 * edge) || x >= third));
-      // Pictures of two-dimensional planes have the y or z axis upwards.
+      // In a picture of a plane section the vertical axis (y or z) points upwards, which decides where the grain
+      // appears.
       const bool grain = (x / edge == 1 && y / edge == 2) || (x >= second && (x - second) / edge == 1 && y / edge == 1);
       EXPECT_EQ(red == green && green == blue, !grain) << x << ' ' << y;
       EXPECT_EQ(red == 255 && green == 255 && blue == 255, !plane) << x << ' ' << y;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grains and phases of small scans whose contents are known exactly, and the refusal of images that are not scans.
+// Finds grains and phases of small scans whose contents are known exactly, and refuses images that are not scans.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -123,8 +123,8 @@ TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
 }
 
 TEST(CtSegment, AnEdgeAlongTheSideOfAnotherGrainStaysWithItsOwn) {
-  // A stone with a thin plate lies on a block. The plate is nearer to the middle of the block than to that of its own
-  // stone.
+  // A stone with a thin plate lies on a block. The plate is nearer to the middle of the block than to the middle of the
+  // stone to which it belongs.
   const Body stone = ball(20, 32, 46, 15), plate = block({20, 22, 40.6}, {66, 42, 47}),
              below = block({26, 8, 10}, {74, 56, 40});
   const auto together = [&](double x, double y, double z) { return std::max(stone(x, y, z), plate(x, y, z)); };
@@ -205,7 +205,7 @@ TEST(CtSegment, ASpecimenInAirIsFound) {
   const Segmentation out = segment_scan(scan, options);
   const auto inside = static_cast<double>(
       std::count_if(out.phases.voxels.begin(), out.phases.voxels.end(), [](std::uint8_t p) { return p != 255; }));
-  // half a voxel of radius is 3 % of the volume; the region is accurate to less
+  // An error of half a voxel in the radius would be 3 % of the volume. The region is more accurate than that.
   EXPECT_NEAR(inside / (pi * 30 * 30 * 57), 1, 0.02);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_twin_test.cpp  Specimens made from scans: grains and voids stay at their places, and the scene runs.
+/// \file ct_twin_test.cpp  Tests specimens made from scans: grains and voids stay at their places, and the scene runs.
 #include "macadam/twin.hpp"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ TEST_F(CtTwin, HasEveryGrainWhereItLayAndRuns) {
   double air = 0, here_air = 0;
   for (const VoidSphere& v : source.voids) air += 4 * pi / 3 * std::pow(v.radius, 3);
   for (const VoidSphere& v : twin.specimen.voids) here_air += 4 * pi / 3 * std::pow(v.radius, 3);
-  EXPECT_NEAR(here_air / air, 1, 0.03);  // volume of whole voxels
+  EXPECT_NEAR(here_air / air, 1, 0.03);  // the volume of air is that of whole voxels
   EXPECT_EQ(twin.specimen.voids.size(), source.voids.size());
   const Twin without = make_twin(truth, scene, {.least_void = 1e-2});
   EXPECT_TRUE(without.specimen.voids.empty());
