@@ -40,7 +40,8 @@ def numbers_of_spheres():
 
 def gradation():
     return ["## Gradation (Fig. 4)", "",
-            *wrapped("""The paper draws Fig. 4 without numbers: the AC 20 whose aggregates it scanned. Ours is
+            *wrapped("""Fig. 4 of the paper shows, without numbers, the gradation of the AC 20 whose aggregates were
+                scanned. Our AC 20 is
                 `examples/ac20_recipe`, on a Fuller curve. The paper gives the AC 14 by mass, and `examples/ac14_recipe`
                 follows it ([mix-design.md](mix-design.md)). `scripts/draw-gradation` draws the required and the reached
                 gradation of any specimen of a recipe:"""), "",
