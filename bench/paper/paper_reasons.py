@@ -79,10 +79,11 @@ def number(f):
     voids = [(n, k, f.void(n, [k])) for n in CLUSTERS for k in range(3)]
     by_size = [f"{n[3:]} {CLASSES[k]} (number × {v.ratio:.2f}, of which sizes explain × {v.size:.2f})" for n, k, v in voids
                if v.ratio > 1.1 and v.size - 1 > 0.5 * (v.ratio - 1)]
-    return f"""*Fewer aggregates in the three large classes.* Shares refer to the volumes of spheres. So the same
-        share needs more clusters if the clusters have voids or are smaller. In these cells the paper's mean L^I is smaller
-        than ours, which explains most of the larger number or all of it: {', '.join(by_size)}. The smaller size is *not
-        explained*; in the largest class it may be chance. In the other cells the sizes are nearly equal, and voids may be
+    return f"""*Fewer aggregates in the three large classes.* Shares refer to the volumes of spheres. The same share
+        therefore needs more clusters if the clusters have voids or are smaller. In the following cells the mean L^I
+        of the paper is smaller than ours, which explains most or all of the larger number of aggregates:
+        {', '.join(by_size)}. Why the size is smaller in the paper is *not explained*; in the largest class it may be
+        chance. In the other cells the sizes are nearly equal, and voids may be
         the cause (*inferred*). With voids of 0.24 (coarse) and 0.12 (fine), Ico has {made['MS-Ico-coarse, voids']} and
         {made['MS-Ico-fine, voids']} aggregates; the paper has {paper['coarse']} and {paper['fine']}, and without voids
         Ico has {made['MS-Ico-coarse']} and {made['MS-Ico-fine']}."""
