@@ -124,7 +124,8 @@ def why_less(found):
         own.append(math.log(stiffer(name)) / math.log(DELTA_MA["AM1"]["SS"] / delta))
         papers.append(math.log(1 + percent / 100) / math.log(DELTA_MA["AM1"]["SS"] / DELTA_MA["AM1"][name]))
     return wrapped(f"""Our calibrated δ_MA are larger than the values of the paper, although our fine clusters are
-        stiffer than those of the paper, so that their calibration must reduce |E\\*| by more. To explain this, assume
+        stiffer than the fine clusters of the paper, so that their calibration must reduce |E\\*| by more. To explain
+        this, assume
         that |E\\*| is proportional to δ_MA^n. With δ_MA = 3.15 the clusters are stiffer than single spheres (Fig.
         11), and with the calibrated δ_MA they are not; this gives n = {between(own, "{:.2f}")} here and
         {between(papers, "{:.2f}")} in the paper (AM1). n is the fraction of

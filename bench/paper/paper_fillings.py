@@ -52,8 +52,9 @@ def hints(facts):
     spheres = [facts.void("MS-Ico-coarse", [0, 1]).spheres, ico[1].spheres]
     apart = max(abs(v.number - budget[r][1]) for v, r in zip(ico, FILLINGS))
     entries = [
-        f"""*From the mastic.* In SS the volume of the mastic is {ss.volume(4):.3f} and that of the aggregates
-            {ss.to_box - ss.volume(4):.3f} of the box, together {ss.to_box:.3f}. If the paper filled its cluster
+        f"""*From the mastic.* In SS the mastic takes {ss.volume(4):.3f} and the aggregates take
+            {ss.to_box - ss.volume(4):.3f} of the volume of the box, together {ss.to_box:.3f}. If the paper filled its
+            cluster
             specimens with mastic
             to the same sum, the shapes have voids of {several(budget['coarse'])} (Poly and Ico, coarse) and
             {several(budget['fine'])} (fine). {rest} the assumption of an equal sum, and on mastic radii uniform in
@@ -71,7 +72,7 @@ def hints(facts):
     return [row for e in entries for row in wrapped(e, "- ")] + ["", *wrapped(
         f"""The three estimates disagree. The estimates from the mastic and from the number of aggregates have only
         ΣV_s in common. Both give voids in Ico, more in the coarse specimen than in the fine one, and differ by
-        {apart:.2f} at most. By the estimate from the spheres there are no voids. In our scenes the clusters have no
+        {apart:.2f} at most. The estimate from the spheres gives voids near zero. In our scenes the clusters have no
         voids: the spheres of a cluster have the same volume in sum as its shape."""), ""]
 
 

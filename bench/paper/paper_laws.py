@@ -134,8 +134,8 @@ def inner():
             *wrapped(f"""The inner moduli of the paper are within {upto_percent(abs(e / ROCK['E'] *
                 uniform_strain(0.05) - 1)
                 for e in INNER_GPA.values())} of the values for uniform strain, and near our values by the gauge. The
-                paper does not state how its cubes were loaded; between walls like those of its specimens, a lower
-                inner modulus would be needed."""), ""]
+                paper does not state how its cubes were loaded; between walls as stiff as the walls of its specimens,
+                a lower inner modulus would be needed."""), ""]
 
 
 def section():
