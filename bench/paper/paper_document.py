@@ -66,7 +66,7 @@ def deviations(runs, name, base, key):
 
 def composition(runs, cells):
     out = ["## Composition (Table 3)", "", *wrapped("""Numbers of particles and spheres by sieve class (mm), mean size,
-        and share of the volume of all spheres, ΣV_s."""), ""]
+        and share (volume fraction in %) of the volume of all spheres, ΣV_s."""), ""]
     for name, paper in PAPER.items():
         def row(label, key, ours, theirs, digits=0, total=False):
             values = [mean(ours(run)[k] for run in runs[name]) for k in range(len(ours(runs[name][0])))]
@@ -84,10 +84,11 @@ def composition(runs, cells):
               if paper.radius else []),
             row("spheres", "spheres", lambda run: run.spheres, paper.spheres, total=True),
             size, row("share of ΣV_s (%)", "share", lambda run: run.share, paper.share, 1)])]
-        out += [*wrapped(f"""ΣV_s is {mean(run.to_box for run in runs[name]):.3f} of the box; in the paper it
-            is {paper.to_box:.3f} if the radii of its mastic are uniform."""), ""]
-    return out + [*wrapped("""The paper's shares are rounded. Here and in the scenes, the mastic's share is the rest to
-        100 %."""), ""]
+        out += [*wrapped(f"""ΣV_s is {mean(run.to_box for run in runs[name]):.3f} times the volume of the box. In the
+        paper ΣV_s is {paper.to_box:.3f} times this volume, if the radii of the paper's mastic are uniformly
+        distributed."""), ""]
+    return out + [*wrapped("""The shares in the paper are rounded. In this table and in the scenes the share of the
+    mastic is therefore 100 % minus the shares of the aggregate classes."""), ""]
 
 
 def design(runs):
@@ -104,13 +105,16 @@ def design(runs):
     contacts = [f"{mean(run.contacts[k] for run in runs):,.0f} {pair}" for k, pair in enumerate(PAIRS)]
     seconds = sorted(run.seconds for run in runs)
     return ["## Design formulation (Table 3, first column group)", "",
-            *wrapped(f"""The paper's insertion does not reach the shares of the mix design. `examples/{scene}`
-                (library shapes, coarse filling, packed all at once) reaches them. Shares are in % of the solid volume,
+            *wrapped(f"""The insertion of aggregates in the paper does not reach the volume fractions (shares) of the
+                mix design. `examples/{scene}`
+                (library shapes, coarse filling, all aggregates packed at once) reaches these shares. Shares are in %
+                of the solid volume,
                 which is {mean(solid):.2f} of the box. Values are means of {len(runs)} seeds, and the largest error of a
                 seed:"""), "",
             *table(["", "required (%)", "reached (%)", "error (% of the class)", "particles", "of these single spheres",
                     "spheres"], rows),
-            *wrapped(f"""Contacts: {', '.join(contacts)}, {mean(run.coordination for run in runs):.2f} per particle, and
+            *wrapped(f"""The specimen has the contacts {', '.join(contacts)},
+                {mean(run.coordination for run in runs):.2f} per particle, and
                 {mean(run.inner for run in runs):,.0f} inner contacts. `macadam specimen` took {seconds[0]:.0f} to
                 {seconds[-1]:.0f} s with {runs[0].threads} threads, while other runs used the machine."""), ""]
 
@@ -130,7 +134,8 @@ def contacts(runs, cells):
             of = [over(runs, name, "SS", value) for value in values]
             ratios.append([name, *[cells.beside(f"ratio/{name}/{heads[k]}", mean(v), theirs[k] / ss[k], 2,
                                                 half_range(v)) for k, v in enumerate(of)]])
-    return out + table(["", *heads, "inner"], rows) + ["Divided by SS of the same seed:", ""] + table(["", *heads], ratios)
+    return [*out, *table(["", *heads, "inner"], rows), "Divided by the values of SS with the same seed:", "",
+            *table(["", *heads], ratios)]
 
 
 def orientation(runs):
@@ -142,13 +147,14 @@ def orientation(runs):
         rows.append([name, f"{len(cosines):,}", *[f"{d:.3f}, p = {p:.2f}" for d, p in tests]])
     n = 3 * len(CLUSTERS)
     return ["## Orientation (Fig. 9)", "",
-            *wrapped("""The table compares the direction of D^L of the clusters with an isotropic distribution, whose
-                components are uniform: the Kolmogorov–Smirnov distance of each component, and the probability p of a
-                larger distance by chance (all seeds together)."""), "",
+            *wrapped("""The table compares the direction of D^L (the longest dimension) of the clusters with an
+            isotropic distribution, in which every component of the direction is uniformly distributed. It gives the
+            Kolmogorov–Smirnov distance of each component, and the probability p of a larger distance by chance (all
+            seeds together)."""), "",
             *table(["", "clusters", "x", "y", "z"], rows),
             *wrapped(f"""The smallest of these {n} probabilities is {least:.3f}. Among {n} independent
-                probabilities, one at or below this value occurs by chance in {100 * (1 - (1 - least) ** n):.0f} % of cases,
-                so the directions are isotropic as far as these numbers show."""), "",
+                probabilities, at least one is this small by chance in {100 * (1 - (1 - least) ** n):.0f} % of all
+            cases. These numbers therefore do not contradict isotropic directions."""), "",
             "![Cumulative distribution of the components of the direction of D^L, four specimens; all lie on the diagonal"
             " of the isotropic distribution](pictures/orientation.png)", ""]
 
@@ -161,8 +167,10 @@ def stiffness(runs, cells):
             series = [[getattr(run, key)[k] for run in of] for k in range(len(hz))]
             rows.append([f"{name}, {label} ({unit})", *[f"{mean(s):.3f} ± {half_range(s):.3f}" for s in series]])
     out = ["## Stiffness (Fig. 11)", "",
-           "Frequency domain, without inertia, AM1 with the same factors δ in all specimens.", "", *table(["", *hz], rows),
-           "Deviation from SS of the same seed, its mean over the frequencies (d_m, Eq. 26), and the paper's in brackets:", ""]
+           "The values are solved in the frequency domain, without inertia, for AM1 with the same factors δ in all "
+           "specimens.", "", *table(["", *hz], rows),
+           "Deviation from SS of the same seed, and its mean over the frequencies (d_m, Eq. 26), with d_m of the paper in "
+           "brackets:", ""]
 
     def compared(pairs, where):
         rows = []
@@ -177,7 +185,7 @@ def stiffness(runs, cells):
     out += compared([(name, "SS", name, DEVIATION[name]) for name in CLUSTERS], "deviation")
     out += ["![Above: stiffness modulus and phase angle over frequency, five specimens. Below: mean deviations from single "
             "spheres, ours and the paper's](pictures/specimens_e_star.png)", "", "### Real shapes and icosahedra", "",
-            "Deviation of Ico from Poly. In the paper the coarse specimens are identical:", ""]
+            "Deviation of Ico from Poly. In the paper the results of the two coarse specimens are identical:", ""]
     return out + compared([(f"MS-Ico-{size}", f"MS-Poly-{size}", size, paper) for size, paper in ICO_OVER_POLY.items()],
                           "shape")
 
@@ -187,7 +195,8 @@ def pictures():
     name, paper = next((n, p) for n, p in PAPER.items() if n == "MS-Poly-fine")
     out = ["## Sections and views (Figs. 7, 8, 10)", "",
            *wrapped(f"""{name}, seed 1: Laguerre cells cut at x = 25 mm, and the aggregates without the mastic. Mastic is
-               blue. Aggregates have the colour of their sieve class, and the spheres of a cluster are shades of it."""),
+               blue. Aggregates have the colour of their sieve class, and the spheres of one cluster have different
+           shades of this colour."""),
            "", line(["x = 25 mm", "aggregates"]), "|---|---|",
            line([f"![Cut through {name}: cells of mastic blue, aggregates by sieve class]"
                  f"(pictures/{paper.scene}_x_0.025.png)",
@@ -213,22 +222,29 @@ def verdict(runs):
             clusters {beside(fine, 'e_star', 0)}.""",
                f"""**φ against SS, not reproduced in size:** coarse clusters {beside(coarse, 'phase', 1)}, fine clusters
             {beside(fine, 'phase', 1)}.""",
-               f"""**Contacts between aggregates:** clusters have {data.between(fewer, '{:.0f}')} % fewer than in the
-            paper.""",
-               """**Most probable cause:** choices that the paper does not state, above all the porosity of the clusters and
-            the test by which they are kept apart ([details](paper-details.md#choices-that-the-paper-does-not-state)).""",
+               f"""**Contacts between aggregates:** the clusters have {data.between(fewer, '{:.0f}')} % fewer of these
+               contacts than the clusters in the paper.""",
+               """**Most probable cause:** choices that the paper does not state, above all the porosity of the
+               clusters and the test that keeps clusters apart when they are placed
+               ([details](paper-details.md#choices-that-the-paper-does-not-state)).""",
                """**Not compared:** measurements. The measured moduli are not in the paper."""]
     return ["# The paper's specimens", "",
-            *wrapped(f"""This page compares the specimens of [the paper](model.md#source), made and solved with Macadam, with
-                its Table 5 and its Figs. 7 to 13. [Details](paper-details.md) has its Tables 3 and 4 and Figs. 4, 6c and 9,
-                the reasons of the differences, and the choices that the paper does not state. Tables 1 and 2 and Figs. 5 and
-                6a, b, d are in [shapes.md](shapes.md) and [filling.md](filling.md)."""), "",
+            *wrapped(f"""The specimens of the published study ("the paper", [[1]](model.md#source)) were generated and
+            solved with Macadam. This page compares the results with Table 5 and Figs. 7 to 13 of the paper.
+            [Details](paper-details.md) compares them with Tables 3 and 4 and Figs. 4, 6c and 9 of the paper, and
+            gives the reasons of the differences and the choices that the paper does not state. The comparisons with
+            Tables 1 and 2 and Figs. 5 and 6a, b, d are in [shapes.md](shapes.md) and [filling.md](filling.md)."""),
+            "",
             *[row for e in entries for row in wrapped(e, "- ")], "",
-            *wrapped(f"""SS are single spheres. MS are clusters ("multi-spheres") of real shapes (Poly) or icosahedra (Ico),
-                filled with coarse or fine spheres. In the tables our value is first, and the paper's is in brackets. Values
-                are means of {len(runs['SS'])} seeds; ± is half the range over the seeds. If two values differ by more than
-                10 %, the cell is bold, and its letter names [the reason](paper-details.md#reasons-of-the-differences).
-                Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`. `bench/paper/paper` computes the results in
+            *wrapped(f"""SS is the specimen of single spheres. MS are specimens of clusters ("multi-spheres") of real
+                shapes (Poly) or icosahedra (Ico),
+                filled with coarse or fine spheres. In the tables the value of Macadam ("ours") is first, and the
+                value of the paper is in brackets. Values
+                are means of {len(runs['SS'])} seeds; ± is half the range over the seeds. If the two values differ by
+                more than 10 %, the cell is bold, and a letter names [the
+                reason](paper-details.md#reasons-of-the-differences).
+                The scenes are `examples/ac14_ss_am1` and `examples/ac14_ms_*`. `bench/paper/paper` computes the
+                results in
                 [bench/results](../bench/results), and `scripts/documents` writes this page."""), ""]
 
 
@@ -236,5 +252,6 @@ def details_head():
     return ["# The paper's specimens: details", "",
             *wrapped("""This page is for reviewers of the [comparison with the paper](paper-specimens.md). It has the tables of
                 composition, the other figures, the origin of the contacts' moduli, the reasons of the differences, and a
-                study of the choices that the paper does not state. Notation and brackets are explained there.
+                study of the choices that the paper does not state. The page of the comparison explains the notation
+                and the values in brackets.
                 `scripts/documents` writes this page."""), ""]

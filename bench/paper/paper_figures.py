@@ -31,18 +31,21 @@ def numbers_of_spheres():
     lines.append(["correlation with the number", "", *[minus(f"{v:+.2f}") for v in r.values()]])
     lines.append(["… without the icosahedron", "", *[minus(f"{v:+.2f}") for v in alone.values()]])
     return ["## Spheres against shape (Fig. 6c)", "", *wrapped(f"""The table has the number of spheres of 0.5 mm that fill each of
-        seven shapes of the same D^I, 12.59 mm, and the correlation of this number with the indices of shape (Eqs. 18–23). The
-        paper draws them and states that no index is strongly correlated; it gives no coefficients. With {len(found)} shapes a
-        coefficient below 0.75 is not significant (5 %, two-sided); with {len(found) - 1}, below 0.81
+        seven shapes of the same D^I, 12.59 mm, and the correlation of this number with the indices of shape (Eqs.
+        18–23). The paper draws the number over each index and states that no index is strongly correlated with the
+        number; it does not give coefficients. With {len(found)} shapes a coefficient below 0.75 is not significant (5
+        %, two-sided); with {len(found) - 1} shapes a coefficient below 0.81 is not
         ([fill-study.csv](../bench/results/fill-study.csv); [filling.md](filling.md)):"""), "",
             *table(["", "spheres", *INDEXES.values()], lines)]
 
 
 def gradation():
     return ["## Gradation (Fig. 4)", "",
-            *wrapped("""The paper draws Fig. 4 without numbers: the AC 20 whose aggregates it scanned. Ours is
-                `examples/ac20_recipe`, on a Fuller curve. The paper gives the AC 14 by mass, and `examples/ac14_recipe`
-                follows it ([mix-design.md](mix-design.md)). `scripts/draw-gradation` draws the required and the reached
+            *wrapped("""Fig. 4 of the paper shows, without numbers, the gradation of the AC 20 whose aggregates were
+                scanned. Our AC 20 is
+                `examples/ac20_recipe`, on a Fuller curve. The paper gives the mix design of the AC 14 by mass, and
+                `examples/ac14_recipe` uses this design ([mix-design.md](mix-design.md)). `scripts/draw-gradation`
+                draws the required and the reached
                 gradation of any specimen of a recipe:"""), "",
             "| AC 14 | AC 20 |", "|---|---|",
             "| ![Passing mass over sieve size of AC 14, required and reached](pictures/gradation_ac14.png) "
@@ -56,11 +59,12 @@ def directions(runs):
         clusters = [mean(run.particles[k] - run.single[k] for run in runs[name]) for k in range(3)]
         lines.append([name, *[f"{c:,.0f} ({PAPER[name].particles[k]})" for k, c in enumerate(clusters)],
                       f"{sum(clusters):,.0f} ({sum(PAPER[name].particles[:3])})"])
-    return ["### Directions (Figs. 9a, b)", "", *wrapped("""The paper draws D^L of each cluster above 4.75 mm as a line, without
-        numbers. The table has our numbers of clusters, and in brackets the paper's numbers of aggregates in these classes,
-        which include single spheres. Pictures (seed 1): [MS-Poly-fine](pictures/ac14_ms_poly_fine_axes.png),
-        [MS-Poly-coarse](pictures/ac14_ms_poly_coarse_axes.png); a line has the colour of its sieve class, as in the
-        sections."""), "",
+    return ["### Directions (Figs. 9a, b)", "", *wrapped("""In Figs. 9a and b of the paper a line shows the direction
+        of D^L of each cluster above 4.75 mm, without numbers. The table has our numbers of clusters and, in brackets,
+        the numbers of aggregates in these classes in the paper, which include single spheres. Our pictures (seed 1)
+        are [MS-Poly-fine](pictures/ac14_ms_poly_fine_axes.png),
+        [MS-Poly-coarse](pictures/ac14_ms_poly_coarse_axes.png); in these pictures a line has the colour of its sieve
+            class, as in the pictures of sections."""), "",
             *table(["clusters", *CLASSES[:3], "together"], lines),
             ]
 
@@ -119,12 +123,15 @@ def why_less(found):
         delta = mean(r["delta_ma"] for r in where(found, mix="AM1", specimen=name))
         own.append(math.log(stiffer(name)) / math.log(DELTA_MA["AM1"]["SS"] / delta))
         papers.append(math.log(1 + percent / 100) / math.log(DELTA_MA["AM1"]["SS"] / DELTA_MA["AM1"][name]))
-    return wrapped(f"""Our δ_MA are larger than the paper's, although the calibration of our fine clusters must remove more
-        |E\\*|. Assume |E\\*| ∝ δ_MA^n. The excess over single spheres at δ_MA = 3.15 (Fig. 11) vanishes at the calibrated δ_MA,
-        which gives n = {between(own, "{:.2f}")} here and {between(papers, "{:.2f}")} in the paper (AM1). n is the fraction of
-        the stiffness that M-A contacts carry. So in the paper's specimens less force passes through the mastic between
-        aggregates and more from aggregate to aggregate, in agreement with its larger number of A-A contacts (ᶠ).
-        *Inferred.*""") + [""]
+    return wrapped(f"""Our calibrated δ_MA are larger than the values of the paper, although our fine clusters are
+        stiffer than the fine clusters of the paper, so that their calibration must reduce |E\\*| by more. To explain
+        this, assume
+        that |E\\*| is proportional to δ_MA^n. With δ_MA = 3.15 the clusters are stiffer than single spheres (Fig.
+        11), and with the calibrated δ_MA they are not; this gives n = {between(own, "{:.2f}")} here and
+        {between(papers, "{:.2f}")} in the paper (AM1). n is the fraction of
+        the stiffness that M-A contacts carry. In the specimens of the paper, therefore, less force passes through the
+        mastic between aggregates and more from aggregate to aggregate, in agreement with the larger number of A-A
+        contacts in the paper (ᶠ). This explanation is *inferred*.""") + [""]
 
 
 # ---- stepped in time
@@ -145,15 +152,17 @@ def stepped():
     poly = {r["frequency_hz"]: r["stepping_s"] for r in found if r["specimen"] == "MS-Poly-fine"}
     faster = [86400 * days / poly[hz] for hz, days in zip((20.0, 2.0), PAPERS_DAYS) if hz in poly]
     out = ["## Stepped in time, at true mass", "",
-           *wrapped(f"""One cycle of {listed([f"{hz:g}" for hz in sorted({r['frequency_hz'] for r in found})])} Hz from the steady start, mixed precision, no density scaling.
+           *wrapped(f"""The table is for one cycle of {listed([f"{hz:g}" for hz in
+               sorted({r['frequency_hz'] for r in found})])} Hz from the steady start, mixed precision, no density
+               scaling.
                The difference from the frequency domain without inertia, which all other tables use, is at most {off:.1e}
                ([results](../bench/results/paper-stepped.csv) of `bench/paper/paper-stepped`):"""), "",
            *table(["", "f (Hz)", "10⁶ steps", "step (ns)", "µs per step", "seconds", "\\|E*\\| (GPa)", "difference (10⁻⁹)",
                    "φ (°)", "difference (10⁻⁹ rad)"], lines)]
-    text = f"""The paper's stepped runs of MS-Poly-fine took {PAPERS_DAYS[0]} days (20 Hz) to {PAPERS_DAYS[1]} days
-        (2 Hz) on one core of an i9-10900KF; the paper does not state the number of cycles. Here a cycle of the specimens in the
-        table takes {listed(seconds)}, with the version and the GPU that its file names. A step is faster since then
-        ([benchmarks](../bench/README.md))."""
+    text = f"""The stepped runs of MS-Poly-fine in the paper took {PAPERS_DAYS[0]} days (20 Hz) to {PAPERS_DAYS[1]} days
+        (2 Hz) on one core of an i9-10900KF; the paper does not state the number of cycles. With Macadam a cycle of
+        the specimens in the table took {listed(seconds)}; the file of the results names the version and the GPU.
+        Since then a time step has become faster ([benchmarks](../bench/README.md))."""
     if faster:
         text += f""" Of MS-Poly-fine it is {span(faster, lambda x: thousands(round(x, -2)), ' to ')} times faster, if the
             paper's were one cycle too, by the machine, the precision and the condensed contacts together."""

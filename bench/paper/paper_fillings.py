@@ -15,8 +15,8 @@ def two(value):
 
 def reasons(facts, letters):
     out = ["## Reasons of the differences", "",
-           *wrapped("""The letters of the bold cells, here and in [the comparison](paper-specimens.md). *Inferred* means
-               that numbers support the reason without proving it."""), ""]
+           *wrapped("""Each letter belongs to bold cells on this page or in [the comparison](paper-specimens.md).
+           *Inferred* means that numbers support the reason but do not prove it."""), ""]
     for letter, _, reason in REASONS:
         out += wrapped(f"{letter} {reason(facts)}", "- ") if letter in letters else []
     at = {key: [mean(d[k] for d in deviations(facts.runs, "MS-Ico-fine", "SS", key)) for k in (0, -2)]
@@ -46,34 +46,41 @@ def implied_voids(facts):
 def hints(facts):
     """Returns the list of hints at the void in the paper's clusters that follow from its numbers, each with its
     basis."""
-    ss, rest = PAPER["SS"], "This rests on"
+    ss, rest = PAPER["SS"], "This estimate rests on"
     budget = {r: [PAPER[f"MS-{s}-{r}"].void_of_mastic for s in ("Poly", "Ico")] for r in FILLINGS}
     ico, poly = ([facts.void(f"MS-{s}-{r}", [0, 1, 2]) for r in FILLINGS] for s in ("Ico", "Poly"))
     spheres = [facts.void("MS-Ico-coarse", [0, 1]).spheres, ico[1].spheres]
     apart = max(abs(v.number - budget[r][1]) for v, r in zip(ico, FILLINGS))
     entries = [
-        f"""*From the mastic.* In SS mastic has {ss.volume(4):.3f} of the box and aggregates
-            {ss.to_box - ss.volume(4):.3f}, together {ss.to_box:.3f}. If the paper filled its cluster specimens with mastic
+        f"""*From the mastic.* In SS the mastic takes {ss.volume(4):.3f} and the aggregates take
+            {ss.to_box - ss.volume(4):.3f} of the volume of the box, together {ss.to_box:.3f}. If the paper filled its
+            cluster
+            specimens with mastic
             to the same sum, the shapes have voids of {several(budget['coarse'])} (Poly and Ico, coarse) and
-            {several(budget['fine'])} (fine). {rest} that sum, and on mastic radii uniform in 0.75–1 mm.""",
-        f"""*From the number of aggregates* at the same share: voids of {several(v.number for v in ico)} in Ico
-            (coarse and fine) if sizes are considered, {several(1 - 1 / v.ratio for v in ico)} if not. The table has the
-            standard deviation that follows from the small number of sizes. {rest} shapes like ours. So Ico, whose shape is
-            known, is informative, and Poly ({several(v.number for v in poly)}) is not: a negative void means that the
-            paper's shapes have more volume than ours at the same D^I.""",
-        f"""*From the spheres of an aggregate*: voids of {several(spheres)} in Ico (coarse without the class
-            with many single spheres), near zero ([filling.md](filling.md#spheres-against-radius)). {rest} uniform radii, and the
+            {several(budget['fine'])} (fine). {rest} the assumption of an equal sum, and on mastic radii uniform in
+        0.75–1 mm.""",
+        f"""*From the number of aggregates* at the same share: the clusters of Ico have voids of
+            {several(v.number for v in ico)} (coarse and fine) if the sizes of the aggregates are considered, and
+            {several(1 - 1 / v.ratio for v in ico)} if not. The table has the
+            standard deviation that follows from the small number of sizes. {rest} shapes like ours. The estimate is
+        therefore informative for Ico, whose shape is known, and not for Poly ({several(v.number for v in poly)}). A
+        negative void means that the paper's shapes have more volume than ours at the same D^I.""",
+        f"""*From the spheres of an aggregate*: the clusters of Ico have voids of {several(spheres)} (coarse and fine;
+            coarse without the class with many single spheres), which is near zero
+            ([filling.md](filling.md#spheres-against-radius)). {rest} uniform radii, and the
             coarse radii are not uniform (ᶜ)."""]
     return [row for e in entries for row in wrapped(e, "- ")] + ["", *wrapped(
-        f"""The three estimates disagree. Mastic and number of aggregates, which share only ΣV_s, both give voids in
-            Ico, more in the coarse specimen, and differ by {apart:.2f} at most. The spheres give no voids. Our scenes have no
-            voids: a cluster has the volume of its shape."""), ""]
+        f"""The three estimates disagree. The estimates from the mastic and from the number of aggregates have only
+        ΣV_s in common. Both give voids in Ico, more in the coarse specimen than in the fine one, and differ by
+        {apart:.2f} at most. The estimate from the spheres gives voids near zero. In our scenes the clusters have no
+        voids: the spheres of a cluster have the same volume in sum as its shape."""), ""]
 
 
 def fillings(facts):
     return ["## Porosity of the clusters", "",
-            *wrapped("""The porosity of a cluster is 1 − the sum of its spheres' volumes over the volume of its shape. Our
-                clusters have 0. They do not cover their shapes completely, because overlaps count twice in the sum
+            *wrapped("""The porosity (void) of a cluster is 1 − (sum of the volumes of its spheres) / (volume of its
+                shape). Our clusters have the porosity 0. They do not cover their shapes completely, because overlaps
+                count twice in the sum
                 ([covered fraction](filling.md#porosity-0)). The paper does not state its porosity, but it can be estimated
                 in three ways:"""), "",
             *hints(facts), *implied_voids(facts)]
@@ -81,11 +88,12 @@ def fillings(facts):
 
 def making(runs, times):
     wall, used = [r.wall for r in runs if r.wall], [r.memory for r in runs if r.memory]
-    return ["## Time to make them", "", *wrapped("""`macadam specimen SCENE`, seed 1
+    return ["## Time to generate the specimens", "", *wrapped("""The table has times of `macadam specimen SCENE` with
+        seed 1
         ([paper-specimens-time.csv](../bench/results/paper-specimens-time.csv)):"""), "",
             *table(["", "seconds", "cores", "measured"], [list(t.values()) for t in times]),
-            *wrapped(f"""The longest time is spent in inserting the last shapes. Making and solving one of the
-                specimens at four frequencies took {min(wall):.0f} to {max(wall):.0f} s and up to
+            *wrapped(f"""Most of the time is spent in inserting the last shapes. To generate one of the specimens and
+                solve it at four frequencies took {min(wall):.0f} to {max(wall):.0f} s and up to
                 {memory(used)} with {runs[0].threads} threads, while other runs used the machine."""), ""]
 
 

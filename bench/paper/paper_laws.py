@@ -73,29 +73,35 @@ def mastic():
                       f"{mean(over_all):.2f} ({DELTA_MM[mix]:.2f})", minus(f"{mean(map(mean, phase)):+.2f}")])
         said.append(mean(over_all))
     alpha = laws("AM1")["M-M"]["alpha"]
-    return ["### δ_MM", "", *wrapped(f"""A specimen of mastic spheres is less stiff than its contacts. δ_MM corrects this: it is
-        |E\\*| of the contacts' law over |E\\*| of the specimen. Our specimens are of mastic alone, in the mixture's box, with
+    return ["### δ_MM", "", *wrapped(f"""The modulus of a specimen of mastic spheres is lower than the modulus in the
+        law of its contacts. The factor δ_MM corrects this difference: it is
+        |E\\*| of the law of the contacts divided by |E\\*| of the specimen. Our specimens consist of mastic alone, in
+        the mixture's box, with
         the law and walls of Table 4, radii uniform in 0.75–1 mm and porosity 0.05; the paper does not state the size of its
-        specimen. Uniform strain, the upper bound for a large body, gives 1/{uniform_strain(alpha):.3f} =
+        specimen. If all spheres moved with the mean strain (uniform strain, an upper bound of the stiffness of a
+        large body), δ_MM would be 1/{uniform_strain(alpha):.3f} =
         {1 / uniform_strain(alpha):.2f} at α = {alpha}. Local relaxation raises δ_MM above this value, and the stiff walls
         reduce it."""), "",
             *table(["δ_MM", *[f"{hz} Hz" for hz in FREQUENCIES], "mean (paper)", "φ minus φ of the law (°)"], lines),
-            *wrapped(f"""The paper's {DELTA_MM['AM1']:.2f} and {DELTA_MM['AM2']:.2f} differ from ours by
+            *wrapped(f"""The values of the paper, {DELTA_MM['AM1']:.2f} (AM1) and {DELTA_MM['AM2']:.2f} (AM2), differ
+                from ours by
                 {100 * (DELTA_MM['AM1'] / said[0] - 1):+.0f} and {100 * (DELTA_MM['AM2'] / said[1] - 1):+.0f} %. The paper
-                found its factors by trial against a measured mastic, so they also correct the misfit of its law. Ours is exact
-                for a law with the mastic's moduli. The measured moduli are not in the paper.
-                [laws-from-data.md](laws-from-data.md) fits laws, and recovers those of Table 4 from their own curves."""), ""]
+                found its factors by trial against a measured mastic, so these factors also correct the misfit of its
+                law. Our factor is exact for a law that has the moduli of the mastic. The measured moduli are not in
+                the paper. The fit of [laws-from-data.md](laws-from-data.md) recovers the laws of Table 4 from their
+                own curves."""), ""]
 
 
 def ratios():
     values = {mix: laws(mix)["M-A"]["E_m"] / laws(mix)["M-M"]["E_m"] for mix in MIXES}
     aa = laws("AM1")["A-A"]["E"]
     halves = {mix: 2 / (1 / aa + 1 / laws(mix)["M-M"]["E_m"]) / laws(mix)["M-M"]["E_m"] for mix in MIXES}
-    return ["### δ_MA", "", *wrapped(f"""The M-A row of Table 4 is its M-M row times {values['AM1']:.2f} (AM1) and
-        {values['AM2']:.2f} (AM2), the stated δ_MA; δ_MM is included in the row. The paper assumes that an M-A contact is the
-        elastic A-A contact and the viscoelastic M-M contact in series. Two halves in series would multiply E_m by
-        {halves['AM1']:.2f} and {halves['AM2']:.2f}, and a series does not multiply a whole row by one number. So the row is
-        a fit; our scenes use it without a change."""), ""]
+    return ["### δ_MA", "", *wrapped(f"""The row M-A of Table 4 is the row M-M times {values['AM1']:.2f} (AM1) and
+        {values['AM2']:.2f} (AM2), which are the stated values of δ_MA; the row M-M includes δ_MM. The paper assumes
+        that an M-A contact is the
+        elastic A-A contact and the viscoelastic M-M contact in series. Two such halves in series would multiply E_m
+        by {halves['AM1']:.2f} (AM1) and {halves['AM2']:.2f} (AM2), and would not multiply all constants of the row by
+        one number. The row is therefore a fit; our scenes use it without a change."""), ""]
 
 
 def springs():
@@ -103,9 +109,10 @@ def springs():
     confined = e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
     return ["### 115.1 GPa of A-A", "", *wrapped(f"""The paper estimates this modulus with two springs in series, from a rock of
         {e:.0f} GPa and ν = {nu}, without a formula. Two springs of the rock, each from a centre to the contact, are
-        {e:.1f} GPa in series (Eq. 11 divides by the whole distance); with the modulus of lateral constraint,
-        E·(1 − ν)/((1 + ν)(1 − 2ν)), {confined:.1f} GPa. The paper's is {aa / e:.3f} times the rock's, and
-        {aa / confined:.3f} times the constrained modulus; 1.5 times that modulus is {1.5 * confined:.1f} GPa. *Inferred:* the
+        {e:.1f} GPa in series (Eq. 11 divides by the whole distance); with the constrained modulus (no lateral
+        strain), E·(1 − ν)/((1 + ν)(1 − 2ν)), they are {confined:.1f} GPa. The modulus in the paper is {aa / e:.3f}
+        times the modulus of the rock, and {aa / confined:.3f} times the constrained modulus; 1.5 times the
+        constrained modulus is {1.5 * confined:.1f} GPa. *Inferred:* the
         factor 1.5, from the digits alone; its reason is *not explained*. Uniform strain at α = 0.05 gives
         {e / uniform_strain(0.05):.1f} GPa, near the inner moduli below."""), ""]
 
@@ -119,13 +126,16 @@ def inner():
         ours = [between([mean(r[key] for r in found if r["filling"] == f) for f in ("shape", "recipe")], "{:.1f}")
                 for key in ("contact_for_gauge_gpa", "contact_for_walls_gpa")]
         lines.append([size, f"{theirs:.1f}", *ours, f"{ROCK['E'] / uniform_strain(0.05):.1f}"])
-    return ["### Inner moduli", "", *wrapped("""The table has E of inner contacts with which a cube of 20 mm has the rock's modulus, 60 GPa,
-        measured by a gauge on the cube, or between its walls, which are stiffer than the rock. The range is over two ways to
-        fill a cube ([aggregate-cube.md](aggregate-cube.md)):"""), "",
+    return ["### Inner moduli", "", *wrapped("""The table gives the modulus E of the inner contacts with which a cube
+            of 20 mm has the modulus of the rock, 60 GPa. The modulus of the cube is measured either by a gauge on its
+            middle part, or between the walls, which are stiffer than the rock. A range is over two ways to fill a
+            cube ([aggregate-cube.md](aggregate-cube.md)):"""), "",
             *table(["GPa", "paper", "ours, gauge", "ours, walls", "uniform strain"], lines),
-            *wrapped(f"""The paper's are within {upto_percent(abs(e / ROCK['E'] * uniform_strain(0.05) - 1)
-                for e in INNER_GPA.values())} of uniform strain, and near ours by the gauge. The paper does not
-                state how its cubes were held; with the walls of its specimens they would need less."""), ""]
+            *wrapped(f"""The inner moduli of the paper are within {upto_percent(abs(e / ROCK['E'] *
+                uniform_strain(0.05) - 1)
+                for e in INNER_GPA.values())} of the values for uniform strain, and near our values by the gauge. The
+                paper does not state how its cubes were loaded; between walls as stiff as the walls of its specimens,
+                a lower inner modulus would be needed."""), ""]
 
 
 def section():

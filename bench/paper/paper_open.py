@@ -43,7 +43,7 @@ def detail(title, of):
         paper, ss, j = PAPER[name], PAPER["SS"], of[name]
         ratios = [f"{r:.2f} ({a / b:.2f})" for r, a, b in zip(j.ratios, paper.contacts, ss.contacts)]
         lines.append([name, *ratios, *[minus(f"{d:+.0f} ({p:+d})") for d, p in zip(j.deviations, DEVIATION[name])]])
-    return [f"{title}, and the paper in brackets:", "",
+    return [f"{title}, with the values of the paper in brackets:", "",
             *table(["divided by SS", *QUANTITIES[:4], "\\|E*\\| (%)", "φ (%)"], lines)]
 
 
@@ -54,14 +54,16 @@ def choices():
             × 0.5 multiply it.""",
         """*tested by spheres*: insertion keeps the spheres of two clusters apart (`test = "spheres"`), not their
             surfaces.""",
-        """*inner gap g*: spheres of one cluster farther apart than g mean radii are not joined (`gap_max` of the pair
-            `inner`); at 0 they must touch, and below 0 overlap by g.""",
+        """*inner gap g*: spheres of one cluster are not joined if the gap between them is larger than g times the
+            mean radius (`gap_max` of the pair
+            `inner`); with g = 0 only spheres that touch are joined, with g below 0 only spheres that overlap by at
+        least this much.""",
         """*hold-out k*: the surfaces push mastic out while it relaxes, with k times the stiffness of a sphere
             (`hold_out`).""",
         f"""*narrow radii*: coarse spheres of {1e3 * NARROW[0]:.2f}–{1e3 * NARROW[1]:.2f} mm, which have the mean volume
             of the paper's spheres (ᶜ).""",
         "*spacing*: least distance between two aggregates when they are placed, also in SS.",
-        "*area_min*: facets below this fraction of the mean area are not contacts, also in SS.",
+        "*area_min*: facets with an area below this fraction of the mean area are not contacts, also in SS.",
         """*library aggregates and icosahedron*: the icosahedron as the 83rd shape of Poly, as in the paper;
             *composition of Ico*: the shares of Ico in Table 3, used for Poly.""",
         "*inner moduli × 0.5*: the paper states these moduli; the factor shows the effect of softer clusters."]
@@ -75,15 +77,18 @@ def section():
     by_choice = {choice: (merit, of) for merit, choice, of in found}
     merit, best, of = found[0]
     return ["## Choices that the paper does not state", "",
-            *wrapped(f"""Our clusters stiffen the specimen more than the paper's and have fewer A-A contacts.
+            *wrapped(f"""Our clusters stiffen the specimen more than the clusters of the paper, and have fewer A-A
+                contacts.
                 `bench/paper/paper_variants` varies the choices that the paper does not state, alone and together, in all four
                 specimens
                 ([paper-study.csv](../bench/results/paper-study.csv); seed 1, {SHORT[0]} and {SHORT[1]} Hz):"""), "", *choices(), "",
-            *wrapped(f"""The merit of a set is the root mean square, over the four specimens, of six misfits from the paper:
+            *wrapped(f"""The merit of a set is the root mean square, over the four specimens, of six differences
+                (misfits) from the paper:
                 A-A, M-A, M-M and total, divided by SS, each in units of {100 * CONTACT_SCALE:.0f} %, and d_m of |E\\*| and φ
-                in units of {DEVIATION_SCALE:.0f} points. The paper rounds d_m to half a point; another seed changes it by one
-                point and A-A by 4 %. So sets with a merit below 1 cannot be distinguished. The other columns are the root
-                mean squares of the misfits themselves. One choice at a time:"""), "",
+                in units of {DEVIATION_SCALE:.0f} points. The paper rounds d_m to half a point; a different seed
+                changes d_m by one point and the number of A-A contacts by 4 %. Sets with a merit below 1 can
+                therefore not be distinguished. The other columns are the root
+                mean squares of the single misfits. In the first table one choice at a time is changed:"""), "",
             *ranking([f for f in found if single(f[1])]), f"The best {SHOWN} of {len(found)} sets:", "",
             *ranking(found[:SHOWN]), *detail(f"The best, {best.label} (merit {merit:.1f})", of),
             *detail(f"Ours (merit {by_choice[OURS][0]:.1f})", by_choice[OURS][1])]

@@ -79,10 +79,11 @@ def number(f):
     voids = [(n, k, f.void(n, [k])) for n in CLUSTERS for k in range(3)]
     by_size = [f"{n[3:]} {CLASSES[k]} (number × {v.ratio:.2f}, of which sizes explain × {v.size:.2f})" for n, k, v in voids
                if v.ratio > 1.1 and v.size - 1 > 0.5 * (v.ratio - 1)]
-    return f"""*Fewer aggregates in the three large classes.* Shares refer to the volumes of spheres. So the same
-        share needs more clusters if the clusters have voids or are smaller. In these cells the paper's mean L^I is smaller
-        than ours, which explains most of the larger number or all of it: {', '.join(by_size)}. The smaller size is *not
-        explained*; in the largest class it may be chance. In the other cells the sizes are nearly equal, and voids may be
+    return f"""*Fewer aggregates in the three large classes.* Shares refer to the volumes of spheres. The same share
+        therefore needs more clusters if the clusters have voids or are smaller. In the following cells the mean L^I
+        of the paper is smaller than ours, which explains most or all of the larger number of aggregates:
+        {', '.join(by_size)}. Why the size is smaller in the paper is *not explained*; in the largest class it may be
+        chance. In the other cells the sizes are nearly equal, and voids may be
         the cause (*inferred*). With voids of 0.24 (coarse) and 0.12 (fine), Ico has {made['MS-Ico-coarse, voids']} and
         {made['MS-Ico-fine, voids']} aggregates; the paper has {paper['coarse']} and {paper['fine']}, and without voids
         Ico has {made['MS-Ico-coarse']} and {made['MS-Ico-fine']}."""
@@ -97,15 +98,17 @@ def small_class(f):
     weighted = [f.weighted_size(n, 3) for n in names]
     larger = ", ".join(f"{f.weighted_size('MS-Ico-fine', k):.1f} ({ico.size[k]:.1f})" for k in range(3))
     return f"""*2.0–4.75 mm of the fine specimens.* The paper's mean L^I of {poly.size[3]} and {ico.size[3]} mm (Poly
-        and Ico; 3.1 to 3.3 in its three other specimens) does not agree with its own volumes. The spheres of an aggregate
-        have {several(volume, '{:.1f}')} mm³, and a ball of that L^I has {several(ball, '{:.0f}')} mm³. Our aggregates
+        and Ico; 3.1 to 3.3 in its three other specimens) does not agree with the volumes in the paper. There the
+        spheres of an aggregate have {several(volume, '{:.1f}')} mm³, and a ball with this L^I as diameter has
+        {several(ball, '{:.0f}')} mm³. Our aggregates
         have a mean L^I of {f.of(names[0], 'size', 3):.1f} mm and {several(mine, '{:.1f}')} mm³. If each of our
-        aggregates is weighted by its number of spheres, the mean L^I is {several(weighted)} mm, near the paper's. But in
-        the larger classes of Ico this weighted mean is {larger} mm, so the paper's other values are not weighted in this
-        way. *Not explained.* The numbers of aggregates follow from these volumes. Numbers of spheres: voids of 0.12 make
-        {f.count('MS-Ico-fine, voids', 'spheres_3'):,} of Ico's {f.count('MS-Ico-fine', 'spheres_3'):,} (paper
-        {ico.spheres[3]:,}), because a cluster of eight spheres is then larger, and
-        {f.count('MS-Poly-fine, voids', 'spheres_3'):,} of Poly's {f.count('MS-Poly-fine', 'spheres_3'):,} (paper
+        aggregates is weighted by its number of spheres, the mean L^I is {several(weighted)} mm, near the values of
+        the paper. In the larger classes of Ico, however, this weighted mean is {larger} mm (paper in brackets), so
+        the other values of the paper are not weighted in this way. *Not explained.* The numbers of aggregates follow
+        from these volumes. Voids of 0.12 change the number of spheres of Ico from
+        {f.count('MS-Ico-fine', 'spheres_3'):,} to {f.count('MS-Ico-fine, voids', 'spheres_3'):,} (paper
+        {ico.spheres[3]:,}), because a cluster of eight spheres is then larger, and the number of spheres of Poly from
+        {f.count('MS-Poly-fine', 'spheres_3'):,} to {f.count('MS-Poly-fine, voids', 'spheres_3'):,} (paper
         {poly.spheres[3]:,}). *Inferred:* voids are the main cause."""
 
 
@@ -115,10 +118,12 @@ def coarse_spheres(f):
         return f"{min(of):.2f} to {max(of):.2f}"
 
     least = 4 / 3 * math.pi * 1.45e-3**3 / mean_sphere(COARSE)
-    return f"""*Fewer spheres in the large coarse classes.* Our radii are uniform in 1–2 mm. The paper's mean volume of
-        a sphere (share of ΣV_s over number) is {ratios('coarse', (0, 1))} of the mean volume of ours (fine:
-        {ratios('fine', range(3))}), so the same volume needs more spheres. *Inferred:* the paper's coarse radii have a
-        narrower distribution than ours. Its mean radius of 1.5 mm was at least 1.45 mm before rounding, and equal spheres of
+    return f"""*Fewer spheres in the large coarse classes.* Our radii are uniform in 1–2 mm. The mean volume of a
+        sphere in the paper (share of ΣV_s divided by the number of spheres) is {ratios('coarse', (0, 1))} times the
+        mean volume of our spheres (fine specimens:
+        {ratios('fine', range(3))}), so the same volume needs more spheres. *Inferred:* the coarse radii of the paper
+        have a narrower distribution than ours. The mean radius of 1.5 mm in the paper was at least 1.45 mm before
+        rounding, and equal spheres of
         1.45 mm already have {least:.2f} of our mean volume. The paper does not state the distribution."""
 
 
@@ -127,14 +132,15 @@ def spheres_follow(f):
     paper, single = PAPER[name], 100 * f.of(name, "single_volume", k) / f.of(name, "volume", k)
     return f"""*Fewer spheres of 4.75–9.5 mm in Poly-coarse,* because the number of aggregates is smaller (ᵃ). An
         aggregate has {f.of(name, 'spheres', k) / f.of(name, 'particles', k):.1f} spheres, in the paper
-        {paper.spheres[k] / paper.particles[k]:.1f}. {f.of(name, 'single', k):.0f} of our aggregates are single spheres, with
-        {single:.0f} % of the class's volume; the paper does not state its number."""
+        {paper.spheres[k] / paper.particles[k]:.1f}. {f.of(name, 'single', k):.0f} of our aggregates are single
+        spheres, with {single:.0f} % of the volume of the class; the paper does not state how many of its aggregates
+        are single spheres."""
 
 
 def smaller_size(f):
     return f"""*Mean L^I of 4.75–9.5 mm in Poly-fine.* It is 6.5 to 7.1 mm in the paper's other specimens, 6.9 mm with a
-        log-uniform distribution between the sieves, and {PAPER['MS-Poly-fine'].size[2]} mm in this cell of the paper. Shapes
-        like ours of that size would have less volume than their spheres (void
+        log-uniform distribution between the sieves, and {PAPER['MS-Poly-fine'].size[2]} mm in this cell of the paper.
+        With this mean size, shapes like ours would have less volume than their spheres (void
         {f.void('MS-Poly-fine', [2]).number:.2f}). *Not explained.*"""
 
 
@@ -144,19 +150,22 @@ def aggregate_contacts(f):
     ours, voids, spheres, together = (listed([f"{n:,}" for n in f.counts(c, "A-A")])
                                       for c in (OURS, Choice(voids=1), Choice(test="spheres"), both))
     off = [100 * (n / PAPER[name].contacts[0] - 1) for n, name in zip(f.counts(both, "A-A"), CLUSTERS)]
-    return f"""*Fewer A-A contacts.* In SS the numbers agree within {ss:.0f} %; the clusters differ. Our clusters are kept
+    return f"""*Fewer A-A contacts.* In SS the numbers of A-A contacts agree within {ss:.0f} %; in the specimens of
+        clusters they differ. Our clusters are kept
         apart by an exact test of their surfaces, and mastic lies between most of them. The paper fills an aggregate before it
-        places it, and does not state its test. If it tests the spheres, clusters interlock. In the order of the table, our
-        numbers are {ours}; {voids} with voids; {spheres} if the spheres are tested; and {together} with both, which differs
-        from the paper by {between(off, '{:+.0f}')} %. *Inferred:* both, and
+        places it, and does not state how it tests that aggregates do not overlap. If only the spheres are tested,
+        clusters interlock. In the order of the table, our numbers are {ours}; {voids} with voids; {spheres} if only
+        the spheres are tested; and {together} with voids and this test, which differs from the paper by
+        {between(off, '{:+.0f}')} %. *Inferred:* voids, this test, and
         [further choices](#choices-that-the-paper-does-not-state)."""
 
 
 def other_contacts(f):
     ratio = [f.count(v, "M-A") / f.count("SS", "M-A") for v in ("MS-Ico-coarse", "MS-Ico-coarse, voids")]
     paper = PAPER["MS-Ico-coarse"].contacts
-    return f"""*M-M and M-A of Ico-coarse.* Without voids the shapes take less space, so the mastic has more. With
-        voids of 0.24, M-M falls from {f.count('MS-Ico-coarse', 'M-M'):,} to {f.count('MS-Ico-coarse, voids', 'M-M'):,} (paper
+    return f"""*M-M and M-A of Ico-coarse.* Without voids the shapes take less space, so more space is left for the
+        mastic. With voids of 0.24, M-M falls from {f.count('MS-Ico-coarse', 'M-M'):,} to
+        {f.count('MS-Ico-coarse, voids', 'M-M'):,} (paper
         {paper[2]:,}), and M-A divided by SS rises from {ratio[0]:.2f} to {ratio[1]:.2f} (paper
         {paper[1] / PAPER['SS'].contacts[1]:.2f}). *Inferred:* voids."""
 
@@ -177,13 +186,15 @@ def shape(f):
                     (("", "e_star_pa"), (", composition of Ico", "e_star_pa"), (", composition of Ico", "phase_deg")))
     poly, ico = (PAPER[f"MS-{s}-coarse"] for s in ("Poly", "Ico"))
     box = [f"{sum(p.volume(k) for k in range(4)):.3f} and {p.volume(4):.3f}" for p in (ico, poly)]
-    return f"""*Ico against Poly.* Table 3, and therefore our scenes, give Ico more aggregate and less mastic: {box[0]} of
-        the box in the coarse specimens, Poly {box[1]}. With Ico's composition in Poly too (seed 1, mean of 2 and 20 Hz),
+    return f"""*Ico against Poly.* Table 3, and therefore our scenes, give Ico more aggregate and less mastic than
+        Poly: in the coarse specimens {box[0]} of the box for Ico, and {box[1]} for Poly. If Poly has the composition
+        of Ico (seed 1, mean of 2 and 20 Hz),
         |E\\*| of Ico differs from Poly's by {several(same, '{:+.1f}')} % (coarse and fine) instead of
-        {several(e, '{:+.1f}')} %, and φ by {several(phi, '{:+.1f}')} %. So the difference in composition explains our
-        difference in |E\\*|; for fine filling it over-explains it. At equal composition φ of Ico-fine is higher by the
-        same amount as in the paper ({ICO_OVER_POLY['fine'][1]:+} %). The paper's compositions are not equal, and why its
-        specimens differ as if they were is *not explained*."""
+        {several(e, '{:+.1f}')} %, and φ by {several(phi, '{:+.1f}')} %. The difference in composition therefore
+        explains our difference in |E\\*| between Ico and Poly; for fine filling its effect is even larger than this
+        difference. At equal composition φ of Ico-fine is higher by the
+        same amount as in the paper ({ICO_OVER_POLY['fine'][1]:+} %). The compositions in the paper are not equal. Why
+        its specimens differ as if they had equal compositions is *not explained*."""
 
 
 REASONS = [
