@@ -187,7 +187,8 @@ TEST_F(CracksOfATest, ACyclicTestThatBreaksTheSpecimenEndsTheFrequency) {
     EXPECT_TRUE(test.at("phase_deg").is_null());
     EXPECT_EQ(test.at("cracks").at("M-M").at("tension"), 5);
     EXPECT_EQ(test.at("cracks").at("M-M").at("first_s"), f.rupture->time_s);
-    EXPECT_HAS(test.at("rupture").at("words").get<std::string>(), "no intact contact path joins bottom and top wall");
+    EXPECT_HAS(test.at("rupture").at("words").get<std::string>(),
+               "no intact contact path joins the bottom and the top wall");
     const std::string warning = all.at("warnings").at(i + 1);
     EXPECT_EQ(warning.rfind(fmt::format("{} Hz: The specimen broke between t = ", f.frequency_hz), 0), 0u) << warning;
     EXPECT_HAS(warning, "|E*| and phi could not be measured");
