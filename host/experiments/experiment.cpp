@@ -36,15 +36,6 @@ std::vector<Experiment> all_experiments() {
   return out;
 }
 
-std::vector<std::string> files_of_run(const Scene& scene, bool aggregates) {
-  std::vector<std::string> out = {"summary.json", "specimen.csv"};
-  if (aggregates) out.emplace_back("aggregates.csv");
-  if (scene.recipe) out.emplace_back("gradation.csv");
-  for (std::string& name : files_written(scene)) out.push_back(std::move(name));
-  if (scene.output.contacts) out.emplace_back("contacts.csv");
-  return out;
-}
-
 std::vector<std::string> result_files() {
   std::vector<std::string> out = {"contacts.csv", "summary.json", cracks_file};
   for_each_kind([&](const Experiment& experiment) {

@@ -70,4 +70,13 @@ std::vector<std::string> files_written(const Scene& scene) {
                     scene.experiment);
 }
 
+std::vector<std::string> files_of_run(const Scene& scene, bool aggregates) {
+  std::vector<std::string> out = {"summary.json", "specimen.csv"};
+  if (aggregates) out.emplace_back("aggregates.csv");
+  if (scene.recipe) out.emplace_back("gradation.csv");
+  for (std::string& name : files_written(scene)) out.push_back(std::move(name));
+  if (scene.output.contacts) out.emplace_back("contacts.csv");
+  return out;
+}
+
 }  // namespace macadam

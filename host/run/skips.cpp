@@ -78,7 +78,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   }
   if (!reference && nothing_turns(prepared.network, scene.laws)) {
     out.push_back({"rotations", "without shear and with centred facets particles do not rotate",
-                   "first moments below 1e-12 count as 0"});
+                   "first moments of facets below 1e-12 of area times size count as 0"});
   }
   append(geometry_skips(geometry, strain));
   if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
@@ -86,9 +86,9 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
         {"second moments", "a facet has one contact point, so three chains of law states replace six", "rounding"});
   }
   if (const auto n = prepared.network.dropped_area; n > 0) {
-    out.push_back(
-        {"tiny facets", fmt::format("{} facets with an area below area_min are not contacts", n),
-         fmt::format("about {:.0e} of |E*|, their fraction of the facets' area", prepared.network.dropped_share)});
+    out.push_back({"tiny facets", fmt::format("{} facets with an area below area_min are not contacts", n),
+                   fmt::format("|E*| changes by about {:.0e}, the dropped fraction of the facets' area",
+                               prepared.network.dropped_share)});
   }
   if (const auto n = prepared.network.dropped_gap; n > 0) {
     out.push_back({"open facets", fmt::format("{} facets with a gap above gap_max are not contacts", n),

@@ -143,11 +143,11 @@ void require_possible(const Section& section, const SpecimenSpec& spec) {
   }
   const double aggregates = counted + fractions * solid;
   if (aggregates >= box) {
-    section.refuse("aggregate", fmt::format("aggregates of at least {:.4g} m3", aggregates),
+    section.refuse("aggregate", fmt::format("a total volume of aggregates of at least {:.4g} m3", aggregates),
                    fmt::format("less than the volume of the box, {:.4g} m3, because aggregates do not overlap", box));
   }
   if (spec.mastic && aggregates >= solid) {
-    section.refuse("aggregate", fmt::format("aggregates of at least {:.4g} m3", aggregates),
+    section.refuse("aggregate", fmt::format("a total volume of aggregates of at least {:.4g} m3", aggregates),
                    fmt::format("less than the solid volume at this porosity, {:.4g} m3", solid));
   }
   if (!(number <= static_cast<double>(most_particles))) {
@@ -248,9 +248,10 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
       section.refuse("spacing", "a spacing with placement = \"packing\"",
                      "gap in [specimen.shapes], or placement = \"insertion\" there");
     if (spec.shapes && !spec.fix_aggregates)
-      section.refuse("fix_aggregates", "false with shapes", "true, because the spheres of a shape would move apart");
+      section.refuse("fix_aggregates", "false with shapes",
+                     "true: otherwise the spheres of one shape would move apart");
     if (spec.voids && !spec.fix_aggregates)
-      section.refuse("fix_aggregates", "false with voids", "true, because voids would move too");
+      section.refuse("fix_aggregates", "false with voids", "true: otherwise the voids would move with the aggregates");
   }
   return spec;
 }

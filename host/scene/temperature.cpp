@@ -51,7 +51,7 @@ void apply_temperature(Scene& scene, const Section& root) {
     const Section section = root.find(in)->section();
     if (std::none_of(scene.shifts.begin(), scene.shifts.end(), shifts)) {
       section.refuse(key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
-                     "shift = \"wlf\", \"arrhenius\" or \"table\" in a [[contacts]]");
+                     "shift = \"wlf\", \"arrhenius\" or \"table\" in at least one section [[contacts]]");
     }
     LawTable at = laws_at(scene, temperature);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {

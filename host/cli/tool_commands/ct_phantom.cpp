@@ -68,8 +68,10 @@ void add_ct_phantom(CLI::App& ct) {
                0.0, 1.0);
   add_fraction(command, "--cupping", spec.cupping,
                "loss of grey value on the axis of the specimen, as a fraction of the grey value", 0.0, 1.0);
-  add_fraction(command, "--rings", spec.rings,
-               "offsets of the rings, as a fraction of the grey-value difference between aggregate and air", 0.0, 1.0);
+  add_fraction(
+      command, "--rings", spec.rings,
+      "grey-value offsets of ring artefacts, as a fraction of the grey-value difference between aggregate and air", 0.0,
+      1.0);
   add_fraction(command, "--drift", spec.drift, "change of brightness between slices, as a fraction of the grey value",
                0.0, 1.0);
   add_number(command, "--grey-air", spec.grey_air, "grey value of air", 0.0, 65535.0);

@@ -78,7 +78,7 @@ class LoadPlanner {
     if (!damping_.chosen) return;
     decide("viscous damping of {:.3g} 1/s: {}", plan_.damping,
            damping_.critical
-               ? "it is critical for the slowest wave, but waves have not died out at the first points"
+               ? "it is critical for the slowest wave, but waves have not died out at the first times of the table"
                : fmt::format("waves that a change of load causes die out within {:.3g} s", damping_.pause));
   }
 

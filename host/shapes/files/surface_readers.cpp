@@ -56,7 +56,8 @@ SurfaceSoup read_off(const SurfaceFile& file) {
   // Removes the prefixes for texture coordinates, colours and normals. These values follow the coordinates in a line.
   for (const std::string_view extra : {"ST", "C", "N"})
     if (plain.starts_with(extra)) plain.remove_prefix(extra.size());
-  if (plain != "OFF") words.fail("header", in_quotes(keyword), "OFF, a text file of points with three coordinates");
+  if (plain != "OFF")
+    words.fail("header", in_quotes(keyword), "the word OFF: a text file with three coordinates per point");
   const std::size_t points = words.count(words.next("the number of points"), "number of points");
   const std::size_t facets = words.count(words.next("the number of facets"), "number of facets");
   constexpr std::size_t least = 5;  // bytes of the shortest line: "0 0 0"
