@@ -8,9 +8,9 @@
 /// so only velocities must be exchanged between tiles. ExecCudaTiles::plan() calls plan_tiles() once per
 /// network, before the first step; the kernels read the plan through TileArrays (tile_step.hpp).
 ///
-/// Reading order of the tile path: this file; tile_step.hpp (one step of one contact, and the arrays);
-/// shared_memory_map.hpp and resident_kernel.hpp (the kernel that keeps tiles in registers and shared memory);
-/// halo_exchange.hpp (velocities between tiles); streamed_kernel.hpp (the kernel for larger scenes);
+/// Reading order of the tile path: this file; contact_words.hpp (the words of a contact); tile_step.hpp (one step of
+/// one contact, and the arrays); shared_memory_map.hpp, resident_kernel.hpp and resident_tile.hpp (the resident
+/// kernel); halo_exchange.hpp (velocities between tiles); streamed_kernel.hpp (the kernel for larger scenes);
 /// settle_kernels.hpp (updating viscoelastic states between blocks of steps); tile_blocks.hpp, tile_launch.hpp,
 /// tile_data.hpp and exec_cuda_tiles.hpp (the host side).
 ///

@@ -5,9 +5,9 @@
 /// A contact of a tile has two arrays of 16-byte words, both in the order [packet][word][lane]: constants, which a step
 /// only reads, and states, which it reads and writes. TileContactWords::pack() writes the constants before the first
 /// step, begin() and settle() change some of them between two blocks of steps, and a step reads them through
-/// ContactInBlock. To store one more number per contact, use an unused component (the fourth one of the tangent, with
-/// updated geometry) or add a word to Constant or State; the sizes of all arrays, copies to shared memory, checkpoints
-/// (settled_fields(), state_fields()) and messages between ranks follow from this file.
+/// ContactInBlock. To store one more number per contact, add a word to Constant or State, as docs/gpu-step.md
+/// describes; the sizes of all arrays, copies to shared memory, checkpoints (settled_fields(), state_fields()) and
+/// messages between ranks follow from this file.
 #pragma once
 
 #include <cuda_runtime.h>

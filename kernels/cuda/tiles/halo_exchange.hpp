@@ -8,7 +8,7 @@
 ///
 /// There are two sets of words, for even and for odd steps. Two are enough: a tile cannot be two steps ahead of a
 /// neighbour, because it waits for the neighbour's previous step. The caller is ResidentTile in
-/// resident_kernel.hpp. After an error of one device the host writes a later tag into all words (release_of()), so
+/// resident_tile.hpp. After an error of one device the host writes a later tag into all words (release_of()), so
 /// that the kernels of the other devices end. docs/gpu-step.md explains the whole path.
 #pragma once
 

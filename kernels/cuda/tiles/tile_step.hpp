@@ -4,7 +4,7 @@
 ///
 /// Callers are run_resident (resident_kernel.hpp) and run_streamed (streamed_kernel.hpp); tile_plan.hpp
 /// explains the words. In every step a thread block takes the velocities of its particles, its halo and the walls from
-/// a table in shared memory (TileVelocities); steps its contacts with step_in_block(), which stores loads into cells
+/// a table in shared memory (TileVelocities); steps its contacts with step_in_block() and stores their loads in cells
 /// (LoadCells); adds the cells of each particle with sum_lists(); and moves the particles.
 ///
 /// Steps are taken in blocks of up to longest_block steps (see block_settling.hpp and model (6.8)). A contact
