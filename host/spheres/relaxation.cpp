@@ -143,8 +143,8 @@ class Relaxation {
     }
   }
 
-  /// Computes the acceleration of a sphere, its terms of the sums and, on request, its energy.
-  void accelerate(std::size_t i, bool with_energy) {  // the wall's depth function may throw
+  /// Computes the acceleration of a sphere, its terms of the sums in `Dots` and, on request, its energy.
+  void accelerate(std::size_t i, bool with_energy) {  // may throw: it calls the wall's depth function
     const auto [c, r] = ball_[i];
     const double k_wall = is_aggregate(i) ? aggregate_stiffness : 1;
     Vec3d force{};
@@ -266,9 +266,9 @@ class Relaxation {
   Neighbours neighbours_;
   std::vector<Vec3d> velocity_, acceleration_;
   std::vector<double> energy_;
-  std::vector<Dots> dots_;                          ///< terms of the sums, with the velocity before the move
-  std::vector<Dots> by_number_;                     ///< dots_ of the moving spheres, in the order of numbers
-  std::vector<std::int32_t> place_;                 ///< places of the moving spheres, in the order of numbers
+  std::vector<Dots> dots_;           ///< each sphere's terms of the sums, with its velocity before the move
+  std::vector<Dots> by_number_;      ///< dots_ of the moving spheres, in the order of numbers
+  std::vector<std::int32_t> place_;  ///< places of the moving spheres, in the order of numbers
   std::vector<std::vector<std::int32_t>> strayed_;  ///< indices of spheres that moved too far, per range, ascending
 };
 

@@ -77,8 +77,8 @@ class Joined {
     }
   }
 
-  /// Returns the index of a tetrahedron in the result. \throws RunError if the result does not contain the tetrahedron,
-  /// because the parts differ.
+  /// Returns the index of a tetrahedron in the result. \throws RunError if the result does not contain the tetrahedron.
+  /// Then two parts have different tetrahedra in the same place.
   std::int32_t number_of(const Tetrahedron& t) {
     const std::span<Tetrahedron> all = of(t.site[0]);
     const auto found = std::ranges::lower_bound(all, t.site, come_before, &Tetrahedron::site);

@@ -35,7 +35,7 @@ class FacetPairs {
         return CGAL::do_intersect(triangle(a), triangle(b));
       case 1:  // one common corner: the far edge of one facet must intersect the other facet
         return CGAL::do_intersect(triangle(a), far_edge(b)) || CGAL::do_intersect(triangle(b), far_edge(a));
-      case 2:  // a common edge: they intersect if one is folded flat onto the other
+      case 2:  // a common edge: two facets intersect if one is folded flat onto the other
         return CGAL::coplanar(at(a[0]), at(a[1]), at(a[2]), at(b[2])) &&
                CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;
       default:

@@ -28,7 +28,7 @@ class DistanceField {
   /// Returns the interpolated signed distance. Outside the grid it is a lower bound, up to the interpolation error.
   double at(const Vec3d& point) const;
 
-  /// Returns the same distance and its direction.
+  /// Returns the distance, as at() does, and its direction.
   Value value(const Vec3d& point) const;
 
   /// Lower and upper bound of the true signed distance.

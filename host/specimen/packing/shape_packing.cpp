@@ -175,7 +175,7 @@ class Packing {
       if (touch[k]) extra_[pairs_[k].a] *= freeing, extra_[pairs_[k].b] *= freeing;
     const auto touching = std::count(touch.begin(), touch.end(), 1);
     if (touching > 0)
-      for (PairContact& p : pairs_) p.look_at = 0;  // clearances were measured relative to the old gaps
+      for (PairContact& p : pairs_) p.look_at = 0;  // the distances until the next test were computed for the old gaps
     return static_cast<int>(touching);
   }
 
