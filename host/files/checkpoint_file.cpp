@@ -34,8 +34,8 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-/// Returns settings for HDF5's "core" driver, which keeps one file in memory. HDF5 itself then never writes to a disk,
-/// because it does not survive a write error on a full disk.
+/// Returns settings for HDF5's "core" driver, which keeps one file in memory. With it HDF5 never writes to a disk. It
+/// is used because HDF5 does not survive a write error on a full disk.
 H5::FileAccPropList in_memory() {
   H5::FileAccPropList access;
   access.setCore(growth, false);

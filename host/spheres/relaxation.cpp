@@ -18,7 +18,7 @@ namespace {
 // is √(m/k) of one pair. About twelve pairs act on a sphere, so an explicit step is stable up to about 2/√(2·12) = 0.4
 // of this unit.
 constexpr double first_step = 0.1, longest_step = 0.3;
-constexpr double longest_move = 0.1;  // of a sphere per iteration, in mean mastic radii
+constexpr double longest_move = 0.1;  // largest movement of a sphere per iteration, in mean mastic radii
 // Skin of the neighbour lists in mean mastic radii. With a smaller skin the lists are made too often; with a larger
 // skin they are too long.
 constexpr double skin_share = 1.15;
@@ -134,7 +134,7 @@ class Relaxation {
 
   void compute_accelerations(bool with_energy) {
     const auto one = [&](std::size_t k) { accelerate(first_ + k, with_energy); };
-    if (first_ < first_mastic_) {  // aggregates have many more neighbours, so equal ranges would take unequal time
+    if (first_ < first_mastic_) {  // aggregates have many more neighbours: equal ranges would take unequal time
       for_each_in_blocks(moving(), on_threads(), one);
     } else {
       for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file power_diagram.cpp  Triangulates parts of the specimen in parallel and joins them in an order that does not
-/// depend on the parts.
+/// \file power_diagram.cpp  Triangulates parts of the specimen in parallel and joins their tetrahedra in an order
+/// that does not depend on the division into parts.
 #include "host/tessellation/power_diagram.hpp"
 
 #include <fmt/format.h>

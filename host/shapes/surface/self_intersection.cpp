@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // self_intersection.cpp  Tests pairs of facets with overlapping boxes. CGAL's own function needs a manifold mesh, and
-// faulty surfaces are not manifold, so the cases of common corners are distinguished here.
+// faulty surfaces may not be manifold. So this file itself tells apart facets with 0, 1, 2 or 3 common corners.
 #include "host/shapes/surface/self_intersection.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -31,7 +31,7 @@ class DistanceField {
   /// Returns the distance, as at() does, and its direction.
   Value value(const Vec3d& point) const;
 
-  /// Lower and upper bound of the true signed distance.
+  /// at_least() and at_most() return a lower and an upper bound of the true signed distance.
   double at_least(const Vec3d& point) const { return at(point) - error_; }
   double error() const { return error_; }  ///< difference of at() and at_least()
   double at_most(const Vec3d& point) const;

@@ -87,8 +87,8 @@ bool ShapeInsertion::inside(const ShapeBody& body, const Extent& e) const {
   return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z;
 }
 
-/// Tests only whether the body's inner ball comes too close to a placed body. Most trials fail, and this fast test
-/// detects most of the failures.
+/// Tests only whether the body's inner ball (a ball inside the body, see ShapeBody::inner_radius()) comes too close to
+/// a placed body. Most trials fail, and this fast test detects most of the failures.
 bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
   const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) {
