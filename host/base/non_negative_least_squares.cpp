@@ -15,8 +15,8 @@ Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& matrix, const 
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   std::vector<bool> free(static_cast<std::size_t>(n), false);
   const double rounding = 1e-13 * b.norm();
-  // Usually about 3·n iterations are needed. The limit ends cycles between equally good unknowns, which would repeat
-  // forever.
+  // Usually about 3·n iterations are needed. The limit of 10·n ends cycles between equally good unknowns, which would
+  // repeat forever.
   for (Eigen::Index round = 0; round < 10 * n; ++round) {
     const Eigen::VectorXd rest = b - A * x, gradient = A.transpose() * rest;
     if (rest.cwiseAbs().maxCoeff() <= enough) break;

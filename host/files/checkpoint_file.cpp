@@ -34,8 +34,8 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-/// Returns settings for HDF5's "core" driver, which keeps one file in memory. HDF5 itself then never writes to a disk
-/// that may be full. It does not survive that error.
+/// Returns settings for HDF5's "core" driver, which keeps one file in memory. With it HDF5 never writes to a disk. It
+/// is used because HDF5 does not survive a write error on a full disk.
 H5::FileAccPropList in_memory() {
   H5::FileAccPropList access;
   access.setCore(growth, false);
@@ -48,7 +48,7 @@ std::string file_of(const Checkpoint& checkpoint) {
   for (const StateArray& array : checkpoint.arrays) {
     bytes_of_state += std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, array.values);
   }
-  // The memory is for the file, for its growth, and for the copy that is returned.
+  // Checks that there is memory for the file, for enlarging the file, and for the copy that this function returns.
   require_memory_for_hdf5(3 * bytes_of_state + growth);
   H5::H5File out("in memory", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory());
   const H5::Group texts = out.createGroup("texts"), arrays = out.createGroup("arrays");
@@ -84,8 +84,9 @@ class Room {
  public:
   explicit Room(std::size_t bytes) : left_(static_cast<double>(bytes)) {}
 
-  /// Subtracts the bytes of a dataset or an attribute. \throws H5::Exception if its type is not one of `kinds`, if its
-  /// texts have variable length, if it has several dimensions, or if it is larger than the bytes that are left.
+  /// Subtracts the size of a dataset or an attribute from the number of bytes that the image may still hold. \throws
+  /// H5::Exception if its type is not one of `kinds`, if its texts have variable length, if it has several dimensions,
+  /// or if it is larger than this number of bytes.
   void take(const std::string& name, const H5::AbstractDs& values, std::initializer_list<H5T_class_t> kinds) {
     const H5::DataSpace space = values.getSpace();
     const bool known = std::find(kinds.begin(), kinds.end(), values.getTypeClass()) != kinds.end();
@@ -100,7 +101,7 @@ class Room {
   }
 
  private:
-  double left_;
+  double left_;  ///< number of bytes of the image that no dataset has claimed yet
 };
 
 /// Reads a single text and removes the zeros at its end.

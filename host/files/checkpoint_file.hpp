@@ -21,8 +21,8 @@ struct Checkpoint {
 
 /// Writes a checkpoint. The new file is written to the disk first and then renamed to replace the older one. So if the
 /// program is killed, or the disk is full, a complete file remains, which is either the old or the new one. HDF5's user
-/// block, the first 512 bytes of the file, holds the length of the file and a checksum as text. The file is made in
-/// memory first, which takes twice its size. \throws RunError.
+/// block, the first 512 bytes of the file, holds the length of the file and a checksum as text. The bytes of the file
+/// are made in memory first, which takes twice the size of the file. \throws RunError.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 /// Returns the user block for the bytes of an HDF5 file. The reader checks it before it passes the bytes to HDF5,

@@ -38,7 +38,9 @@ ResultFolder::ResultFolder(const fs::path& folder) {
   std::error_code error;
   fs::path whole = fs::absolute(folder).lexically_normal();
   if (!whole.has_filename()) whole = whole.parent_path();  // the path ends with a slash
-  constexpr int attempts = 100;  // another command that is refused may at any moment remove the folder that it made
+  // The folder may vanish between being made and being locked: another command that made it and was then refused
+  // removes it again. In that case the attempt is repeated.
+  constexpr int attempts = 100;
   for (int k = 0; k < attempts; ++k) {
     made_.clear();
     for (fs::path f = whole; !f.empty() && !fs::exists(f, error); f = f.parent_path()) made_.push_back(f);

@@ -186,7 +186,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   }
   const double mean_area = mean_facet_area(specimen, tessellation);
   double dropped = 0, kept = 0;
-  // Returns whether a facet becomes a contact, and counts the facets that the limits drop.
+  // Returns whether a facet becomes a contact, and counts the facets that `gap_max` or `area_min` excludes.
   const auto wanted = [&](const Facet& f) {
     if (is_free(specimen, f)) return false;
     if (f.b < 0) return f.b <= wall_z_lo ? spec.bottom_top_walls : spec.lateral_walls;

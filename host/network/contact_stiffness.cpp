@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_stiffness.cpp  Computes the stiffness Gᵀ·D·G of one contact. G maps the motion of an end to the six
-// generalised displacements q of the contact, and D is the 6×6 stiffness matrix for q, computed from the area moments.
+// contact_stiffness.cpp  Computes the stiffness Gᵀ·D·G of one contact. G maps the motion of the particle at one
+// end of the contact to the six generalised displacements q of the contact, and D is the 6×6 stiffness matrix for q,
+// computed from the area moments.
 #include "host/network/contact_stiffness.hpp"
 
 namespace macadam {
@@ -8,7 +9,8 @@ namespace {
 
 Eigen::Vector3d eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
-/// Returns the matrix that maps the motion (displacement, rotation) of one end to the six generalised displacements.
+/// Returns the matrix that maps the motion (displacement, rotation) of the particle at one end to the six generalised
+/// displacements of the contact.
 Matrix6 generalised(const Contact& c, int end) {
   const double sign = end == 0 ? -1 : 1, lever = end == 0 ? c.arm_a : -c.arm_b;
   const Eigen::Vector3d n = eigen(c.n), s = eigen(c.s), t = eigen(c.t), zero = Eigen::Vector3d::Zero();

@@ -16,8 +16,8 @@ namespace {
 // Range of accepted densities. It contains the densities of every road stone, slag, filler and binder. A value outside
 // of it has the wrong unit, such as 2.65 in place of 2650.
 constexpr double lightest = 200, heaviest = 10'000;  // [kg/m³]
-// Largest accepted mass of binder per mass of aggregate. Even a thin mastic has only 3. A larger value is probably a
-// percentage without its sign, such as 5.2 in place of 5.2 %.
+// Largest accepted mass of binder per mass of aggregate. Even a thin mastic has only 3 kg of binder per kg of
+// aggregate. A larger value is probably a percentage without its sign, such as 5.2 in place of 5.2 %.
 constexpr double most_binder = 3;
 
 bool is_share(double v) { return v >= 0 && v <= 1; }  // false for NaN

@@ -15,7 +15,8 @@ std::string in_percent(double share);
 /// Formats a density for messages, for example `2433.4 kg/m3`.
 std::string in_kg_m3(double density);
 
-/// Always throws an InputError about `key`. The error names `line` or, if that is 0, the line of `key` in the scene.
+/// Always throws an InputError about `key`. The error names `line` or, if that is 0, the line of `key` in the scene
+/// file.
 [[noreturn]] void refuse(const MixDesign& design, const std::string& key, const std::string& found,
                          const std::string& expected, int line = 0);
 

@@ -15,7 +15,7 @@ namespace {
 /// Measured densities are rounded to 1 kg/m³, so their rounding error is at most 0.5 kg/m³.
 constexpr double rounding = 0.5;
 
-/// Dry mass [kg], and volume including pores [m³], of an aggregate fraction in 1 kg of mix.
+/// Dry mass [kg] and volume including pores [m³] of one aggregate fraction in 1 kg of mix.
 struct Portion {
   double mass = 0, volume = 0;
   Portion& operator+=(const Portion& other) {
@@ -26,7 +26,8 @@ struct Portion {
 
 Portion portion(double mass, double density) { return {mass, mass / density}; }
 
-/// Returns the aggregate between the sieves k and k + 1; `aggregate` is the mass of all aggregate [kg].
+/// Returns the mass and the volume of the aggregate between the sieves k and k + 1; `aggregate` is the mass of all
+/// aggregate [kg].
 Portion fraction(const MixDesign& design, std::size_t k, double aggregate) {
   const double density =
       design.aggregate_density.size() == 1 ? design.aggregate_density[0] : design.aggregate_density[k];

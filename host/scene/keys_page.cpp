@@ -48,7 +48,7 @@ std::string kind_of_value(const KnownKey& key) {
   return key.words.type == "list" ? "list of " + choices : choices;
 }
 
-/// Returns the text of the column "default".
+/// Returns the text of a key in the column "default".
 std::string usual_of(const KnownKey& key) {
   if (key.need == Need::required) return "**required**";
   if (!key.usual.empty()) return cell(key.usual);

@@ -48,7 +48,8 @@ std::size_t Collector::choose(const std::string& named, const std::vector<std::s
 std::vector<KnownKey> Collector::keys() const {
   std::vector<KnownKey> out = keys_;
   for (KnownKey& key : out) {
-    // a key that occurs with every choice does not depend on the chooser
+    // The chooser (such as "kind") is itself collected in every pass, so its `chosen` lists all of its values. A key
+    // with the same list is read whatever the value of the chooser, so it does not depend on the chooser.
     const bool always = std::any_of(keys_.begin(), keys_.end(), [&](const KnownKey& chooser) {
       return chooser.section == key.section && chooser.name == key.chooser && chooser.chosen == key.chosen;
     });

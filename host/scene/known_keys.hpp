@@ -16,8 +16,8 @@ struct KnownKey {
   std::string name;
   Need need = Need::optional;
   Words words;
-  std::string text, usual;          ///< as in struct Key
-  std::string chooser;              ///< the key, such as "kind", that decides whether this key is allowed; empty: none
+  std::string text, usual;  ///< as in struct Key
+  std::string chooser;      ///< key, such as "kind", that decides whether this key is allowed; empty if none does
   std::vector<std::string> chosen;  ///< values of the chooser with which this key is allowed
   bool operator==(const KnownKey&) const = default;
 };
@@ -32,15 +32,15 @@ class Collector {
   /// Thrown to leave the reader of a section once its keys are known, before the reader looks at their values.
   struct Done {};
 
-  /// Adds one key. If the key is a section, calls `enter`, which reads the keys of the section, once for every value
-  /// that choose() can return there.
+  /// Adds one key. If the key is a section, calls `enter`, which reads the keys of the section. `enter` is called once
+  /// for every value that choose() can return in this section.
   void add(const std::string& section, const std::string& named, const Key& key, const std::function<void()>& enter);
   /// The reader calls this function for a key, such as "kind", whose value decides which other keys its section has.
   /// `among` lists the possible values. Returns the index of the value to assume in the present pass through the
   /// section; add() makes one pass for each value.
   std::size_t choose(const std::string& named, const std::vector<std::string>& among);
 
-  /// Returns the collected keys. A key that several choices have in common appears once.
+  /// Returns the collected keys. A key that is read with several values of the chooser appears once.
   std::vector<KnownKey> keys() const;
 
  private:

@@ -24,8 +24,8 @@ struct Part {
   std::string title;
   std::vector<Given> given;
   std::string remark = {};                  ///< comment above the section
-  bool others = true;                       ///< whether the remaining keys follow as comments
-  std::vector<std::string> not_these = {};  ///< remaining keys that are left out
+  bool others = true;                       ///< whether the section's keys without values follow as comments
+  std::vector<std::string> not_these = {};  ///< keys that are left out of these comments
 };
 
 /// Breaks a text into lines of at most `width` characters that begin with `before`.
@@ -186,7 +186,7 @@ Part loading_of(const std::string& test) {
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
   if (test == "monotonic") give("rate", "1e-4"), give("strain", "1e-3"), give("points", "100");
-  // Leaves out keys that exclude the keys above, and keys that only method "explicit" has.
+  // Leaves out keys that must not be given together with the keys above, and keys that only method "explicit" has.
   out.not_these = {"temperatures", "points", "platen_mass"};
   if (test == "monotonic") out.not_these = {"times", "points_per_decade"};
   return out;

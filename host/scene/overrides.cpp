@@ -21,7 +21,7 @@ void apply(const Overrides& asked, Scene& scene) {
   if (asked.backend) {
     solver.backend = *asked.backend;
     const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
-    if (!may) solver.devices.clear();  // the scene's devices belong to the backend that is replaced
+    if (!may) solver.devices.clear();  // the GPUs in the scene belong to the backend that is replaced
   }
   if (asked.devices) solver.devices = *asked.devices;
   if (asked.precision) solver.precision = asked.precision;

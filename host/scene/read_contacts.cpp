@@ -32,7 +32,7 @@ std::string text_of(const std::string& law, const std::string& key) {
 }
 
 /// A modulus without a unit is in Pa. No solid is softer than 1000 Pa, so a smaller number was probably meant in GPa or
-/// MPa. The springs of Kelvin units may be softer, so this rule is not for them.
+/// MPa. The springs of Kelvin units may be softer, so this rule does not apply to them.
 constexpr Rule in_pascals{[](double v) { return v >= 1000; },
                           "1000 Pa or more; a modulus in another unit is text with the unit"};
 
@@ -94,7 +94,7 @@ Law law_named_in(const Section& section) {
 
 /// Returns the keys that decide which facets between two particles become contacts.
 std::vector<Key> keys_of(FacetLimits& limits) {
-  // The gap d − R_a − R_b in units of the mean radius is d/mean − 2.
+  // For a distance d of the centres, the gap d − R_a − R_b in units of the mean radius is d/mean − 2.
   constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, at which the centres coincide"};
   return {
       {"gap_max", Need::optional, into(limits.gap_max, ratio, gap),

@@ -10,8 +10,8 @@
 namespace macadam::scene {
 namespace {
 
-// Values with the rule `any` are checked later, when the volumes of the design are computed. The error of that check
-// shows the calculation to which the wrong value belongs.
+// Values with the rule `any` are checked later, when the volumes of the design are computed. The error message of that
+// check shows the calculation to which the wrong value belongs.
 constexpr Rule share{[](double v) { return v >= 0 && v <= 1; },
                      "a fraction from 0 to 1, or text from \"0 %\" to \"100 %\""};
 

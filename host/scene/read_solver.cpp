@@ -9,8 +9,8 @@
 namespace macadam::scene {
 namespace {
 
-/// Reads the damping. `damping` is the coefficient of the kind in `damping_kind`; if no kind is given, the damping is
-/// local.
+/// Reads the damping. `damping` is the coefficient for the kind of damping that `damping_kind` names; if no kind is
+/// given, the damping is local.
 void read_damping(const Section& section, SolverSpec& spec) {
   constexpr Rule chi{[](double v) { return v >= 0 && v < 1; }, "a local damping from 0 to below 1"};
   const auto value = section.find("damping");
@@ -28,7 +28,7 @@ void read_damping(const Section& section, SolverSpec& spec) {
   if (spec.damping == 0) spec.damping_kind = Damping::none;
 }
 
-/// Returns one number for all frequencies, or an array with one number per frequency.
+/// Reads the density scaling: one number for all frequencies, or an array with one number per frequency.
 std::vector<double> read_density_scaling(const Value& value, std::size_t frequencies) {
   if (!value.is_array()) return {value.number(ratio, positive)};
   std::vector<double> scaling = value.numbers(ratio, positive);
@@ -39,7 +39,7 @@ std::vector<double> read_density_scaling(const Value& value, std::size_t frequen
   return scaling;
 }
 
-/// Returns one device number, an array of different numbers, or every device for "all".
+/// Reads the GPUs to use: one device number, an array of different device numbers, or every device for "all".
 DeviceList read_devices(const Value& value, int most) {
   const auto number = [&](const Value& v) { return static_cast<int>(v.integer(0, most)); };
   if (value.shown() == "\"all\"") return {every_device};
@@ -96,7 +96,7 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         "kind of damping", "\"local\" if damping is given, else \"none\""},
        {"damping",
         Need::optional,
-        {[](const Value&) {}, {"number", &rate}},  // read_damping() reads it, once the kind is known
+        {[](const Value&) {}, {"number", &rate}},  // read_damping() reads the value, once damping_kind is known
         "chi of local damping (a number below 1), or beta of viscous damping [1/s]",
         "0; chosen for stepped relaxation, creep and constant rates"},
        {"form", Need::optional,

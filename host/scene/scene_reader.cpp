@@ -59,7 +59,7 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
   }
 }
 
-/// Limits of a density that is given as a number without a unit, in kg/m³. No solid is lighter than the lower limit, so
+/// Range of a density that is given as a number without a unit, in kg/m³. No solid is lighter than the lower limit, so
 /// a smaller number was probably meant in g/cm³.
 constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
                         "10 to 30000 kg/m3; a density in another unit is text with the unit"};

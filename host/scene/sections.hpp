@@ -40,9 +40,9 @@ Reader range_into(double& low, double& high);
 /// Returns the keys of the limits that decide which facets are contacts, for `[network]` or for one pair.
 std::vector<Key> keys_of(FacetLimits& limits);
 
-/// Reads every `[[contacts]]` and returns the laws at their reference temperatures. Stores the temperature shifts of
-/// the laws in `shifts`, the factors `delta` that were multiplied into the laws in `deltas`, and the limits on the
-/// facets of a pair in `network`. \throws InputError
+/// Reads every `[[contacts]]` and returns the laws at their reference temperatures. Stores in `shifts` the temperature
+/// shifts of the laws, in `deltas` the factors `delta` with which the laws were multiplied, and in `network` the limits
+/// on the facets of each pair. \throws InputError
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network);
 
 /// Return the keys of `[output]` that ask for fields, and check that their values fit together.

@@ -9,7 +9,7 @@
 namespace macadam::scene {
 
 /// Condition on a temperature in °C. No test is as warm as the upper limit, and most temperatures in kelvins are above
-/// it.
+/// it. A value above the limit is therefore probably in kelvins.
 inline constexpr Rule celsius{[](double v) { return v > -laws::zero_celsius && v < 250; },
                               "a temperature above -273.15 and below 250 degrees C, not in kelvins"};
 

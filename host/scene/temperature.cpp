@@ -13,8 +13,8 @@ namespace {
 
 bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
 
-/// Returns log10 of the shift factor that the scene's laws already contain: 0 if they are at their reference
-/// temperatures.
+/// Returns log10 of the shift factor with which the scene's laws are already shifted; 0 if the laws are at their
+/// reference temperatures.
 double present(const Scene& scene, const laws::Shift& shift) {
   return scene.materials.temperature ? laws::log10_shift(shift, *scene.materials.temperature) : 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// census.cpp  Counts the bodies of a specimen.
+// census.cpp  Counts the aggregates, mastic spheres and voids of a specimen.
 #include "host/specimen/census.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::vector<std::string> warnings_of(const Specimen& specimen) {
   return sparse.empty() ? std::vector<std::string>() : std::vector{std::move(sparse)};
 }
 
-/// Reads a specimen file and counts its bodies and spheres.
+/// Reads a specimen file and counts its aggregates, spheres and voids.
 Census of_file(const SpecimenSpec& spec) {
   const Specimen specimen = read_specimen_csv(*spec.file, spec.box);
   Census out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file census.hpp  Counts the bodies and spheres that a specimen will have, without placing any.
+/// \file census.hpp  Counts the aggregates, spheres and voids that a specimen will have, without placing any.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// Numbers of bodies and spheres, and warnings.
+/// Numbers of aggregates, spheres and voids, and warnings.
 struct Census {
   std::int64_t aggregates = 0;     ///< number of aggregates
   std::int64_t in_aggregates = 0;  ///< spheres in all aggregates; more than `aggregates` if shapes are filled
@@ -22,9 +22,9 @@ struct Census {
   std::int64_t particles() const { return in_aggregates + mastic; }
 };
 
-/// Counts the spheres of a specimen. A file is read. For a recipe, the volumes of its classes are computed; if the
-/// recipe has shapes, shapes and sizes are drawn too. \throws InputError for a file or recipe that a run would refuse
-/// too.
+/// Counts the spheres of a specimen. If the specimen is a file, reads the file. If it is a recipe, computes the volumes
+/// of the classes; if the recipe has shapes, draws shapes and sizes too. \throws InputError for a file or recipe that a
+/// run would refuse too.
 Census count_specimen(const SpecimenSpec& spec);
 
 }  // namespace macadam

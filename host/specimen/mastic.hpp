@@ -13,7 +13,7 @@ namespace macadam {
 /// Result of settle_mastic().
 struct SettledMastic {
   int iterations = 0;
-  Tessellation tessellation;        ///< of the relaxed spheres, each of which has a cell
+  Tessellation tessellation;        ///< tessellation of the relaxed spheres, each of which has a cell
   double seconds_tessellation = 0;  ///< time of this tessellation [s]
 };
 

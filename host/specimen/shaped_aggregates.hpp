@@ -21,7 +21,7 @@ struct ShapedAggregates {
   std::function<bool(const Vec3d&)> inside;
   Enclosure outside;  ///< wall that holds spheres out of the shapes; empty if the recipe does not request it
 
-  double volume() const;  ///< of all aggregates [m³]
+  double volume() const;  ///< returns the volume of all aggregates [m³]
   /// Returns the smallest radius of all spheres [m].
   double smallest_radius() const;
 };
@@ -29,7 +29,7 @@ struct ShapedAggregates {
 /// Counts of the aggregates of a recipe with shapes, which are drawn but not placed.
 struct ShapeCensus {
   std::int64_t aggregates = 0, spheres = 0, templates = 0;
-  double volume = 0;  ///< of all aggregates [m³]
+  double volume = 0;  ///< volume of all aggregates [m³]
 };
 /// Draws and counts the aggregates. \throws InputError for an impossible recipe or a faulty surface.
 ShapeCensus count_shapes(const SpecimenSpec& spec);

@@ -119,7 +119,7 @@ class CsvReader {
       if (blank > 0) throw InputError(specimen_.source, blank, "line", "a blank line", "a record");
       if (specimen_.first_line == 0) {
         if (line != header) fail("header", in_quotes(line), in_quotes(header));
-        specimen_.first_line = lines_.number() + 1;  // from here on there is one record per line
+        specimen_.first_line = lines_.number() + 1;  // all lines after the header are records
       } else {
         record(line);
       }
@@ -208,7 +208,7 @@ void write_specimen_csv(const std::filesystem::path& file, const Specimen& parti
     fmt::format_to(to, "{},{},{},{},{},{},{}\n", i, shown(c.x), shown(c.y), shown(c.z), shown(specimen.radius[i]),
                    to_string(specimen.phase[i]), specimen.body[i]);
   }
-  write_whole(file, fmt::to_string(text));  // the file may be the one that the scene was read from
+  write_whole(file, fmt::to_string(text));  // `file` may be the file from which the specimen was read
 }
 
 }  // namespace macadam

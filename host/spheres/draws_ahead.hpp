@@ -91,7 +91,8 @@ class DrawsAhead {
   }
 
  private:
-  /// Up to this many chunks, the calling thread makes all trials alone, because waking other threads would take longer.
+  /// If there are at most this many chunks of trials, the calling thread makes all trials alone, because waking other
+  /// threads would take longer.
   static constexpr std::int64_t alone = 4;
 
   /// Returns the numbers of a trial.

@@ -13,8 +13,8 @@
 namespace macadam {
 namespace {
 
-// A sort key is the sphere number plus 2^28 times the number of the part of the list (0, 1 or 2). Sphere numbers are
-// below most_particles and fit in 28 bits.
+// A sort key is the sphere number plus 2^28 times the number (0, 1 or 2) of the part of the neighbour list; class
+// Neighbours describes the three parts. Sphere numbers are below most_particles and fit in 28 bits.
 constexpr std::int32_t part = 1 << 28;
 // Largest number of size groups. The radii in a group differ by at most a factor of two.
 constexpr int most_levels = 40;
@@ -26,7 +26,7 @@ constexpr std::size_t ranked_up_to = 64;
 constexpr std::size_t few = 24;
 // Number of strayed spheres (which have moved by more than half of the skin) from which several threads are faster.
 constexpr std::size_t worth_waking = 16;
-constexpr std::uint32_t spare = 2;  // capacity in a list for spheres that come near later
+constexpr std::uint32_t spare = 2;  // free entries per list, for spheres that come near later
 
 double largest(std::span<const Ball> spheres) {
   double r = 0;
@@ -210,8 +210,8 @@ void Neighbours::relist(std::span<const std::int32_t> strayed) {
     moving_[bins_of_[i - first_]].move(i, spheres_[i].centre);
   }
   const auto block_of = [&](std::int32_t i) { return (static_cast<std::size_t>(i) - first_) / block; };
-  // Index of the first strayed sphere of each block, then the number of strayed spheres. The lists of a block are in
-  // one array, so one thread updates all of them.
+  // `begin` holds the index, in `strayed`, of the first strayed sphere of each block, and at its end the number of
+  // strayed spheres. The lists of a block are in one array, so one thread updates all of them.
   std::vector<std::size_t> begin;
   for (std::size_t k = 0; k < strayed.size(); ++k)
     if (k == 0 || block_of(strayed[k]) != block_of(strayed[k - 1])) begin.push_back(k);

@@ -18,7 +18,7 @@ namespace {
 // is √(m/k) of one pair. About twelve pairs act on a sphere, so an explicit step is stable up to about 2/√(2·12) = 0.4
 // of this unit.
 constexpr double first_step = 0.1, longest_step = 0.3;
-constexpr double longest_move = 0.1;  // of a sphere per iteration, in mean mastic radii
+constexpr double longest_move = 0.1;  // largest movement of a sphere per iteration, in mean mastic radii
 // Skin of the neighbour lists in mean mastic radii. With a smaller skin the lists are made too often; with a larger
 // skin they are too long.
 constexpr double skin_share = 1.15;
@@ -134,7 +134,7 @@ class Relaxation {
 
   void compute_accelerations(bool with_energy) {
     const auto one = [&](std::size_t k) { accelerate(first_ + k, with_energy); };
-    if (first_ < first_mastic_) {  // aggregates have many more neighbours, so equal ranges would take unequal time
+    if (first_ < first_mastic_) {  // aggregates have many more neighbours: equal ranges would take unequal time
       for_each_in_blocks(moving(), on_threads(), one);
     } else {
       for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {
@@ -143,8 +143,8 @@ class Relaxation {
     }
   }
 
-  /// Computes the acceleration of a sphere, its terms of the sums and, on request, its energy.
-  void accelerate(std::size_t i, bool with_energy) {  // the wall's depth function may throw
+  /// Computes the acceleration of a sphere, its terms of the sums in `Dots` and, on request, its energy.
+  void accelerate(std::size_t i, bool with_energy) {  // may throw: it calls the wall's depth function
     const auto [c, r] = ball_[i];
     const double k_wall = is_aggregate(i) ? aggregate_stiffness : 1;
     Vec3d force{};
@@ -266,9 +266,9 @@ class Relaxation {
   Neighbours neighbours_;
   std::vector<Vec3d> velocity_, acceleration_;
   std::vector<double> energy_;
-  std::vector<Dots> dots_;                          ///< terms of the sums, with the velocity before the move
-  std::vector<Dots> by_number_;                     ///< dots_ of the moving spheres, in the order of numbers
-  std::vector<std::int32_t> place_;                 ///< places of the moving spheres, in the order of numbers
+  std::vector<Dots> dots_;           ///< each sphere's terms of the sums, with its velocity before the move
+  std::vector<Dots> by_number_;      ///< dots_ of the moving spheres, in the order of numbers
+  std::vector<std::int32_t> place_;  ///< places of the moving spheres, in the order of numbers
   std::vector<std::vector<std::int32_t>> strayed_;  ///< indices of spheres that moved too far, per range, ascending
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen_check.cpp  Does the checks that every specimen must pass, whether it was read or generated.
+/// \file specimen_check.cpp  Makes the checks that every specimen must pass, whether it was read or generated.
 #include "macadam/specimen.hpp"
 
 #include <algorithm>

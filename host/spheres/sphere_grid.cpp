@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sphere_grid.cpp  Makes the cells, which list the spheres within reach.
+/// \file sphere_grid.cpp  Makes the cells of the grid and lists in each cell the spheres whose reach touches the cell.
 #include "host/spheres/sphere_grid.hpp"
 
 #include <algorithm>

@@ -34,7 +34,7 @@ WallPlane plane_in_box(const SectionPlane& plane, const Box& box) {
   return out;
 }
 
-/// A plane of equal power, seen as a side of one of the two cells that it separates. `height` has the same bits for
+/// A plane of equal power, seen as a side of one of the two cells that it separates. height() has the same bits for
 /// both cells, except for the sign.
 struct Side {
   Vec3d from, normal;  ///< centre of the facet's particle a, and the unit normal that points away from it

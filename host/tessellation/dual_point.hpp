@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file dual_point.hpp  Computes the point that has the same power with respect to four sites: a vertex of the power
-/// diagram.
+/// \file dual_point.hpp  Computes the vertex of the power diagram that has the same power with respect to four sites.
+/// The power of a point is its squared distance from the site minus the weight of the site.
 #pragma once
 
 #include "host/tessellation/weighted_sites.hpp"

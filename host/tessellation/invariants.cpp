@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file invariants.cpp  Measures how far a tessellation deviates from the properties that every Laguerre diagram has.
+/// \file invariants.cpp  Computes how far a tessellation deviates from the properties that every Laguerre diagram has.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // packing_check.cpp  Detects cells that reach far beyond their spheres, and spheres that fill more than their box.
 //
-// Reasons for the bounds: in the committed examples cells reach at most 1.5 radii beyond their spheres. Packings of
-// spheres placed at random without overlap, which fill 10 to 30 % of their box, reach 7 radii if the sizes are similar,
-// and far more radii among small spheres, but at most 1.8 mean spacings (measured with up to 3,000 spheres). A ball
-// with a radius of 2 mean spacings contains the centres of 33 spheres on average (4π/3·2³), so the probability that
-// such a ball in the interior is empty is exp(-33). A region of large spheres in a specimen of mostly small spheres has
-// holes of many mean spacings, but these holes are smaller than 2 radii of the large spheres. A cell that exceeds both
-// bounds therefore belongs to neither kind of packing. Overlapping mastic fills up to 102 % of the box in the examples.
-// If diameters are given as radii, the filled fraction becomes eight times as large. It then exceeds 150 % for any
-// packing whose true fraction is 19 % or more.
+// Reasons for most_radii, most_spacings and most_fill: in the committed examples cells reach at most 1.5 radii beyond
+// their spheres. Packings of spheres placed at random without overlap, which fill 10 to 30 % of their box, reach 7
+// radii if the sizes are similar, and far more radii among small spheres, but at most 1.8 mean spacings (measured with
+// up to 3,000 spheres). A ball with a radius of 2 mean spacings contains the centres of 33 spheres on average
+// (4π/3·2³), so the probability that such a ball in the interior is empty is exp(-33). A region of large spheres in a
+// specimen of mostly small spheres has holes of many mean spacings, but these holes are smaller than 2 radii of the
+// large spheres. A cell that exceeds both bounds therefore belongs to neither kind of packing. Overlapping mastic fills
+// up to 102 % of the box in the examples. If diameters are given as radii, the filled fraction becomes eight times as
+// large. It then exceeds 150 % for any packing whose true fraction is 19 % or more.
 #include "macadam/tessellation.hpp"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ double filled_fraction(const Specimen& all, const Tessellation& tessellation) {
 struct Reach {
   double radii = 0;         ///< distance, divided by the largest radius of the particle and its neighbours
   double distance = 0;      ///< distance from the sphere's surface [m]
-  std::int32_t cell = -1;   ///< particle or void; −1 if no cell exceeds both bounds
+  std::int32_t cell = -1;   ///< particle or void; −1 if no cell reaches too far
   std::int32_t other = -1;  ///< other side of the facet: a particle, a void or a Wall
   Vec3d point{};            ///< [m]
   Reach& operator+=(const Reach& o) {
@@ -67,7 +67,7 @@ std::vector<double> largest_radii_of_neighbours(const Specimen& all, const Tesse
   return out;
 }
 
-/// Returns the farthest point of all cells that exceed both bounds.
+/// Returns the farthest point of all cells that exceed both bounds on the reach, most_radii and most_spacings.
 Reach farthest_reach(const Specimen& all, const Tessellation& tessellation) {
   const std::vector<double> largest = largest_radii_of_neighbours(all, tessellation);
   const double spacing = std::cbrt(all.box.volume() / static_cast<double>(all.size()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file power_diagram.cpp  Triangulates parts of the specimen in parallel and joins them in an order that does not
-/// depend on the parts.
+/// \file power_diagram.cpp  Triangulates parts of the specimen in parallel and joins their tetrahedra in an order
+/// that does not depend on the division into parts.
 #include "host/tessellation/power_diagram.hpp"
 
 #include <fmt/format.h>
@@ -77,8 +77,8 @@ class Joined {
     }
   }
 
-  /// Returns the index of a tetrahedron in the result. \throws RunError if the result does not contain the tetrahedron,
-  /// because the parts differ.
+  /// Returns the index of a tetrahedron in the result. \throws RunError if the result does not contain the tetrahedron.
+  /// Then two parts have different tetrahedra in the same place.
   std::int32_t number_of(const Tetrahedron& t) {
     const std::span<Tetrahedron> all = of(t.site[0]);
     const auto found = std::ranges::lower_bound(all, t.site, come_before, &Tetrahedron::site);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// site_tree.cpp  Builds the tree by halving ranges of particle numbers at the median.
+// site_tree.cpp  Builds the tree by halving ranges of particle numbers at the median coordinate.
 #include "host/tessellation/site_tree.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ BoundingBox bounds_of(const WeightedSites& sites, std::span<const std::int32_t> 
   return out;
 }
 
-/// Reorders the numbers such that the sites with lower coordinates along the longest edge of the box come before index
-/// `middle`.
+/// Reorders the particle numbers such that the particles with lower coordinates along the longest edge of the box come
+/// before index `middle`.
 void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t middle, const BoundingBox& bounds) {
   const Vec3d edge = bounds.high - bounds.low;
   const double Vec3d::*along = edge.x >= edge.y && edge.x >= edge.z ? &Vec3d::x
@@ -29,8 +29,8 @@ void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::siz
                    [&](std::int32_t a, std::int32_t b) { return sites[a].centre.*along < sites[b].centre.*along; });
 }
 
-/// Divides a range into parts and appends the beginning of each part to `begin`. `first` is the index of the range's
-/// first number in the whole array.
+/// Divides a range of particle numbers into parts and appends the beginning of each part to `begin`. `first` is the
+/// index of the range's first number in the whole array.
 void divide(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t parts, std::size_t first,
             std::vector<std::size_t>& begin) {
   if (parts == 1) {

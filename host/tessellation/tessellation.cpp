@@ -46,9 +46,9 @@ std::vector<double> measure_cells(const Specimen& specimen, Tessellation& out) {
   return surface;
 }
 
-/// Removes particles whose cells have no volume from `active`. Returns whether any of them had facets. A cell with
-/// facets but without volume is a sheet between two other cells, or on a wall, which exists due to rounding only. The
-/// tolerance 1e-10 is the tolerance of the facets.
+/// Sets `active` to 0 for the particles whose cells have no volume. Returns whether any of these cells had facets. A
+/// cell with facets but without volume is a thin sheet between two other cells, or between a cell and a wall; only
+/// rounding creates such a sheet. The tolerance 1e-10 is the tolerance of the facets.
 bool retire_empty_cells(const Tessellation& tessellation, const std::vector<double>& surface,
                         std::vector<std::uint8_t>& active) {
   bool again = false;
@@ -68,7 +68,7 @@ Tessellation tessellate(const Specimen& particles) {
   check_radii(specimen);
   Tessellation out;
   std::vector<std::uint8_t> active(specimen.size(), 1);
-  for (bool again = true; again;) {  // a second pass is rare; in it, the cells on both sides of a removed sheet meet
+  for (bool again = true; again;) {  // a second pass is rare: it lets the cells beside a removed sheet meet
     make_facets(specimen, power_diagram(specimen, active), out);
     again = retire_empty_cells(out, measure_cells(specimen, out), active);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file join_seams.hpp  Joins points at open edges of a surface that differ by rounding only.
+/// \file join_seams.hpp  Joins points at open edges of a surface if the points differ by rounding only. An open
+/// edge belongs to an odd number of facets.
 #pragma once
 
 #include <cstdint>

@@ -70,8 +70,8 @@ void require_points(const SurfaceFile& file, const SurfaceSoup& soup) {
 
 /// Appends the facets as triangles, in the order of the file.
 void add_facets(Surface& surface, const SurfaceSoup& soup) {
-  // A polygon counts as bent if a corner is farther from its mean plane than this fraction of its radius. How the
-  // polygon is divided then makes a visible difference.
+  // A polygon counts as bent if the distance of a corner from the polygon's mean plane exceeds this fraction of the
+  // polygon's radius. How a bent polygon is divided makes a visible difference.
   constexpr double bent = 0.01;
   std::int64_t polygons = 0, bent_ones = 0, crossed = 0;
   double bend = 0;

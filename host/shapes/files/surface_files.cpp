@@ -53,7 +53,7 @@ std::string bytes_for(const std::filesystem::path& file, const Surface& surface,
   for (const Vec3d& p : surface.points) points.emplace_back(p.x / scale, p.y / scale, p.z / scale);
   if (format == SurfaceFormat::stl) require_floats(file, points);
   std::ostringstream out(std::ios::binary);
-  out.exceptions(std::ios::badbit);  // std::bad_alloc then leaves the stream as an exception
+  out.exceptions(std::ios::badbit);  // otherwise the stream catches std::bad_alloc
   const auto text = CGAL::parameters::stream_precision(digits_for(points));
   bool written = false;
   switch (format) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_numbers.hpp  Does basic checks and sums over the points and facets of a surface.
+/// \file surface_numbers.hpp  Checks points and facets of a surface, and computes rounding, bounds, area and volume.
 #pragma once
 
 #include <limits>

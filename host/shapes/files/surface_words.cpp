@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::string_view blank = " \t\r\n\v\f";  // lines are split at either \r or \n, so the other one may remain
+constexpr std::string_view blank = " \t\r\n\v\f";  // contains \r: lines that end with \r\n are split at \n
 
 std::string_view without_leading_blanks(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));

@@ -9,7 +9,8 @@
 namespace macadam {
 namespace {
 
-/// Number of columns along the longer side. The volumes of a cube and a sphere are then accurate to about 1e-5.
+/// Number of columns along the longer side of the rectangle, in the xy plane, that bounds all bodies. With this number
+/// the volumes of a cube and a sphere are accurate to about 1e-5.
 constexpr double columns_along = 400;
 
 /// Returns the length of the part of the column that lies in at least one body.
@@ -52,7 +53,7 @@ void cross_facets(const Surface& s, ColumnRow& row) {
       if (left != 0 && left != 3) continue;
       const double rise = normal.z == 0 ? 0 : (normal.x * (x - a.x) + normal.y * (row.y - a.y)) / normal.z;
       const double z = std::clamp(a.z - rise, std::min({a.z, b.z, c.z}), std::max({a.z, b.z, c.z}));
-      // If left is 3, the facet faces upwards and the column leaves the body.
+      // If the column is left of all three edges, the facet faces upwards and the column leaves the body there.
       row.column[i].push_back({z, left == 3 ? -1 : 1});
     }
   }

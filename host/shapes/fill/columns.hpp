@@ -56,8 +56,9 @@ struct SharedVolume {
   double shape = 0, spheres = 0, common = 0;
 };
 
-/// Computes volumes by integration over a regular grid of parallel columns, with about 400 columns along the longer
-/// side. The integral is exact along each column and uses the midpoint rule across columns.
+/// Computes volumes by integration over a regular grid of columns parallel to z, with about 400 columns along the
+/// longer side of the bodies' bounding rectangle in the xy plane. The integral is exact along each column and uses the
+/// midpoint rule across columns.
 SharedVolume shared_volume(const Surface& surface, const MultiSphere& cluster);
 
 }  // namespace macadam

@@ -105,7 +105,7 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
   const std::int64_t count = spheres(scale, spec);
   if (count < spec.least) return {{scale * measure_.centroid}, {scale * single_radius(spec.single)}};
 
-  // All lengths from here on are in the scale of the unscaled shape, because the distances from its surface are
+  // From here on, all lengths are those of the shape at scale 1, because the distances from its surface are
   // precomputed.
   RandomStream radii(spec.seed, radius_stream), positions(spec.seed, position_stream);
   const double volume = (1 - spec.porosity) * measure_.volume * scale * scale * scale;

@@ -112,8 +112,8 @@ double largest_overlap(const MultiSphere& cluster) {
   return largest;
 }
 
-/// Measures distances from the surface to the nearest sphere, at the points of the surface and at the centroids of
-/// equal parts into which each facet is divided. Larger facets have more parts.
+/// Measures the distance to the nearest sphere at the points of the surface and at points on its facets. Each facet is
+/// divided into equal parts, and the centroids of the parts are used. Larger facets have more parts.
 void measure_deviation(const Surface& surface, const MultiSphere& cluster, FillReport& report) {
   const auto deviation = [&](const Vec3d& point) {
     double nearest = std::numeric_limits<double>::infinity();

@@ -36,8 +36,8 @@ struct Site {
   Vec3d direction, position, normal;
 };
 
-/// Returns the numbers of `count` sites; each is the site farthest from those chosen before (farthest-point sampling).
-/// `weight` [m] converts the difference of two unit normals into a distance.
+/// Returns the numbers of `count` sites; each is the site farthest from the sites chosen before it (farthest-point
+/// sampling). `weight` [m] converts the difference of two unit normals into a distance.
 std::vector<std::size_t> spread_out(const std::vector<Site>& sites, int count, double weight) {
   std::vector<double> gap(sites.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> chosen;

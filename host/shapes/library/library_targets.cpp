@@ -16,8 +16,8 @@
 namespace macadam {
 namespace {
 
-/// A distribution is given as a piecewise linear quantile function. At each of its knots, `shapes` of the 82 shapes of
-/// [1] lie below `value`.
+/// A distribution, given as a piecewise linear quantile function. At each of its knots, `shapes` of the 82 shapes in
+/// reference [1] lie below `value`.
 struct Knot {
   double shapes, value;
 };
@@ -25,8 +25,8 @@ using Quantiles = std::vector<Knot>;
 constexpr double paper_shapes = 82;
 
 /// Distribution of D^I [mm]. The sieve classes hold 1, 6, 17, 27, 14, 12, 4 and 1 shapes. In each of the larger classes
-/// half of the shapes lie above a mean of the two sieves. The ends are chosen such that the midpoints of the first and
-/// the last stratum are the smallest and the largest D^I of Table 1.
+/// a further knot between the two sieves has half of the shapes above it. The first and the last value are chosen such
+/// that the midpoints of the first and the last stratum are the smallest and the largest D^I of Table 1 of [1].
 const Quantiles sizes_mm{{0, 0.46}, {1, 0.5},  {7, 1},    {15.5, 1.4}, {24, 2},    {37.5, 2.6}, {51, 4},
                          {58, 5},   {65, 6.3}, {71, 7.9}, {77, 10},    {79, 11.2}, {81, 12.5},  {82, 12.68}};
 /// Distribution of the elongation E. There are 2 very elongated and 15 moderately elongated shapes. The other knots are
@@ -35,10 +35,10 @@ const Quantiles elongations{{0, 0.38}, {2, 0.4}, {17, 0.6}, {61, 0.8}, {82, 0.97
 /// Distribution of the flatness F. There are 3 very flat and 19 moderately flat shapes. The other knots are chosen such
 /// that the average is 0.64.
 const Quantiles flatnesses{{0, 0.358}, {3, 0.4}, {22, 0.6}, {60, 0.7}, {79, 0.8}, {82, 0.94}};
-/// Distribution of the true sphericity ψ^w. It has the minimum, average and maximum of Table 1.
+/// Distribution of the true sphericity ψ^w. It has the minimum, average and maximum of Table 1 of [1].
 const Quantiles sphericities{{0, 0.718}, {8, 0.79}, {41, 0.865}, {74, 0.92}, {82, 0.968}};
-/// Distribution of the number of points. It has the minimum, average and maximum of Table 1, and nine shapes have fewer
-/// than 100 facets.
+/// Distribution of the number of points. It has the minimum, average and maximum of Table 1 of [1], and nine shapes
+/// have fewer than 100 facets.
 const Quantiles points{{0, 24.5}, {9, 51}, {41, 145}, {70, 270}, {82, 411.5}};
 
 /// Returns the value below which `shapes` of the 82 shapes lie.
@@ -71,8 +71,8 @@ std::size_t number_of(std::string_view name) {
   return std::find_if(all.begin(), all.end(), [&](const ShapeProperty& p) { return p.name == name; }) - all.begin();
 }
 
-/// Correlations of Table 2 that the five distributions do not determine. The last one is not from [1]: larger stones
-/// are scanned with more voxels, so they have more points.
+/// Correlations of Table 2 of [1] that the five distributions do not determine. The last correlation in this list is
+/// not from [1]: larger stones are scanned with more voxels, so they have more points.
 struct Correlation {
   const char *property, *other;
   double value;
@@ -208,7 +208,7 @@ void add_sphericities(std::vector<ShapeMeasure>& shapes, RandomStream& random) {
 }  // namespace
 
 std::vector<ShapeMeasure> draw_library_targets(RandomStream& random, int shapes) {
-  constexpr int exchanges = 20'000;  // with more, only one exchange in thousands still lowers the cost
+  constexpr int exchanges = 20'000;  // after this number, only one exchange in thousands lowers the cost
   Pairing pairing(random, shapes);
   pairing.improve(exchanges);
   std::vector<ShapeMeasure> targets = pairing.targets();

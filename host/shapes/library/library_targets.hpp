@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file library_targets.hpp  Chooses target measures for the shapes of a generated library, such that the statistics
-/// of the library are those of Tables 1 and 2 of [1].
+/// of the library are those of Tables 1 and 2 of reference [1] (docs/model.md).
 #pragma once
 
 #include <vector>

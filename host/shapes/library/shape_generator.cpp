@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_generator.cpp  Generates stones and adapts them by stretching and wear until their measures match the targets
-// of the library.
+// shape_generator.cpp  Generates crushed stones. Stretches and wears each stone until its measures match the targets of
+// the library.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,8 +50,8 @@ struct Fit {
 };
 
 /// Fits one stone to its target by fixed-point iteration. Each step stretches the stone along its own chords by the
-/// ratios of target and measured lengths, and corrects the sphericity by more or less wear. Finally the finished
-/// surface, with rounded coordinates, is stretched again to match the lengths only.
+/// ratios of target and measured lengths, and increases or decreases the wear to correct the sphericity. Finally the
+/// finished surface, with rounded coordinates, is stretched again to match the lengths only.
 Fit fit_stone(const CrushedStone& stone, const ShapeMeasure& target) {
   constexpr int shapings = 8, stretchings = 4;
   constexpr double least_wear = 0.03, most_wear = 0.6, wear_per_sphericity = 4;

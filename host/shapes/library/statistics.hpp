@@ -21,7 +21,7 @@ struct ShapeProperty {
                        ///< smaller shapes
   bool correlated;     ///< whether the property has a row in the correlation matrix
   double (*value)(const ShapeMeasure&);  ///< returns the property in SI units
-  std::array<double, 3> paper;           ///< minimum, average and maximum of the 82 aggregates of [1], in `unit`
+  std::array<double, 3> paper;  ///< minimum, average and maximum of the 82 aggregates in reference [1], in `unit`
 };
 
 /// Returns all properties in the order of [1], Table 1: points, facets, D^L, D^I, D^S, V, A, SI, F, Fl, E, ψ^w, ψ^A.

@@ -16,8 +16,8 @@ struct Chords {
 };
 
 /// Measures the three chords of a surface. The result is exact for the polyhedron, up to rounding. A chord joins two
-/// points of the surface, as the jaws of a calliper do: if the body is not convex, the chord may leave the body in
-/// between, and it ends at the outermost points.
+/// points of the surface, like the jaws of a calliper. If the body is not convex, the chord may leave the body
+/// between its two ends; the ends are the outermost points.
 ///
 /// D^L is the longest distance between two vertices. D^I lies in a plane perpendicular to D^L. Such a plane cuts the
 /// surface in a polygon whose corners move along edges when the plane is shifted. The squared distance of two corners

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file convex_hull.cpp  Calls CGAL's quickhull with exact predicates; takes and returns plain arrays.
+/// \file convex_hull.cpp  Computes convex hulls with CGAL's quickhull and exact predicates. Arguments and results are
+/// plain arrays.
 #include "host/shapes/surface/convex_hull.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

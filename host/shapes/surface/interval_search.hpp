@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file interval_search.hpp  Finds the intervals that contain given positions by a sweep in ascending order, without testing
-/// every pair.
+/// \file interval_search.hpp  Finds the intervals that contain given positions. Sweeps over the positions in ascending
+/// order, so that not every pair of interval and position is tested.
 #pragma once
 
 #include <algorithm>

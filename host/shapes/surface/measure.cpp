@@ -40,7 +40,7 @@ void measure_bounding_sphere(const Surface& surface, ShapeMeasure& m) {
   using Kernel = CGAL::Cartesian<double>;
   using Traits = CGAL::Min_sphere_of_points_d_traits_3<Kernel, double, CGAL::Tag_true>;
   const Vec3d origin = middle_of(surface.points);
-  const double unit = m.d_long;  // coordinates are divided by it, because the algorithm has absolute tolerances
+  const double unit = m.d_long;  // scaled to length 1, as the algorithm has absolute tolerances
   std::vector<Kernel::Point_3> points;
   for (const Vec3d& p : surface.points) {
     points.emplace_back((p.x - origin.x) / unit, (p.y - origin.y) / unit, (p.z - origin.z) / unit);

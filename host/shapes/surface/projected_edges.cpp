@@ -79,7 +79,8 @@ double largest_gap_of_edges(const std::vector<Vec3d>& points, const std::vector<
   }
   EdgeGap gap(rounding);
   for (const Segment& s : segments) gap.offer_end_on(s);
-  // If two spans overlap, the beginning of one lies in the other; so all pairs are found.
+  // If two spans overlap, the beginning of one span lies in the other span. So stab() finds all pairs of overlapping
+  // spans.
   stab(spans, begins, rounding, [&](std::size_t i, std::size_t j) {
     if (i != j) gap.offer(segments[i], segments[j]);
   });
@@ -101,7 +102,8 @@ double largest_gap_over_facets(const std::vector<Vec3d>& points, const std::vect
     const Vec3d &o = points[a], e1 = points[b] - o, e2 = points[c] - o, r = points[point] - o;
     const double both = turn(e1, e2), s = turn(r, e2) / both, t = turn(e1, r) / both;
     if (!(s >= 0 && t >= 0 && s + t <= 1)) return;
-    // In a vertical facet s and t are meaningless. The edges of such a facet are compared by largest_gap_of_edges().
+    // s and t are coordinates of the point in the facet. For a vertical facet they are meaningless, so the projected
+    // distance is tested too; largest_gap_of_edges() compares the edges of such a facet.
     const Vec3d apart = s * e1 + t * e2 - r;
     if (flat_dot(apart, apart) <= rounding * rounding) largest = std::max(largest, std::abs(apart.z));
   });

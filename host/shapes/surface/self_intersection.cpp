@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // self_intersection.cpp  Tests pairs of facets with overlapping boxes. CGAL's own function needs a manifold mesh, and
-// faulty surfaces are not manifold, so the cases of common corners are distinguished here.
+// faulty surfaces may not be manifold. So this file itself tells apart facets with 0, 1, 2 or 3 common corners.
 #include "host/shapes/surface/self_intersection.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -35,7 +35,7 @@ class FacetPairs {
         return CGAL::do_intersect(triangle(a), triangle(b));
       case 1:  // one common corner: the far edge of one facet must intersect the other facet
         return CGAL::do_intersect(triangle(a), far_edge(b)) || CGAL::do_intersect(triangle(b), far_edge(a));
-      case 2:  // a common edge: they intersect if one is folded flat onto the other
+      case 2:  // a common edge: two facets intersect if one is folded flat onto the other
         return CGAL::coplanar(at(a[0]), at(a[1]), at(a[2]), at(b[2])) &&
                CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;
       default:

@@ -77,7 +77,7 @@ class Check {
   void collect_sides() {
     for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
       const auto [a, b, c] = surface_.facets[f];
-      if (a == b || b == c || c == a) continue;  // skips this facet; its neighbours then share the edge directly
+      if (a == b || b == c || c == a) continue;  // an edge, not a facet; its neighbours share that edge
       for (int k = 0; k < 3; ++k) {
         const std::int32_t from = surface_.facets[f][k], to = surface_.facets[f][(k + 1) % 3];
         sides_.push_back({std::min(from, to), std::max(from, to), static_cast<std::int32_t>(f), k, from < to});

@@ -82,9 +82,9 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(const Facet& facet, const Vec3
   return found(a + (vb / (va + vb + vc)) * ab + (vc / (va + vb + vc)) * ac, face);
 }
 
-/// The candidates are sorted by their distance D from another point, which is `way` from `point`. The distance of a
-/// candidate from `point` is therefore at least D − way, and the search ends when D − way exceeds the smallest distance
-/// found.
+/// Searches the candidates in order. They are sorted by their distance D from another point, which is `way` [m] from
+/// `point`. The distance of a candidate from `point` is therefore at least D − way, and the search ends when D − way
+/// exceeds the smallest distance found.
 SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> nearest_first, double way,
                                                      const Vec3d& point) const {
   Nearest best{std::numeric_limits<double>::infinity(), {}, {}};
@@ -96,10 +96,10 @@ SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> 
   return best;
 }
 
-/// In a cell with half diagonal g whose centre is at distance d from the nearest facet, the nearest facet of any point
-/// of the cell is within d + 2g of the centre: the point is at most g from the centre and at most d + g from that
-/// facet. `candidates` are the facets that can be nearest in the parent cell, whose centre is `way` [m] from the centre
-/// of this cell.
+/// Makes a node. In a cell with half diagonal g whose centre is at distance d from the nearest facet, the nearest facet
+/// of any point of the cell is within d + 2g of the centre: the point is at most g from the centre and at most d + g
+/// from that facet. `candidates` are the facets that can be nearest in the parent cell, whose centre is `way` [m] from
+/// the centre of this cell.
 void SurfaceDistance::grow(std::int32_t node, const Vec3d& centre, const Vec3d& half, int level,
                            std::span<const Candidate> candidates, double way) {
   const double g = norm(half) * (1 + 1e-9);  // enlarged, so that rounding loses no candidate

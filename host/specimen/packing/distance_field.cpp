@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file distance_field.cpp  Computes exact distances at the grid nodes. Along a line of nodes the sign is copied from
-/// node to node as long as no surface can lie between the two.
+/// node to node as long as no surface can lie between the two nodes.
 #include "host/specimen/packing/distance_field.hpp"
 
 #include <algorithm>

@@ -28,10 +28,10 @@ class DistanceField {
   /// Returns the interpolated signed distance. Outside the grid it is a lower bound, up to the interpolation error.
   double at(const Vec3d& point) const;
 
-  /// Returns the same distance and its direction.
+  /// Returns the distance, as at() does, and its direction.
   Value value(const Vec3d& point) const;
 
-  /// Lower and upper bound of the true signed distance.
+  /// at_least() and at_most() return a lower and an upper bound of the true signed distance.
   double at_least(const Vec3d& point) const { return at(point) - error_; }
   double error() const { return error_; }  ///< difference of at() and at_least()
   double at_most(const Vec3d& point) const;

@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-// Number of cells along the longest edge of a shape.
+// Number of cells of the distance field of a shape along the longest edge of the shape's bounding box.
 constexpr int field_cells = 40;
 // Tolerance of the samples divided by the intermediate diameter D^I; small compared with the gaps that packing keeps.
 constexpr double sample_tolerance = 0.003;

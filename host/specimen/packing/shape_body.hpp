@@ -13,7 +13,8 @@
 
 namespace macadam {
 
-/// A template with all data for testing its copies. Lengths are in the frame of the template [m].
+/// A template, which is a shape of which scaled copies are placed, with all data for testing these copies. Lengths are
+/// in the frame of the template [m].
 struct ShapeGeometry {
   explicit ShapeGeometry(const ShapeTemplate& shape);
 

@@ -48,8 +48,8 @@ bool ShapeInsertion::place(std::size_t k, ShapeBody& body) {
   };
   bool placed = find(plain, 6, anywhere, body);
   if (!placed && attempts_ > plain) {
-    // Points distributed uniformly over the cells that are not completely taken have the same distribution as
-    // successful trials over the whole box, but more trials succeed.
+    // Points distributed uniformly over the cells that are not completely covered by placed bodies have the same
+    // distribution as successful trials over the whole box, but more trials succeed.
     const std::vector<std::size_t> open = open_cells(k, body.inner_radius());
     if (open.empty()) return false;
     const auto in_the_open = [&](Draws draws, ShapeBody& b) {
@@ -87,8 +87,8 @@ bool ShapeInsertion::inside(const ShapeBody& body, const Extent& e) const {
   return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z;
 }
 
-/// Tests only whether the body's inner ball comes too close to a placed body. Most trials fail, and this fast test
-/// detects most of the failures.
+/// Tests only whether the body's inner ball (a ball inside the body, see ShapeBody::inner_radius()) comes too close to
+/// a placed body. Most trials fail, and this fast test detects most of the failures.
 bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
   const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) {
@@ -104,8 +104,8 @@ bool ShapeInsertion::clear(const ShapeBody& body) const {
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) { return nearer(placed_[j], body, spacing_); });
 }
 
-/// Updates room_ for the bodies placed since the last call. Only cells near such a body are updated, because farther
-/// away it cannot exclude any body that is still to come.
+/// Updates room_ for the bodies placed since the last call. Only cells near such a body are updated. In cells farther
+/// away the body leaves room for the inner ball of every body that is still to be placed.
 void ShapeInsertion::measure_room(std::size_t k) {
   if (room_.empty()) {
     room_.resize(grid_.cells());

@@ -32,7 +32,7 @@ class ShapeInsertion {
   bool find(std::int64_t most, std::size_t draws, const Attempt& attempt, ShapeBody& body);
   static Vec3d point(Draws& draws, const Vec3d& from, const Vec3d& to);
   bool inside(const ShapeBody& body, const Extent& extent) const;
-  /// Fast test with the centre of the body only.
+  /// Tests quickly, with the inner ball of the body only, whether the body touches a placed body. Returns false if so.
   bool clear_at_centre(const ShapeBody& body) const;
   /// Returns whether a body keeps the spacing to all placed bodies.
   bool clear(const ShapeBody& body) const;

@@ -13,7 +13,8 @@ namespace macadam {
 namespace {
 
 // Contacts have the stiffness 1 and the smallest body has the mass 1. For rotations a contact at the radius of a body
-// counts (radius/lever_)² = 4 times. A body has up to about twelve contacts, so stiffness divided by mass reaches about
+// is stiffer by the factor (radius/lever_)² = 4. A body has up to about twelve contacts, so stiffness divided by mass
+// reaches about
 // 50. An iteration with momentum is stable if this ratio is below 2·(1 + momentum)/step, which is 65.
 constexpr double step = 0.06, momentum = 0.95;
 constexpr double longest_move = 0.02;  // largest movement per iteration, divided by D^I of the smallest body
@@ -175,7 +176,7 @@ class Packing {
       if (touch[k]) extra_[pairs_[k].a] *= freeing, extra_[pairs_[k].b] *= freeing;
     const auto touching = std::count(touch.begin(), touch.end(), 1);
     if (touching > 0)
-      for (PairContact& p : pairs_) p.look_at = 0;  // clearances were measured relative to the old gaps
+      for (PairContact& p : pairs_) p.look_at = 0;  // the distances until the next test were computed for the old gaps
     return static_cast<int>(touching);
   }
 

@@ -51,7 +51,7 @@ void check(const std::vector<ShapeTemplate>& shapes, const ShapeComposition& com
   }
 }
 
-/// Returns the test data of each shape that is requested.
+/// Returns the test data of each shape that at least one request uses.
 Geometries prepare(const std::vector<ShapeTemplate>& shapes, const std::vector<AggregateRequest>& requests) {
   std::vector<std::uint8_t> used(shapes.size());
   for (const AggregateRequest& r : requests) used[r.shape] = 1;
@@ -62,7 +62,8 @@ Geometries prepare(const std::vector<ShapeTemplate>& shapes, const std::vector<A
   return geometries;
 }
 
-/// Returns the test data of the given spheres. Single spheres need none.
+/// Returns, for each aggregate, its filling spheres sorted for fast tests; null for an aggregate that is a single
+/// sphere.
 std::vector<std::unique_ptr<const SphereCluster>> clusters_of(const ShapeComposition& composition,
                                                               const ShapePlacementSpec& spec) {
   double largest = 0;
@@ -99,8 +100,8 @@ std::string no_room(const ShapeComposition& composition, const std::vector<Shape
   return text;
 }
 
-/// Inserts the bodies and returns which of them were placed. After the first body of a class that could not be placed,
-/// the rest of the class is skipped.
+/// Inserts the bodies and returns which of them were placed. If a body cannot be placed, the smaller bodies of its
+/// class are skipped.
 std::vector<std::uint8_t> insert(const Box& box, const std::vector<ShapeTemplate>& shapes,
                                  const ShapeComposition& composition, const ShapePlacementSpec& spec,
                                  std::vector<ShapeBody>& bodies, const std::function<void(double)>& progress) {

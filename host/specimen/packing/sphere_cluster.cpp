@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sphere_cluster.cpp  Lists the spheres of a cluster by the cells of a grid over the cube that contains it. A point
-// outside the cube uses the nearest cell, whose list contains all spheres within `reach` of the point.
+// sphere_cluster.cpp  Lists the spheres of a cluster by the cells of a grid over the cube that contains the cluster. A
+// point outside the cube uses the nearest cell, whose list contains all spheres within `reach` of the point.
 #include "host/specimen/packing/sphere_cluster.hpp"
 
 #include <algorithm>

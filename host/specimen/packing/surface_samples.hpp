@@ -14,8 +14,8 @@ namespace macadam {
 /// edge, the closer its points.
 class SurfaceSamples {
  public:
-  /// Between two samples of an edge at most about `tolerance` [m] of the edge can penetrate a plane without being
-  /// detected.
+  /// The samples of an edge are so close that between two of them the edge can penetrate a plane by at most about
+  /// `tolerance` [m] without being detected.
   SurfaceSamples(const Surface& surface, double tolerance);
 
   /// Calls `visit(point)` for all samples in those balls for which `reaches(centre, radius)` is true.
