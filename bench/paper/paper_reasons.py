@@ -53,7 +53,7 @@ class Facts:
         return [100 * (float(v[f"{key}_{hz}_hz"]) / float(ss[f"{key}_{hz}_hz"]) - 1) for hz in (2, 20)]
 
     def counts(self, choice, key):
-        """Returns a count for each of the four specimens with a choice, in the order of CLUSTERS."""
+        """Returns a count of each of the four specimens that is made with a choice, in the order of CLUSTERS."""
         return [self.count(variant(n, choice), key) for n in CLUSTERS]
 
     def between(self, variant, base, key="e_star_pa"):

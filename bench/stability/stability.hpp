@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stability.hpp  Stability of the stepping under extreme conditions. Each case states the expected result,
-/// measures it and gives a verdict.
+/// \file stability.hpp  Declares the cases that test the stability of the time stepping under extreme conditions. Each
+/// case states the expected result, measures it and gives a verdict.
 ///
 /// A case is a function that takes an effort and returns rows. The program stability_bench runs all cases and writes
 /// the table; tests/step/stability_test.cpp runs the same functions with little effort.
@@ -104,7 +104,7 @@ void shake(Stepper& stepper, const test::TestScene& scene, double speed);
 /// Returns ½·m·v² + ½·I·ω² at the half step [J].
 double kinetic_energy(const test::TestScene& scene, const ParticleState& state);
 
-/// Returns a stepper with a setting.
+/// Makes a stepper (the object that performs the time steps) with the backend and precision of a setting.
 std::unique_ptr<Stepper> make(const Setting& setting, const test::TestScene& scene, StepperOptions options);
 
 /// Returns the largest kinetic energy of a run, divided by the bound for leapfrog. The run starts from random

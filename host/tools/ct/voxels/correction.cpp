@@ -165,7 +165,8 @@ double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, Corr
     }
     const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
     std::nth_element(near.begin(), middle, near.end());
-    // rings are subtracted, not divided: a faulty detector pixel is off by the same amount whatever the scan shows
+    // the offset of a ring is subtracted instead of divided out, because a faulty detector pixel is off by the same
+    // amount whatever the scan shows
     offset[r] = in_contrasts(parts.each[r].brighter - *middle, parts.whole) * parts.whole.contrast();
     squares += offset[r] * offset[r];
   }
