@@ -83,10 +83,10 @@ laws::GeneralisedKelvin quick_law(double dt);
 /// Returns about `particles` generated spheres: some aggregates in mastic.
 Specimen generated_specimen(std::uint64_t seed, int particles);
 
-/// Returns the same contacts with four points each, which have the six area moments of `Contact::moments`. The
-/// reference sums over points, so it then uses the quadrature of the network. The points are at the centroid ± √2 times
-/// the columns of L, where C = L·Lᵀ is the covariance of the facet, with a quarter of the area each; then Σ A_J·x·xᵀ =
-/// A·C.
+/// Returns the contacts of a network with four points each, which have the six area moments of `Contact::moments`. The
+/// reference implementation sums over points, so with these contacts it uses the quadrature of the network. The points
+/// are at the centroid ± √2 times the columns of L, where C = L·Lᵀ is the covariance of the facet, with a quarter of
+/// the area each; then Σ A_J·x·xᵀ = A·C.
 ContactNetwork with_points_of_moments(const ContactNetwork& network);
 
 /// Returns 2/ω_max from the dense eigenvalues of the reference implementation, with the moments of the network's
