@@ -2,9 +2,10 @@
 // block_lengths.cpp  Measures the error of |E*| and phase from taking steps in blocks, for several block lengths.
 // Writes CSV to standard output.
 //
-// The program repeats the stepping in blocks of the GPU backend (kernels/cuda/tiles/tile_blocks.hpp) in simple code and
-// in double precision. It steps small networks of spheres with fixed geometry from the steady state. Each row compares
-// a block length with blocks of one step at the same time step and masses. The program takes some minutes.
+// A block is a sequence of time steps; the viscoelastic state of a contact is updated only at its end. The program
+// repeats the stepping in blocks of the GPU backend (kernels/cuda/tiles/tile_blocks.hpp) in simple code and in double
+// precision. It steps small networks of spheres with fixed geometry from the steady state. Each row compares a block
+// length with blocks of one step at the same time step and masses. The program takes some minutes.
 #include <fmt/format.h>
 
 #include "host/run/error_model.hpp"

@@ -2,10 +2,11 @@
 // block_precision.cpp  Measures the rounding error of |E*| and phase for several block lengths. Writes CSV to standard
 // output.
 //
-// Changes of force within a block, and their sums, are in single precision. The program steps the specimen t8 with
-// fixed geometry through one cycle of 20 Hz from the steady state. The period has enough steps that blocks can be as
-// long as kernels::longest_block allows. The result is compared with the same steps in double precision, which does not
-// use blocks. The program takes some minutes.
+// A block is a sequence of time steps; the viscoelastic state of a contact is updated only at its end. Changes of force
+// within a block, and the sums of these changes, are in single precision. The program steps the specimen t8 with fixed
+// geometry through one cycle of 20 Hz from the steady state. The period has enough steps that blocks can be as long as
+// kernels::longest_block allows. The result is compared with the same steps in double precision, which does not use
+// blocks. The program takes some minutes.
 //
 // usage: block_precision [cpu|cuda]
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// precision.cpp  The runs of the study of precision, and its table.
+// precision.cpp  Lists the runs of the study of precision, makes them, and writes their table.
 #include "bench/accuracy/precision.hpp"
 
 #include <fmt/chrono.h>

@@ -44,8 +44,8 @@ def implied_voids(facts):
 
 
 def hints(facts):
-    """Returns the list of hints at the void in the paper's clusters that follow from its numbers, each with its
-    basis."""
+    """Returns the list of three estimates of the voids in the paper's clusters. Each says from which numbers of the
+    paper it follows, and on what assumptions it rests."""
     ss, rest = PAPER["SS"], "This estimate rests on"
     budget = {r: [PAPER[f"MS-{s}-{r}"].void_of_mastic for s in ("Poly", "Ico")] for r in FILLINGS}
     ico, poly = ([facts.void(f"MS-{s}-{r}", [0, 1, 2]) for r in FILLINGS] for s in ("Ico", "Poly"))

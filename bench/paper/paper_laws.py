@@ -53,8 +53,9 @@ def uniform_strain(alpha):
 
 
 def factors(mix):
-    """Returns the factor on the M-M law with which a mastic specimen is as stiff as the mastic to which the law was
-    fitted, at each frequency and for each seed; and the difference of the specimen's phase from the law's, degrees."""
+    """Returns two lists by frequency and seed. The first has the factors on the M-M law with which a specimen of mastic
+    is as stiff as the mastic to which the law was fitted. The second has the phase of the specimen minus the phase of
+    the law, in degrees."""
     law, of = laws(mix)["M-M"], [r for r in rows("paper-mastic.csv") if r["mix"] == mix]
     delta, phase = [], []
     for hz in FREQUENCIES:

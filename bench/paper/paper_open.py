@@ -25,8 +25,8 @@ def single(choice):
 
 
 def off(of):
-    """Returns each quantity's misfit, root mean square over the specimens: in % of a number of contacts, in points of a
-    deviation."""
+    """Returns the misfit of each quantity, as the root mean square over the specimens. The misfit of a number of
+    contacts is in per cent, the misfit of a deviation in percentage points."""
     scales = [100 * CONTACT_SCALE] * 4 + [DEVIATION_SCALE] * 2
     return [s * math.sqrt(mean(of[n].misfits[k] ** 2 for n in CLUSTERS)) for k, s in enumerate(scales)]
 

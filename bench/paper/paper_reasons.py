@@ -53,7 +53,7 @@ class Facts:
         return [100 * (float(v[f"{key}_{hz}_hz"]) / float(ss[f"{key}_{hz}_hz"]) - 1) for hz in (2, 20)]
 
     def counts(self, choice, key):
-        """Returns a count for each of the four specimens with a choice, in the order of CLUSTERS."""
+        """Returns the count `key` of each of the four specimens of clusters if made with a choice, as in CLUSTERS."""
         return [self.count(variant(n, choice), key) for n in CLUSTERS]
 
     def between(self, variant, base, key="e_star_pa"):

@@ -62,8 +62,8 @@ NARROW = (1.35e-3, 1.55e-3)
 
 
 def makings_of(name):
-    """Returns the choices of making that are tried for a specimen. For single spheres only the spacing is varied,
-    because single spheres contain no clusters."""
+    """Returns the choices for making the specimen that are tried. For the specimen of single spheres only the spacing
+    is varied, because it has no clusters."""
     if name == "SS":
         return [m for m in MAKINGS if m == Choice(spacing_mm=m.spacing_mm)]
     own = [m for m in MAKINGS if not m.narrow or "coarse" in name]
@@ -73,7 +73,7 @@ def makings_of(name):
 
 
 def contacts_of(name, making):
-    """Returns the choices of contacts that are tried with a specimen."""
+    """Returns the choices for the contacts that are tried with a specimen."""
     of = [c for c in CONTACTS if name != "SS" or c in (OURS, Choice(area_min=c.area_min))]
     return [replace(making, inner_gap=c.inner_gap, inner_modulus=c.inner_modulus, area_min=c.area_min) for c in of]
 

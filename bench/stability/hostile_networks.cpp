@@ -12,11 +12,11 @@
 namespace macadam::stability {
 namespace {
 
-/// Checks what every such network must give: a safe time step, a run at 0.95 of it that stays bounded, and a modulus on
-/// which two solvers agree. `conditioning`: ratio of the largest to the smallest stiffness; the rounding errors of both
-/// solvers grow with it. `residual`: residual that the frequency-domain solver must reach. `compared`: whether to
-/// compare with the reference solver. That solver stops with an error unless it reaches a residual of 1e-12, which is
-/// not possible for every network.
+/// Checks what every network of these cases must give: a safe time step, a run at 0.95 of this step that stays bounded,
+/// and a modulus on which two solvers agree. `conditioning`: ratio of the largest to the smallest stiffness; the
+/// rounding errors of both solvers grow with it. `residual`: residual that the frequency-domain solver must reach.
+/// `compared`: whether to compare with the reference solver. The reference solver stops with an error unless it reaches
+/// a residual of 1e-12, which is not possible for every network.
 void judge(Rows& rows, const std::string& name, const test::TestScene& scene, Effort effort, double conditioning,
            double residual = 1e-11, bool compared = true) {
   const double limit = true_limit(scene);

@@ -35,7 +35,7 @@ Specimen spheres_of_two_sizes(double ratio) {
     add(edge * cell + jitter(0.03 * radius), ratio == 1 ? small : radius, Phase::aggregate);
   }
   constexpr int m = n - 1;
-  // half the edge of the cube on four of whose corners the small spheres are placed
+  // The small spheres in a gap are placed on four corners of a cube; `apart` is half the edge of this cube.
   const double apart = std::max(1.2 * small, 0.02 * radius);
   for (int i = 0; i < m * m * m; ++i) {
     const Vec3d gap{i % m + 1.0, i / m % m + 1.0, i / (m * m) + 1.0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// modes.cpp  Eigenmodes, energy and momenta of an assembly.
+// modes.cpp  Computes eigenmodes, energy and momenta of an assembly of particles.
 #include "bench/stability/modes.hpp"
 
 #include <Eigen/Eigenvalues>

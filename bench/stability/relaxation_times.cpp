@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// relaxation_times.cpp  Laws whose relaxation times are far below and far above the time step.
+// relaxation_times.cpp  Tests laws whose relaxation times are far below and far above the time step.
 #include <cmath>
 #include <complex>
 #include <numbers>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rigid_turn.cpp  Turns a specimen once about an oblique axis: moved on exact circles, and rotating freely.
+// rigid_turn.cpp  Turns a specimen once about an oblique axis. In one case its particles are moved on exact circles, in
+// the other the specimen rotates freely.
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>

@@ -114,7 +114,8 @@ double energy_over_bound(const Setting& setting, const test::TestScene& scene, c
   const double share = options.dt / limit;
   const double bound = kinetic_energy(scene, stepper->particles()) / (1 - share * share);
   double largest = 0;
-  // odd, so that samples do not coincide with the period of a mode at the limit
+  // odd: at the largest stable time step a mode oscillates with a period of two steps, and an even stride would always
+  // sample it at the same phase
   const std::int64_t stride = std::max<std::int64_t>(1, steps / 400) | 1;
   for (std::int64_t done = 0; done < steps; done += stride) {
     stepper->advance(stride);

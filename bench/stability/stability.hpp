@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stability.hpp  Stability of the stepping under extreme conditions. Each case states the expected result,
-/// measures it and gives a verdict.
+/// \file stability.hpp  Declares the cases that test the stability of the time stepping under extreme conditions. Each
+/// case states the expected result, measures it and gives a verdict.
 ///
 /// A case is a function that takes an effort and returns rows. The program stability_bench runs all cases and writes
 /// the table; tests/step/stability_test.cpp runs the same functions with little effort.
@@ -83,10 +83,10 @@ laws::GeneralisedKelvin quick_law(double dt);
 /// Returns about `particles` generated spheres: some aggregates in mastic.
 Specimen generated_specimen(std::uint64_t seed, int particles);
 
-/// Returns the same contacts with four points each, which have the six area moments of `Contact::moments`. The
-/// reference sums over points, so it then uses the quadrature of the network. The points are at the centroid ± √2 times
-/// the columns of L, where C = L·Lᵀ is the covariance of the facet, with a quarter of the area each; then Σ A_J·x·xᵀ =
-/// A·C.
+/// Returns the contacts of a network with four points each, which have the six area moments of `Contact::moments`. The
+/// reference implementation sums over points, so with these contacts it uses the quadrature of the network. The points
+/// are at the centroid ± √2 times the columns of L, where C = L·Lᵀ is the covariance of the facet, with a quarter of
+/// the area each; then Σ A_J·x·xᵀ = A·C.
 ContactNetwork with_points_of_moments(const ContactNetwork& network);
 
 /// Returns 2/ω_max from the dense eigenvalues of the reference implementation, with the moments of the network's
@@ -104,7 +104,7 @@ void shake(Stepper& stepper, const test::TestScene& scene, double speed);
 /// Returns ½·m·v² + ½·I·ω² at the half step [J].
 double kinetic_energy(const test::TestScene& scene, const ParticleState& state);
 
-/// Returns a stepper with a setting.
+/// Makes a stepper (the object that performs the time steps) with the backend and precision of a setting.
 std::unique_ptr<Stepper> make(const Setting& setting, const test::TestScene& scene, StepperOptions options);
 
 /// Returns the largest kinetic energy of a run, divided by the bound for leapfrog. The run starts from random

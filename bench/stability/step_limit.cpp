@@ -31,8 +31,8 @@ constexpr Variant variants[] = {
 /// Relative resolution of the bisection in onset().
 constexpr double onset_resolution = 1e-3;
 
-/// Returns the largest relative change of H over a run of an elastic network with fixed geometry, from random
-/// velocities.
+/// Returns the largest relative change of H, the energy that leapfrog keeps, over a run of an elastic network with
+/// fixed geometry. The run starts from random velocities.
 double energy_drift(const Setting& setting, const test::TestScene& scene, const Modes& modes,
                     const StepperOptions& options, std::int64_t steps) {
   const auto stepper = make(setting, scene, options);
@@ -47,7 +47,7 @@ double energy_drift(const Setting& setting, const test::TestScene& scene, const 
   return drift;
 }
 
-/// Returns the logarithm of the amplitude's growth per step, measured when the motion has grown a lot.
+/// Returns the logarithm of the factor by which the amplitude grows per step, measured when the motion has grown a lot.
 double growth(const Setting& setting, const test::TestScene& scene, const StepperOptions& options, double expected) {
   const auto stepper = make(setting, scene, options);
   shake(*stepper, scene, 1e-3);
@@ -102,7 +102,8 @@ Rows step_sweep(Effort effort) {
                         1 + 1e-3, "", found, true});
         worst = std::max(worst, found);
         if (!linear) continue;
-        // near the limit H is the small difference of two large terms, so its relative change is weighted
+        // near the stability limit H is the small difference of two large terms, so its relative change is weighted
+        // with 1 − share²
         const double drift = energy_drift(setting, scene, *modes, options, steps) * (1 - share * share);
         worst_drift = drift > worst_drift || std::isnan(drift) ? drift : worst_drift;
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// strain_amplitudes.cpp  Strains of 1e-6 … 1e-2: up to which strain is fixed geometry accurate enough?
+// strain_amplitudes.cpp  Measures up to which strain, from 1e-6 to 1e-2, fixed geometry is accurate enough.
 #include <cmath>
 #include <numbers>
 

@@ -120,7 +120,7 @@ std::string fish_completion(const CLI::App& app) {
   };
   std::string out = "# fish completion for macadam; made by macadam completion fish\n";
   for_each_command(app, "macadam", [&](const CLI::App& command, const std::string& path) {
-    // Condition in fish's language: this command was typed, and none of its subcommands.
+    // The condition under which fish offers the words below: this command was typed, and none of its subcommands.
     std::string when;
     for (const std::string& word : CLI::detail::split(path, ' '))
       if (word != "macadam") when += (when.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);

@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-/// Sets a variable that is not set. Returns whether it was set now.
+/// Sets an environment variable unless it is set already. Returns whether this call set it.
 bool set_where_missing(const char* name, const char* value) {
   return !std::getenv(name) && setenv(name, value, 0) == 0;
 }
@@ -30,7 +30,8 @@ void restart_with_library_environment(int argc, char** argv) {
   bool changed = computes && !std::getenv("GOMP_SPINCOUNT") && set_where_missing("OMP_WAIT_POLICY", "passive");
   if (is_address_space_limited()) changed = set_where_missing("OPENBLAS_NUM_THREADS", "1") || changed;
   if (!changed) return;
-  // The variable holds the process number, so that it does not stop the restart of programs that this one starts.
+  // The variable holds the number of the process that restarted. A program that this process starts inherits the
+  // variable, but it has another process number and can restart too.
   constexpr const char* done = "MACADAM_RESTARTED";
   const char* const before = std::getenv(done);
   const std::string process = std::to_string(::getpid());

@@ -14,7 +14,7 @@
 namespace macadam {
 namespace {
 
-/// Returns the innermost command on the command line: `app` or one below it.
+/// Returns the innermost command that the command line names: `app` itself or one of its subcommands.
 const CLI::App& reached(const CLI::App& app) {
   const auto below = app.get_subcommands();
   return below.empty() ? app : reached(*below.front());
@@ -38,7 +38,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = reached(app);
   const std::vector<std::string> commands = known_words(command, false);
   std::vector<std::string> unknown = app.remaining(true);
-  std::erase(unknown, "--");  // CLI11 lists this mark too, which is never the culprit
+  std::erase(unknown, "--");  // CLI11 also lists the mark `--`, which is never wrong
   if (unknown.empty()) {
     if (commands.empty()) return error.what();
     return fmt::format("found no command, expected one of {}", fmt::join(commands, ", "));
@@ -79,7 +79,7 @@ int say_and_run(int argc, char** argv) {
   CLI::App app;
   make_command_line(app);
   const auto [code, ran] = run_program(app, argc, argv);
-  // the output of a run or a specimen is in its files as well, so it may be lost
+  // `run` and `specimen` also write their results to files, so a failed write to standard output is no error for them
   const bool in_files = ran && (app.got_subcommand("run") || app.got_subcommand("specimen"));
   if (flush_output() || code != 0 || in_files) return code;
   say_error(

@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t bytes_in_reserve = 4 << 20;  ///< never written to, so it takes addresses but no memory
+constexpr std::size_t bytes_in_reserve = 4 << 20;  ///< never written to, so it takes address space only
 std::atomic<void*> reserve{nullptr};
 
 void give_back_reserve() {

@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// Adds both commands; they describe `app`, which must outlive them.
+/// Adds the commands `completion` and `man` to `app`. Both describe `app`, which must outlive them.
 void add_shell_commands(CLI::App& app);
 
 /// Return scripts that complete commands, options, their choices and files.

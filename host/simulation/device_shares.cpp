@@ -9,8 +9,9 @@
 namespace macadam {
 namespace {
 
-/// Smallest gain for which a scene moves to another device, as a fraction of its remaining work. Making a stepper takes
-/// some hundredths of the time that the steps of a frequency take.
+/// A scene moves to another device only if the move saves at least this fraction of its remaining work. Each move costs
+/// the making of a new stepper (the object that performs the time steps), which takes some hundredths of the time that
+/// the steps of a frequency take.
 constexpr double worth_a_move = 0.125;
 
 }  // namespace

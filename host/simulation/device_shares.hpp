@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// Keeps account of some scenes, by number, and of the devices on which they run.
+/// Records on which device each scene runs, and chooses devices. Scenes are given by their numbers.
 class DeviceShares {
  public:
   explicit DeviceShares(std::size_t scenes) : to_come_(scenes) {}
@@ -20,7 +20,7 @@ class DeviceShares {
   /// another one is avoided. Most scenes are alike, so all devices end at about the same time. Returns nothing if each
   /// of these devices runs `most` scenes.
   std::optional<int> choose(const DeviceList& may, int most) const;
-  /// Records that a scene runs on `device`, and later perhaps on another one that it may take.
+  /// Records that a scene runs on `device`, and that it may later move to any device of `may`.
   void put(std::size_t scene, int device, DeviceList may);
   /// Returns the device on which a scene continues with its remaining work `work`. As long as some scenes have had no
   /// device yet, it is the scene's present device. Afterwards it is the device whose other scenes have the least work

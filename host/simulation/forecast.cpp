@@ -70,7 +70,7 @@ double solution_seconds(const Scene& scene, const Forecast& f, const std::vector
 void add_memory(const Scene& scene, Forecast& f, const std::vector<double>& contrasts, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
   const StepCost step = f.stepped ? step_cost(scene, f) : StepCost{};
-  // the memory of the solutions is freed before the steps
+  // the memory of the frequency-domain solutions is freed before the time steps begin, so the larger of both counts
   const double solved = f.solutions == 0 ? 0 : device ? cost.a_solved_contact_beside_device : cost.a_solved_contact;
   const bool cyclic = f.stepped && std::holds_alternative<experiments::Cyclic>(scene.experiment);
   const bool steady = cyclic && cyclic_start(scene, f.geometry) == Start::steady;

@@ -60,10 +60,10 @@ class FileForecast {
     return !kind.empty() && name == load_words(kind).file ? 200 + load_line * points : material_file;
   }
 
-  /// Returns the number of broken points that the run lists. This number depends on the load. The result is the order
-  /// of magnitude for a specimen that breaks in two.
+  /// Returns the number of broken contact points that the run is expected to list. The true number depends on the load;
+  /// the result is its order of magnitude for a specimen that breaks in two.
   double broken_points() const {
-    constexpr double points_per_contact = 5.9, broken_part = 0.11;  // measured: t8 torn in two
+    constexpr double points_per_contact = 5.9, broken_part = 0.11;  // measured: specimen t8, torn in two
     const auto part = mean_of_usual(scene_, [](const Law& law) {
       return std::visit([](const auto& l) { return facts_of(l).breaks ? 1.0 : 0.0; }, law);
     });
@@ -71,8 +71,8 @@ class FileForecast {
     return tests * broken_part * points_per_contact * part.value_or(0) * f_.contacts;
   }
 
-  /// Returns the largest number of Kelvin units of a contact; each unit is an array. The chains of contact points are
-  /// not written.
+  /// Returns the largest number of Kelvin units of any contact; a file of contacts has one array for each unit. Returns
+  /// 0 for the contact form `points`, because the states of its Kelvin units are not written.
   int units() const {
     int out = 0;
     if (f_.stepped && f_.form == ContactForm::points) return out;
@@ -83,7 +83,8 @@ class FileForecast {
 
   void add_fields() {
     const FieldSpec& spec = scene_.output.fields;
-    const bool made = !scene_.specimen.file && f_.census.aggregates > 0;  // size classes are known then
+    // a file of a generated specimen has the size class of each particle
+    const bool made = !scene_.specimen.file && f_.census.aggregates > 0;
     const double particles = static_cast<double>(f_.census.particles()), per_unit = f_.stepped ? 24 : 48;
     const double stress = scene_.solver.backend == Backend::reference ? 0 : 24;
     const FieldSize of_particles{48.0 + (made ? 4 : 0), 24.0 + (made ? 2 : 0), f_.stepped ? 72 + stress : 72,
@@ -131,7 +132,7 @@ class FileForecast {
     f_.field_frames += std::max(1.0, frames);
     if (frames == 0) return add(stem + (vtp ? ".vtp" : ".vtkhdf"), static_file(size) + of_frame);
     constexpr double list_line = 75, frame_head = 300, piece = 256, of_piece = 65e3;
-    constexpr double growing_head = 180e3;  // of the arrays of a VTKHDF file that grow with the frames
+    constexpr double growing_head = 180e3;  // bytes for the arrays of a VTKHDF file that grow with each frame
     if (!vtp) {
       return add(stem + ".vtkhdf", static_file(size) + growing_head + (of_frame + frame_head) * frames +
                                        of_piece * std::ceil(frames / piece));

@@ -10,8 +10,8 @@
 
 namespace macadam {
 
-/// Returns the mean of f(law) over the pair types that have most of the contacts: the pairs of the mastic, if the scene
-/// has any.
+/// Returns the mean of f(law) over the pair types that have most of the contacts. These are the pairs with mastic, if
+/// the scene has any.
 template <class F>
 std::optional<double> mean_of_usual(const Scene& scene, F&& f) {
   double sum = 0;
@@ -23,7 +23,7 @@ std::optional<double> mean_of_usual(const Scene& scene, F&& f) {
   return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
-/// Returns the steps of each frequency, or of the load.
+/// Predicts the time steps for each frequency or, if the experiment has no frequencies, for the load history.
 std::vector<StepForecast> forecast_steps(const Scene& scene, const Census& census);
 
 /// Returns the contrast (stiffest over softest contact) of each solution in the frequency domain.

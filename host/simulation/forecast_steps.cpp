@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_steps.cpp  Predicts the steps and solutions of a run by the rules of its plan, from numbers that do not need
-// a specimen.
+// forecast_steps.cpp  Predicts the time steps and the frequency-domain solutions of a run. It applies the rules by
+// which the run itself is planned, to numbers that are known without a specimen.
 #include "host/simulation/forecast_parts.hpp"
 
 #include <algorithm>
@@ -27,16 +27,15 @@ double instantaneous(const Law& law) {
   return std::visit([](const auto& l) { return l.instantaneous(); }, law);
 }
 
-/// Returns the order of magnitude of the specimen's |E*| at a frequency [Pa]: the geometric mean over the usual
-/// contacts.
+/// Returns the order of magnitude of the specimen's |E*| at a frequency [Pa]: the geometric mean of the contact moduli,
+/// over the pair types that have most of the contacts.
 double modulus_at(const Scene& scene, double hz) {
   const double omega = 2 * std::numbers::pi * hz;
   const auto logarithm = mean_of_usual(scene, [&](const Law& law) { return std::log(stiffness_at(law, omega)); });
   return logarithm ? std::exp(*logarithm) : 1e9;
 }
 
-/// Returns the critical step at true mass [s]. This is the step of a small sphere that has the stiffest contacts it can
-/// have.
+/// Returns the critical time step at true mass [s]: that of a small sphere whose contacts are as stiff as they can be.
 double critical_step(const Scene& scene, const Census& census) {
   constexpr double mastic_part = 0.377, cluster_part = 0.58;  // measured parts of radius·√(density/modulus)
   const auto step = [&](double part, double radius, double density, std::initializer_list<PairType> pairs) {
@@ -67,7 +66,7 @@ StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
   out.frequency_hz = test.frequencies[k];
   if (const auto given = given_scaling(scene, k, critical)) {
     out.density_scaling = *given;
-  } else {  // the plan computes the effect of inertia, which is about this part of ρω²H²/|E*|
+  } else {  // the error of inertia is estimated as a part of ρω²H²/|E*|; a run computes it
     constexpr double inertia_error = 0.3;
     const double density = std::max(scene.materials.mastic, scene.materials.aggregate);
     const double turn = 2 * std::numbers::pi * out.frequency_hz * scene.specimen.box.size.z;
@@ -105,7 +104,8 @@ StepForecast load_steps(const Scene& scene, double critical) {
   return out;
 }
 
-/// Returns stiffest over softest |k*(s)|. The number of iterations grows with its cube root.
+/// Returns the contrast of the laws: the largest |k*(s)| of a law divided by the smallest. The number of iterations of
+/// the solver grows with the cube root of the contrast.
 double contrast_at(const LawTable& laws, std::complex<double> s) {
   double softest = INFINITY, stiffest = 0;
   for (const auto& law : laws) {
@@ -147,7 +147,8 @@ std::vector<double> forecast_contrasts(const Scene& scene, bool stepped) {
       for (const LawTable& laws : tables) out.push_back(contrast_at(laws, {0, 2 * std::numbers::pi * f}));
     return out;
   }
-  // number of solutions for a spectrum, at real s from a decade below to a decade above the inverse times
+  // A spectrum is computed from this number of solutions at real s, from a tenth of the inverse of the longest time to
+  // ten times the inverse of the shortest time.
   constexpr int of_spectrum = 24;
   const std::vector<double> times = load_test_of(scene).history.times;
   const double low = std::log(0.1 / times.back()), high = std::log(10 / times.front());

@@ -24,7 +24,7 @@ bool is_in(const std::filesystem::path& file, const std::filesystem::path& folde
   return std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), folder, error);
 }
 
-/// Removes one file of an older result, whose name a new file will have.
+/// Removes a file of an older result; a new file will get the same name.
 void replace(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::remove(file, error);

@@ -69,11 +69,12 @@ std::string status_of(const std::exception& error) {
   return std::string("failed: ") + error.what();
 }
 
-/// The backend that runs the scene. Devices are counted and start up while the specimen is made.
+/// The backend that runs the scene. Another thread looks for it: the devices are counted and start up while the
+/// specimen is made.
 class FoundBackend {
  public:
-  /// Waits at most for `wait`. \throws as select_backend(), if it fails within that time. A refusal by an existing
-  /// device may become known later.
+  /// Begins to look for the backend, and waits for the result for at most `wait`. \throws as select_backend(), if the
+  /// search fails within that time. That a device exists but cannot be used may become known only later.
   FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(solver.backend) {
     const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
     if (asked_ == Backend::cuda || asked_ == Backend::automatic) {
@@ -209,7 +210,7 @@ class SceneRun {
 
   /// Replaces older results by the files of the specimen.
   void write_specimen(PhaseSeconds& phases) const {
-    // the last point at which an interruption leaves no trace
+    // an interruption up to this point leaves the folder unchanged
     if (watcher_.progress) watcher_.progress("writing the specimen", 0);
     const InPhase writing(phases, &PhaseSeconds::writing);
     write_preparation(scene_, prepared(), out_, [&] {

@@ -26,8 +26,8 @@ namespace {
 
 /// Number of scenes that run on a device at a time.
 constexpr int at_once_on_a_device = 4;
-/// Number of specimens per device that are prepared at the same time. With more at a time, all of them would be ready
-/// late. With one at a time, preparing a specimen can take longer than the steps of the previous specimen
+/// Number of specimens per device that are prepared at the same time. If it were larger, all specimens would be ready
+/// late. If it were one, preparing a specimen could take longer than the steps of the previous specimen
 /// (bench/results/many.csv). With several devices, the first two specimens of each device are prepared one after the
 /// other with twice as many cores; otherwise the device would wait for its second specimen. One device is assumed until
 /// the devices are counted.
@@ -74,8 +74,9 @@ DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   return out;
 }
 
-/// Runs the scenes on worker threads. A scene waits for a part of the cores, is prepared, and then takes a device if
-/// its backend is cuda. It holds its cores until a device takes its steps, or to its end.
+/// Runs the scenes on worker threads. Each scene waits for a share of the processor's cores and is prepared on them.
+/// Then it gets a device, if its backend is cuda. A scene that is stepped on a device returns its cores when the steps
+/// begin; any other scene keeps them until it ends.
 class Pool {
  public:
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
@@ -103,7 +104,7 @@ class Pool {
   void share_out(int devices) {
     const int usual = devices == 0 ? cores_ : std::min(at_once_on_a_device * devices, cores_);
     const int number = at_most(options_.at_once > 0 ? options_.at_once : usual);
-    // one core per device stays free for the threads that wait for devices, so that these do not wait for a core
+    // threads that wait for a device need a core too, so one core per device is not given to scenes
     const int spared = 8 * devices <= cores_ ? devices : 0;
     {
       const std::lock_guard lock(mutex_);
@@ -127,15 +128,15 @@ class Pool {
     {
       const std::lock_guard lock(mutex_);
       share_ = std::max(1, cores / shares);
-      cores = std::max(cores, shares);  // more scenes than cores, if the user asks for that
+      cores = std::max(cores, shares);  // the user may ask for more scenes at a time than cores
       free_ += cores - std::exchange(all_, cores);
       turns_ += shares - std::exchange(all_turns_, shares);
       changed_.notify_all();
     }
-    try {  // other threads, because the number of OpenMP threads of this one must not change
+    try {  // scenes change the number of OpenMP threads, so they must not run in this thread
       while (std::ssize(workers_) < number) workers_.emplace_back([this] { work(); });
     } catch (const std::system_error&) {
-      if (workers_.empty()) throw;  // otherwise fewer threads do the work
+      if (workers_.empty()) throw;  // otherwise the threads that were started run all scenes
     }
   }
 
@@ -180,14 +181,16 @@ class Pool {
     }
   }
 
-  /// A part of the cores, which a scene holds until a device takes its steps, or to its end.
+  /// The cores that a scene has. A scene that is stepped on a device has them until the steps begin; any other scene
+  /// until it ends.
   class Cores {
    public:
     /// `most`: the largest number of threads that the scene may use; 0: its number of cores.
     Cores(Pool& pool, bool first_of_scene, int most) : pool_(pool), most_(most) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;
-      // half a part is enough to begin, because a scene that shares its cores gives half of them
+      // A scene begins when half a share of the cores is free, because a running scene that makes room frees only half
+      // of its cores.
       pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= (pool_.share_ + 1) / 2; });
       --pool_.waiting_;
       number_ = std::min(pool_.share_, pool_.free_);
@@ -201,7 +204,7 @@ class Pool {
       give_back(number_);
     }
 
-    /// Gives half of the cores, and the turn, to other scenes if any of them wait for cores.
+    /// Frees half of the cores of this scene, and its turn, if other scenes wait for cores.
     void share() {
       const std::lock_guard lock(pool_.mutex_);
       if (!has_turn_ || pool_.waiting_ == 0) return;
@@ -232,8 +235,8 @@ class Pool {
     });
   }
 
-  /// Chooses one of the devices that the scene may use and that answer. Waits while each of them runs its largest
-  /// number of scenes; other scenes have the cores meanwhile.
+  /// Chooses one of the devices that the scene may use and that answer. If each of them already runs its largest number
+  /// of scenes, waits; other scenes use the cores meanwhile.
   void take_device(std::size_t job, SolverSpec& solver, std::optional<Cores>& cores) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
     if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper reports why these cannot run
@@ -287,16 +290,18 @@ class Pool {
   std::mutex mutex_;  // guards the members below and the functions in the options
   std::condition_variable changed_;
   int all_ = 0, free_ = 0, share_ = 1;  // cores: of all scenes, free ones, and those for one scene
-  // turns: all of them, and free ones; a scene needs a turn to get its part of the cores
+  // number of turns: in all, and free. A scene gets cores only together with a turn, so the turns limit how many scenes
+  // are prepared at the same time.
   int all_turns_ = 0, turns_ = 0;
   int waiting_ = 0;                  // scenes that wait for cores
-  int urgent_ = 0, for_urgent_ = 0;  // scenes not begun for which devices would wait; cores for each of them
-  int beside_ = 0;                   // scenes on a device at a time, once the devices are counted
+  int urgent_ = 0, for_urgent_ = 0;  // scenes to begin before each device has work; cores for each of them
+  int beside_ = 0;                   // largest number of scenes on a device; 0 until the devices are counted
   std::size_t next_ = 0;
   DeviceShares devices_taken_;
   std::exception_ptr thrown_;  // by a function of the options, or while devices were counted
   std::vector<JobOutcome> outcomes_;
-  // the devices that are counted, and those that answer; both become known while the first specimens are made
+  // the devices that scenes may use, and those of them that answer; both become known while the first specimens are
+  // made
   std::shared_future<DeviceList> devices_ = std::async([this] { return meant_devices(jobs_); });
   std::shared_future<DeviceList> usable_ = std::async([all = devices_] { return usable(all.get()); });
 };

@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// The stage of prepare() that follows after the cells.
+/// Name of the stage of prepare() in which the contact network is made; it follows the stage of the Laguerre cells.
 inline constexpr const char* network_stage = "contact network";
 
 /// Parts of run_scene() that the caller may replace.

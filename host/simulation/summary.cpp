@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json volume_fractions(const Specimen& specimen, const Tessellation& tessellation) {
-  std::array<double, 3> spheres{}, cells{};  // by Phase
+  std::array<double, 3> spheres{}, cells{};  // indexed by Phase
   const Specimen all = with_voids_as_cells(specimen);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto phase = static_cast<std::size_t>(all.phase[i]);
@@ -35,8 +35,8 @@ Json volume_fractions(const Specimen& specimen, const Tessellation& tessellation
 
 const char* to_string(SolverMethod method) { return method == SolverMethod::harmonic ? "harmonic" : "explicit"; }
 
-/// Returns the settings of the solution, to which an experiment adds its own. The keys of time stepping stay null in
-/// other runs.
+/// Returns the settings of the solution; the experiment adds its own settings to them. In a run without time stepping
+/// the keys of time stepping are null.
 Json solver_json(const Scene& scene, const RunResult& result) {
   Json out = {{"method", to_string(scene.solver.method)},
               {"dt_s", Json()},

@@ -60,12 +60,12 @@ def asserted(file, test, name, literal):
 
 
 def fail(message):
-    """Refuses the query: results are not what the sentence says."""
+    """Refuses the query, because the results contradict the sentence in which the mark is."""
     raise Refused(message)
 
 
 def of_number(function):
-    """Returns the function for values that may be NULL."""
+    """Returns a version of the function that returns NULL if its first value is NULL."""
     return lambda x, *more: None if x is None else function(x, *(int(n) for n in more))
 
 

@@ -90,7 +90,7 @@ class Results:
         return set(FILE.findall(query)).union(*views)
 
     def reads_results(self, query):
-        """Returns whether a query reads a committed file. A typed number does not."""
+        """Returns whether a query reads a committed file. A query that is only a typed number does not."""
         return bool(self.files_of(query) or FACTS.search(query))
 
     def ask(self, query):

@@ -25,7 +25,7 @@ struct RunArguments {
   int at_once = 0;
 };
 
-/// `stepping`: set to true when planning is done and the steps begin.
+/// Runs one scene. Sets `stepping` to true when planning is done and the time steps begin.
 void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   Scene scene = scene_of(arguments.job);
   apply(arguments.instead, scene);
@@ -34,7 +34,7 @@ void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   bool started = false;
   const bool speaks = is_first_rank();
   watcher.progress = [&](const std::string& stage, double share) {
-    if (started || !speaks) {  // of several ranks, only the first reacts to signals until all take steps
+    if (started || !speaks) {  // before the steps begin, only the first rank (process) reacts to signals
       line.show(stage, share);
     } else {
       show_or_stop(line, stage, share);

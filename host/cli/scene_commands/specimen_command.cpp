@@ -18,7 +18,7 @@ struct SpecimenArguments {
   std::vector<std::string> sections;
 };
 
-/// Prints the fraction of the area of a section that is aggregate.
+/// Prints which fraction of the area of a section is aggregate.
 void say_section(const Preparation& prepared, const SectionPlane& plane) {
   const CrossSection section = cut(prepared.specimen, prepared.tessellation, plane);
   double all = 0, aggregate = 0;
@@ -32,7 +32,7 @@ void say_section(const Preparation& prepared, const SectionPlane& plane) {
 
 void specimen_command(const SpecimenArguments& arguments) {
   const Scene scene = scene_of(arguments.job);
-  std::vector<SectionPlane> planes;  // read first, so that a wrong one is refused before the work
+  std::vector<SectionPlane> planes;  // read first, so that a wrong plane is refused before the specimen is made
   for (const std::string& text : arguments.sections) planes.push_back(read_section_plane(text, scene.specimen.box));
   ProgressLine line;
   listen_to_stop_signals();

@@ -40,7 +40,7 @@ void as_rank(Ranks& team, const std::function<void(bool&)>& f) {
     team.leave();
   } catch (const InterruptedError& error) {
     if (!together) end_all(team, error.what(), 1);
-    team.leave();  // by then the first has written the checkpoint
+    team.leave();  // before this call the first rank has written the checkpoint
     if (first) throw;
   } catch (const std::bad_alloc&) { end_all(team, "out of memory", 1); } catch (const std::exception& error) {
     end_all(team, error.what(), dynamic_cast<const InputError*>(&error) ? 2 : 1);

@@ -14,7 +14,7 @@
 
 namespace macadam {
 
-/// Options that both commands have.
+/// Options that `run` and `specimen` have in common.
 struct Job {
   std::string scene, out;
   std::optional<std::uint64_t> seed;
@@ -35,7 +35,7 @@ void add_out_and_seed(CLI::App& command, Job& job);
 void add_overrides(CLI::App& command, Overrides& instead);
 
 /// Adds --device only: "0", "0,1" or "all".
-template <class Target>  // DeviceList, or an optional one
+template <class Target>  // DeviceList or std::optional<DeviceList>
 CLI::Option* add_devices(CLI::App& command, Target& target) {
   return options::add(command, "--device,--devices",
                       "number of a CUDA device in the list of macadam info, or of several devices that share the "

@@ -12,8 +12,8 @@ namespace macadam {
 std::filesystem::path own_program();
 
 /// Returns the source tree, if this program is in the folder in which it was built; empty if it was installed. The
-/// program contains no path of the machine that built it: its bytes depend on the sources alone, and on other machines
-/// it runs nothing that happens to be at such a path.
+/// program itself contains no absolute path of the machine that built it. So the bytes of the program depend on the
+/// sources alone, and on another machine it never runs a file that happens to be at such a path.
 std::filesystem::path source_tree();
 
 /// Returns the Python that runs scripts and the package: MACADAM_PYTHON of the environment, the Python of the

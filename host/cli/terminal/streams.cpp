@@ -35,7 +35,7 @@ void silence_output() {
 }
 
 bool flush_output() {
-  std::cout.flush();  // CLI11 writes help there
+  std::cout.flush();  // CLI11 writes its help to std::cout
   const bool flushed = std::fflush(stdout) == 0;
   return flushed && std::ferror(stdout) == 0 && std::cout.good();
 }

@@ -60,7 +60,7 @@ void say_machine(const bench::MachineSpeed& machine) {
   say("{:64} {:>12} {:>7} {:>10} {}\n", "median", "us", "spread", "contacts/s", "share of bandwidth");
 }
 
-/// Prints the times before and now of each row. Returns whether any row became slower.
+/// Prints the old and the new time of each row. Returns whether any row became slower.
 bool say_changes(const std::vector<bench::BenchRow>& before, const std::vector<bench::BenchRow>& rows,
                  const std::string& file) {
   bool slower = false;

@@ -23,7 +23,7 @@ struct CtTwinArguments {
   TwinSpec spec;
 };
 
-/// Returns the lower and the upper corner from six lengths.
+/// Returns the lower and the upper corner of the box that six lengths give.
 std::array<Vec3d, 2> box_of(const std::vector<std::string>& texts) {
   std::vector<double> at;
   for (const std::string& text : texts) at.push_back(length_of(text, "--box"));

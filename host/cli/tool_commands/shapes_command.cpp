@@ -31,7 +31,7 @@ struct ShapesArguments {
   bool repair = false, wrap = false;
 };
 
-/// Returns the files that are named, and for a named folder its surface files, sorted by name.
+/// Returns the given files. A given folder stands for all surface files in it, sorted by name.
 std::vector<fs::path> files_of(const std::vector<std::string>& paths) {
   std::vector<fs::path> files;
   for (const fs::path path : paths) {

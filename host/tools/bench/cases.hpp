@@ -28,7 +28,7 @@ BenchCase lattice(std::size_t particles, bool walls);
 /// \throws InputError
 BenchCase case_of(const std::string& text);
 
-/// Returns elastic laws with the instantaneous stiffness of the given ones.
+/// Returns elastic laws with the instantaneous stiffness of `laws`.
 LawTable elastic(LawTable laws);
 /// Returns the laws with `units` Kelvin units each. Every unit has the stiffness and viscosity of the first unit times
 /// `units`, so that the total compliance of the chain does not depend on their number. Elastic laws do not change.

@@ -48,7 +48,8 @@ double processor_copy(int threads) {
   return best;
 }
 
-/// Returns the name of a combination; values equal to the default are left out.
+/// Returns the name of a row: the quantity, the specimen and the settings. Settings at the end of the name are left out
+/// if they have their default value.
 std::string name_of(const std::string& what, const BenchCase& timed, const StepperOptions& o, Backend backend,
                     int units) {
   std::string out = fmt::format("{}/{}/{}/{}/{}/{}", what, timed.name, to_string(backend), to_string(o.form),

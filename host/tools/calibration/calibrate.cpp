@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // calibrate.cpp  Searches for the parameters of least misfit, and judges whether the result is acceptable.
 //
-// Each round minimises the misfit that the reduced model predicts, then solves the networks at the minimum. The motions
-// of the new solution join the reduced model. The search ends when the prediction finds nothing better than the last
+// Each round minimises the misfit that the reduced model predicts, and then solves the networks at the minimum. (The
+// reduced model is the equations of motion restricted to combinations of the motions found so far.) The motions of the
+// new solution are added to the reduced model. The search ends when the prediction finds nothing better than the last
 // solution.
 #include <fmt/format.h>
 
@@ -96,7 +97,8 @@ class Calibrator {
     return laws;
   }
 
-  /// A prediction with its residuals, first of the measurements and then of the priors, and their derivatives.
+  /// A prediction with its residuals and their derivatives. The residuals of the measurements come first, those of the
+  /// priors last.
   struct State {
     std::vector<double> theta;  ///< logarithms of the free parameters
     std::vector<Predicted> predicted;
@@ -124,8 +126,8 @@ class Calibrator {
     return state_of(theta, specimens.solve(laws_at_theta(theta), free_));
   }
 
-  /// Returns the state of least misfit according to the estimates. The search starts at θ and stays within a factor of
-  /// e², beyond which the estimates are poor.
+  /// Returns the state of least misfit according to the estimates. The search starts at θ and changes no parameter by
+  /// more than a factor of e², beyond which the estimates are poor.
   State least_by_estimate(const Specimens& specimens, std::vector<double> theta) const {
     std::vector<ParameterBounds> bounds;
     for (std::size_t i = 0; i < theta.size(); ++i) {

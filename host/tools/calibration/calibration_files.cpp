@@ -106,8 +106,8 @@ std::string predicted_csv(const Calibration& c) {
 std::string calibration_text(const Calibration& c) {
   std::string out = fmt::format("{:<16} {:>13} {:>13} {:>14}\n", "parameter", "scene", "calibrated", "within (95 %)");
   for (const CalibratedParameter& p : c.parameters) {
-    // A limit is the value times or divided by a factor, because the logarithm of the value has a normal distribution.
-    // Factors below 1.5 are written as a percentage.
+    // A confidence limit is the value times or divided by a factor, because the logarithm of the value has a normal
+    // distribution. Factors below 1.5 are written as a percentage.
     const double factor = std::exp(1.96 * p.deviation / p.value);
     const std::string within = p.at_bound                    ? "at its bound"
                                : !std::isfinite(p.deviation) ? "unknown"

@@ -208,7 +208,7 @@ Specimens::Answers Specimens::solve(Body& body, const LawTable& laws, const std:
     for (const std::size_t p : places) frequencies.push_back(places_[p].frequency);
     Harmonic harmonic(body.specimen, body.network, at, body.inertia,
                       harmonic_options(scene_, backend_, watcher_.stop, residual), geometric_mean(frequencies));
-    constexpr std::size_t block = 4;  // number of places that are solved at the same time
+    constexpr std::size_t block = 4;  // number of frequencies that are solved at the same time
     for (std::size_t begin = 0; begin < places.size(); begin += block) {
       if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
       const std::size_t count = std::min(block, places.size() - begin);

@@ -26,7 +26,8 @@ struct Predicted {
 /// its temperatures is meant.
 std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data);
 
-/// The specimens, one per seed. Each has a reduced model, to which every solution adds its motions.
+/// The specimens, one per seed. Each has a reduced model: its equations of motion, restricted to combinations of the
+/// motions of all solutions so far.
 class Specimens {
  public:
   /// Prepares the specimens. Scene, data and watcher must outlive this object. \throws InputError, RunError as
@@ -59,12 +60,12 @@ class Specimens {
     Inertia inertia;
     std::unique_ptr<harmonic::ReducedModel> seen;  ///< reduced model with the motions of all solutions
   };
-  /// E* at one place, with its derivatives by the logarithms of the free parameters.
+  /// E* at one frequency and temperature, with its derivatives by the logarithms of the free parameters.
   struct Answer {
     std::complex<double> modulus;
     std::vector<std::complex<double>> by;
   };
-  using Answers = std::vector<Answer>;  ///< one per place
+  using Answers = std::vector<Answer>;  ///< one per frequency and temperature, as places_
 
   /// Returns the density scaling of a run at a frequency; 0 without inertia. \throws InputError if the scene has none
   /// for this frequency.
@@ -76,7 +77,8 @@ class Specimens {
   /// Returns E* and its derivatives from the parts of E*.
   Answer answer_of(const ModulusParts& parts, const LawTable& laws, const HarmonicLoad& load,
                    const std::vector<Parameter>& free) const;
-  /// Solves one specimen at all places and adds the motions to its reduced model.
+  /// Solves one specimen at every frequency and temperature in places_, and adds the motions found to the reduced model
+  /// of this specimen.
   Answers solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) const;
   /// Returns means and standard deviations over the specimens, for every measurement. `free`: number of free
   /// parameters.
@@ -90,8 +92,8 @@ class Specimens {
   double viscous_;
   std::string solver_;
   std::vector<Place> places_;
-  std::vector<std::size_t> place_of_;                ///< measurement → place
-  std::vector<std::vector<std::size_t>> isotherms_;  ///< the places of each temperature
+  std::vector<std::size_t> place_of_;                ///< for each measurement the index of its place in places_
+  std::vector<std::vector<std::size_t>> isotherms_;  ///< for each temperature the indices of its places
   std::vector<std::uint64_t> seeds_;
   std::vector<std::unique_ptr<Body>> bodies_;
   int solutions_ = 0;

@@ -61,7 +61,8 @@ std::vector<Limits> analogue_limits(const Unknowns& u, const std::vector<Target>
 
 constexpr std::size_t refined = 6;  ///< number of best starts that are refined
 
-/// Returns θ of usual values over a grid of τ, E_00 and δ: the few with the smallest misfit, best first.
+/// Computes the misfit of usual constants θ on a grid of τ, E_00 and δ. Returns the few θ with the smallest misfit,
+/// best first.
 std::vector<std::vector<double>> usual_starts(const Unknowns& u, const std::vector<Target>& targets,
                                               const std::vector<double>& shift) {
   const Extent e = extent_of(targets);
@@ -96,8 +97,8 @@ std::vector<std::vector<double>> with_dashpot(const std::vector<double>& huet_sa
   return out;
 }
 
-/// Returns the smallest misfit that is reached from usual values and from the fitted models that this one contains;
-/// empty if no start has a finite misfit.
+/// Returns the smallest misfit that is reached from usual values and from the fitted smaller models `contained`; empty
+/// if no start has a finite misfit.
 std::optional<Minimum> fit_from(const Unknowns& u, const Problem& problem, const std::vector<Chain>& contained) {
   const std::vector<Limits> limits = joined(analogue_limits(u, problem.targets), shift_limits(u, problem.temperatures));
   std::vector<std::vector<double>> starts =

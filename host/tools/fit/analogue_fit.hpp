@@ -8,10 +8,10 @@
 
 namespace macadam::fitting {
 
-/// Fits the problem's model and shift law, and returns the result with the smallest misfit that the best of many starts
-/// reach, with k < h. All smaller models are fitted first: 2S2P1D contains Huet–Sayegh, and contained_shift_laws() are
-/// the smaller shift laws. Each model also starts from those that it contains, so its misfit is not above theirs.
-/// \throws RunError if no start has a finite misfit.
+/// Fits the problem's model and shift law from many starts, refines the best of them, and returns the result with the
+/// smallest misfit. The result has k < h. All smaller models are fitted first: 2S2P1D contains Huet–Sayegh, and
+/// contained_shift_laws() are the smaller shift laws. Each model also starts from the fitted models that it contains,
+/// so its misfit is never larger than theirs. \throws RunError if no start has a finite misfit.
 Minimum fit_analogue(const Problem& problem);
 
 /// Returns the model with the constants θ.

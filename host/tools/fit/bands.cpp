@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bands.cpp  Computes predictions of a fit between and beyond the measurements: curves with confidence limits. Also the
-// names of the options.
+// bands.cpp  Computes predictions of a fit between and beyond the measurements: curves with confidence limits. Also
+// defines the names of the options.
 #include <fmt/format.h>
 
 #include <boost/math/distributions/normal.hpp>

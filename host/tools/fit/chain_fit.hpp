@@ -22,9 +22,9 @@ struct Chain {
 /// Returns whether every curve of the smaller chain is also a curve of the larger chain.
 bool contains(const Unknowns& larger, const Unknowns& smaller);
 
-/// Returns the chain of `unknowns.units` units with the smallest misfit that is reached from chain_starts(). Its misfit
-/// is at most that of each chain in `known` that it contains. An element that has no effect then lies at its limit. A
-/// spring at its limit still changes |E*| by at most a fraction of e^-12. `limits`: of all unknowns, shift included.
+/// Returns the chain of `unknowns.units` units with the smallest misfit that is reached from chain_starts(). The misfit
+/// is at most that of each chain in `known` that this chain contains. An element without effect then lies at its limit,
+/// where a spring still changes |E*| by at most a fraction of e^-12. `limits`: of all unknowns, shift included.
 /// `shift`: first values of the unknowns of the shift. `tolerance`: relative change of the misfit per step at which the
 /// refinement ends. \throws RunError if no start has a finite misfit.
 Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,

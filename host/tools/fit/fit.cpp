@@ -151,10 +151,10 @@ double robust_deviation(std::vector<double> values) {
   return *middle / 0.6745;
 }
 
-/// Warns of measurements that lie more than five standard deviations off the fit. In a file of 20,000 normal errors one
-/// does so with a probability of 1 %. The standard deviation is the larger of two: the standard deviation of the data
-/// (or the assumed one), and the standard deviation of all differences, which is large if the model misses the whole
-/// curve.
+/// Warns of measurements that lie more than five standard deviations off the fit. Among 20,000 normally distributed
+/// errors, one is this large with a probability of 1 %. The standard deviation is the larger of two: the standard
+/// deviation of the data (or the assumed one), and the standard deviation of all differences, which is large if the
+/// model misses the whole curve.
 void warn_of_outliers(const Problem& problem, Fit& fit) {
   constexpr double far_off = 5;
   constexpr std::size_t most_named = 3;

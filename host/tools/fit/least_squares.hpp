@@ -55,8 +55,8 @@ struct Prediction {
 std::vector<Prediction> predict(const Unknowns& unknowns, const std::vector<Place>& places,
                                 const std::vector<double>& theta);
 
-/// (JᵀJ)⁻¹ of the residuals at θ, row by row. Directions that the data do not determine at all are left out of it; the
-/// unknowns that belong to such a direction are marked in `undetermined`.
+/// The covariance (JᵀJ)⁻¹ of the residuals at θ, row by row. It leaves out directions in θ that the data do not
+/// determine at all; `undetermined` marks the unknowns of such a direction.
 struct Covariance {
   std::vector<double> matrix;
   std::vector<bool> undetermined;

@@ -19,7 +19,7 @@ struct Problem {
   std::vector<Target> targets;
   Unknowns unknowns;
   double wanted_reference = 0;      ///< reference temperature that the user asks for [°C]
-  std::size_t wanted_isotherm = 0;  ///< the isotherm nearest to it
+  std::size_t wanted_isotherm = 0;  ///< the isotherm nearest to wanted_reference
 };
 
 /// Returns the problem. \throws InputError when measurements or options are invalid or do not determine the shift.

@@ -14,8 +14,9 @@ namespace macadam::fitting {
 std::vector<double> start_shift(const Unknowns& unknowns, const std::vector<Target>& targets,
                                 const std::vector<double>& temperatures);
 
-/// Converts θ, whose shift law is that of `unknowns`, to θ of the same curve and reference temperature with the shift
-/// law `larger`, which must contain the former: Arrhenius to WLF, or any law to a free shift.
+/// Converts θ, which belongs to `unknowns`, to the shift law `larger`, keeping the curve and the reference temperature.
+/// The shift law of `unknowns` must be a special case of `larger`. Arrhenius is a special case of WLF, and every law is
+/// a special case of a free shift.
 std::vector<double> convert_shift(const Unknowns& unknowns, const std::vector<double>& theta, ShiftKind larger,
                                   const std::vector<double>& temperatures);
 

@@ -146,7 +146,7 @@ class Groups {
 
 }  // namespace
 
-// Each measure counts relative to a value (0.8, 0.93, 0.85) at which it favours neither a cut nor a join.
+// Neck, solidity and valley count relative to 0.8, 0.93 and 0.85, values at which they favour neither a cut nor a join.
 double margin_of(double neck, double solidity, double valley) {
   const double score = 4 * (0.8 - neck) + 20 * (0.93 - solidity) + 6 * (0.85 - valley);
   return std::tanh(0.5 * score);

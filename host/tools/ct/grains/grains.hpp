@@ -27,13 +27,15 @@ struct Decision {
 /// margin is below 0.
 Decision decide(const Fragments& fragments);
 
-/// Takes the decisions from `cuts`, which were made before and may have been changed by a person. \throws InputError
-/// that names the pair if they belong to another scan or contradict each other.
+/// Takes the decisions from `cuts`, the table of an earlier segmentation, which a person may have edited. \throws
+/// InputError if the decisions belong to another scan or contradict each other; the message names the pair of
+/// fragments.
 Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts);
 
 /// Returns for each grain how certain its cuts are. `number` gives the new number of each grain of `decision` (0:
-/// dropped). The certainty is the minimum of (1 + |margin|)/2 over the faces of the grain, which is the probability
-/// from the margin's logistic curve. A decision that contradicts its margin was made by a person and counts as certain.
+/// dropped). For one face, (1 + |margin|)/2 is the probability that its decision is right (logistic curve). A grain
+/// gets the smallest value of its faces. A decision that contradicts its margin was made by a person and counts as
+/// certain.
 std::vector<double> certainty(const Decision& decision, const std::vector<std::uint32_t>& number);
 
 }  // namespace macadam::ct

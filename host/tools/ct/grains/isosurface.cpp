@@ -44,8 +44,8 @@ class March {
       inside += values[c] > 0;
     }
     if (inside == 0 || inside == 8) return;
-    // Going around a side, a line leads from the point where the positive range begins to the point where it ends.
-    // Loops of such lines are counter-clockwise as seen from outside the surface.
+    // Along the order of a side's corners, a line leads from the point where the positive range begins to the point
+    // where it ends. Loops of such lines are counter-clockwise as seen from outside the surface.
     std::int32_t from[12], to[12];
     int lines = 0;
     for (const auto& side : sides) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// paper_recipe.cpp  Implements the recipe: equalises slices and rings, applies Otsu's global threshold, erodes,
+// paper_recipe.cpp  Implements the recipe of [1]: equalises slices and rings, applies Otsu's global threshold, erodes,
 // computes the watershed, and makes surfaces of the voxels.
 #include "host/tools/ct/grains/paper_recipe.hpp"
 

@@ -13,7 +13,7 @@ namespace macadam::ct {
 /// of the innermost zone.
 void equalise(Image<float>& scan, const Image<std::uint8_t>& region);
 
-/// Segments a scan with these steps. \throws InputError if no voxel is brighter than the threshold.
+/// Segments a scan by the steps of [1]. \throws InputError if no voxel is brighter than the threshold.
 Segmentation segment_as_paper(Image<float> scan, const Image<std::uint8_t>& region, const SegmentOptions& options);
 
 }  // namespace macadam::ct

@@ -48,7 +48,8 @@ Surface surface_of(const Mesh& mesh) {
 
 /// Collapses edges until the mesh has about `facets` facets.
 void reduce(Mesh& mesh, int facets) {
-  // CGAL's own stop predicates have different names in versions 5 and 6. A closed mesh has 3/2 edges per facet.
+  // The function `stop` counts edges, because CGAL's own stop predicates have different names in versions 5 and 6. A
+  // closed mesh has 3/2 edges per facet.
   const std::size_t most = static_cast<std::size_t>(facets) * 3 / 2;
   const auto stop = [most](const auto& /*cost*/, const auto& /*edge*/, std::size_t /*first*/, std::size_t edges) {
     return edges < most;

@@ -71,7 +71,8 @@ double square_sieve(const Surface& surface) {
   const Vec3d middle = middle_of(surface.points);
   std::vector<Vec3d> points;
   for (const std::int32_t c : corners) points.push_back(surface.points[static_cast<std::size_t>(c)] - middle);
-  // tries directions distributed evenly over half a sphere (a spiral), then ever smaller steps around the best one
+  // tries directions distributed evenly over half a sphere (a spiral), then ever smaller steps around the best
+  // direction
   constexpr int ways = 150;
   double best = std::numeric_limits<double>::infinity();
   Vec3d way{};

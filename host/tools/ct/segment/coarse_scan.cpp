@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// coarse_scan.cpp  Computes block means one layer of blocks after the other.
+// coarse_scan.cpp  Computes the means of blocks of voxels, one layer of blocks after the other.
 #include "host/tools/ct/segment/coarse_scan.hpp"
 
 #include "kernels/base/parallel.hpp"

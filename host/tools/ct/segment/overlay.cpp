@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// overlay.cpp  Draws the three planes and the oblique view.
+// overlay.cpp  Draws a segmented scan: its three middle planes, and an oblique view of the grains.
 #include "host/tools/ct/segment/overlay.hpp"
 
 #include <fmt/format.h>

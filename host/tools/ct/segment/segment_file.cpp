@@ -84,8 +84,8 @@ double noise_of(const Image<float>& middles, Segmentation& out, const Correction
   return fit_levels(histogram_of(corrected, region)).deviation / out.levels.contrast();
 }
 
-/// Returns the edges of a voxel: the given ones, otherwise those in the file. Adds a warning if both are known and
-/// differ by more than 1 %. \throws InputError if neither is known.
+/// Returns the edges of a voxel: those that the user gives, otherwise those in the file. Adds a warning if both are
+/// known and differ by more than 1 %. \throws InputError if neither is known.
 Vec3d spacing_of(const ScanFile& file, const ImageHeader& header, std::vector<std::string>& warnings) {
   const Vec3d own = header.spacing, given = file.spacing;
   if (!(given.x > 0)) {

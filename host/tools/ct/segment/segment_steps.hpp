@@ -8,8 +8,8 @@
 
 namespace macadam::ct {
 
-/// Makes finer surfaces from the data of which the scan holds the block means. `steps` are the corrections that were
-/// applied to the scan.
+/// Makes finer surfaces from the full data; the scan holds only means of blocks of voxels. `steps` are the corrections
+/// that were applied to the scan.
 using Refine = std::function<void(Segmentation& out, const Thresholds& thresholds, const std::vector<GrainBox>& boxes,
                                   const CorrectionSteps& steps)>;
 

@@ -150,7 +150,7 @@ bool cut_by(const SawnCore& core, const PhantomGrain& g) {
   });
 }
 
-/// Filled fractions of all voxels.
+/// For each voxel, the fractions that aggregate, voids and the specimen fill.
 struct Shares {
   Image<float> aggregate, voids, specimen;
 };

@@ -63,7 +63,8 @@ bool holds(const Image<std::uint8_t>& mask, const Vec3d& point) {
                  voxel(from.z, mask.spacing.z, mask.size[2])) != 0;
 }
 
-/// Returns inscribed spheres of a void, from the largest down to half its radius; none has its centre in another.
+/// Returns inscribed spheres of a void, from the largest down to half its radius. No sphere has its centre inside
+/// another.
 std::vector<VoidSphere> inscribed(const Image<float>& depth, const std::vector<Voxel>& voxels) {
   std::vector<VoidSphere> all, out;
   for (const Voxel& p : voxels) all.push_back({depth.centre(p[0], p[1], p[2]), depth.at(p[0], p[1], p[2])});

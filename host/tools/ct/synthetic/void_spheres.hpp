@@ -15,8 +15,8 @@ struct VoidSpheres {
 };
 
 /// Replaces each void by spheres of the same total volume. A void is a set of void voxels of `phases` that are
-/// connected by their faces. A nearly round void becomes one sphere. Another one becomes several inscribed spheres, the
-/// largest first, none with its centre inside another; their radii are then multiplied by one factor to match the
+/// connected by their faces. A nearly round void becomes one sphere. Any other void becomes several inscribed spheres,
+/// the largest first, none with its centre inside another; their radii are then multiplied by one factor to match the
 /// void's volume. A void smaller than a sphere of radius `least` [m] is left out.
 VoidSpheres void_spheres(const Image<std::uint8_t>& phases, double least);
 

@@ -25,7 +25,7 @@ std::array<double, 2> middle_of(const Image<std::uint8_t>& region) {
              : std::array{0.5 * static_cast<double>(region.size[0] - 1), 0.5 * static_cast<double>(region.size[1] - 1)};
 }
 
-/// Grey levels of the whole scan, and the brightness of each of its parts relative to them.
+/// Grey levels of the whole scan, and for each part of the scan its brightness relative to these levels.
 struct Parts {
   GreyLevels whole;
   std::vector<PartLevel> each;
@@ -165,7 +165,8 @@ double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, Corr
     }
     const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
     std::nth_element(near.begin(), middle, near.end());
-    // rings are subtracted, not divided: a faulty detector pixel is off by the same amount whatever the scan shows
+    // the offset of a ring is subtracted instead of divided out, because a faulty detector pixel is off by the same
+    // amount whatever the scan shows
     offset[r] = in_contrasts(parts.each[r].brighter - *middle, parts.whole) * parts.whole.contrast();
     squares += offset[r] * offset[r];
   }
@@ -217,7 +218,7 @@ double ring_share(const Image<float>& scan, const Image<std::uint8_t>& region) {
 }
 
 // Divides the specimen into 12 ranges of ρ (squared radius) and 6 of height, finds the brightness of each cell, and
-// fits the polynomial 1, ρ, ρ², ζ, ζ², ρζ to them by least squares, weighted with the numbers of voxels.
+// fits the polynomial 1, ρ, ρ², ζ, ζ², ρζ to these values by least squares. The weights are the numbers of voxels.
 double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const std::int64_t edge = std::clamp<std::int64_t>(scan.size[0] / 100, 1, 4);

@@ -184,8 +184,8 @@ GreyLevels fit_levels(const Histogram& h) {
   const auto [i, j] = otsu3(h);
   const Mixture three = fitted(h, {mean_of(h, 0, i), mean_of(h, i, j), mean_of(h, j, h.counts.size())});
   const bool ordered = std::is_sorted(three.means.begin(), three.means.end());
-  // The densities make air differ more from mastic than mastic from aggregate. If the lowest of three levels is too
-  // near to the middle one (0.6 of the contrast), the scan has two phases, one of which was split.
+  // Air and mastic differ more in density, and so in grey value, than mastic and aggregate. If the lowest of three
+  // levels is too near to the middle one (0.6 of the contrast), the scan has two phases, one of which was split.
   const double gap = three.means[1] - three.means[0], contrast = three.means[2] - three.means[1];
   GreyLevels levels;
   const GreyLevels all{three.means[0], three.means[1], three.means[2], three.deviation, true};
@@ -235,8 +235,8 @@ PartLevel level_of_part(const Histogram& h, const GreyLevels& whole) {
     for (std::size_t k = 0; k < n; ++k) mixture.means[k] = levels[k] + brighter * change[k];
     if (narrow && std::abs(brighter - before) < 1e-5) break;
   }
-  // An eighth of the voxels must be pure to know their level. A shift of more than 0.8 of the contrast cannot be
-  // brightness.
+  // The brightness of a part is known only if at least an eighth of its voxels hold a single phase. A shift of more
+  // than 0.8 of the contrast cannot be brightness.
   if (known < 0.125 || std::abs(brighter) * change.back() > 0.8 * whole.contrast()) return {};
   return {brighter, known * total};
 }

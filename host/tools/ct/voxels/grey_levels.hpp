@@ -27,7 +27,7 @@ struct Histogram {
 /// the values; these count in the first and last bin. \throws InputError for an empty region or a constant grey value.
 Histogram bins_of(const Image<float>& image, const Image<std::uint8_t>& region, std::size_t bins);
 
-/// Returns the histogram of the region on the bins of bins_of().
+/// Returns the histogram of the grey values in the region, with the bins of bins_of().
 Histogram histogram_of(const Image<float>& image, const Image<std::uint8_t>& region, std::size_t bins = 512);
 
 /// Returns the threshold that splits bins [from, to) into two classes with the smallest variance within the classes

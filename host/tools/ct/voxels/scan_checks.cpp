@@ -88,7 +88,8 @@ void check_ends(const Image<std::uint8_t>& region, std::vector<std::string>& war
 }
 
 void check_rings(const Image<float>& scan, const Image<std::uint8_t>& region) {
-  // The grains of a specimen explain a few per cent, because a ring of a few voxels' width crosses many of them.
+  // In a scan without rings, this fraction of the variance of the grey values is a few per cent: a ring of a few
+  // voxels' width crosses many grains, so the grey values in it average out.
   constexpr double most = 0.15;
   if (const double share = ring_share(scan, region); share > most) {
     throw InputError("the scan", 0, "rings",
@@ -109,7 +110,7 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
                     "level of their own in the histogram, give --air-voids 0, and they are taken for mastic",
                     100 * *options.air_voids));
   }
-  // around a region given by coordinates there may be more of the specimen
+  // if the region is given by coordinates, more of the specimen may lie around it
   const std::optional<double> around = options.given ? std::nullopt : level_around(scan, region);
   if (around && std::abs(*around - levels.mastic) < 0.25 * levels.contrast()) {
     throw InputError(
@@ -145,8 +146,8 @@ double trust_in_axes(const Image<std::uint8_t>& phases, std::vector<std::string>
   double chord[3];
   for (std::size_t a = 0; a < 3; ++a) chord[a] = ends[a] > 0 ? edges[a] * voxels / ends[a] : 0;
   const auto [shortest, longest] = std::minmax_element(chord, chord + 3);
-  // Compaction turns flat grains horizontal: chord lengths in a core may differ by a quarter. A factor of two in the
-  // voxel height gives a ratio of 2.
+  // Compaction turns flat grains horizontal: chord lengths in a core may differ by a quarter. A voxel height that is
+  // wrong by a factor of two gives a ratio of 2.
   if (!(*longest > 1.5 * *shortest)) return 1;
   warnings.push_back(
       fmt::format("the mean chords through the aggregate differ: they are {:.3g}, {:.3g} and {:.3g} mm along x, y and "
