@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file layout.hpp  Defines the private order in which a backend stores particles and contacts.
+/// \file layout.hpp  Defines the order in which the CPU and CUDA backends store particles and contacts. It is never
+/// visible outside a backend.
 ///
 /// Particles are ordered by recursive bisection, so that neighbours in space are neighbours in memory. A tile is a
 /// range of particles whose contacts fit the cache of one core or, on the tile path of the GPU, the memory of one

@@ -53,8 +53,8 @@ struct ParticleMotion {
     }
   }
 
-  /// Moves only word w of [v, –, ω, –] of body i, under word w of force and moment; one thread per word.
-  /// `has_external_loads`: there are body forces, or walls driven by forces.
+  /// Moves one word of body i: word w of [v, –, ω, –], under word w of [force, –, moment, –]. Each word has its own
+  /// thread. `has_external_loads`: there are body forces, or walls driven by forces.
   template <bool has_external_loads>
   MACADAM_HD void word(std::int32_t i, int w, R force, std::int64_t k) const {
     const std::size_t at = place(i, w);
@@ -97,9 +97,10 @@ struct ParticleMotion {
 #else
   static constexpr bool on_device = false;
 #endif
-  /// Returns the velocity half a step after the force f, from the velocity v half a step before it, with damping.
+  /// Returns the velocity half a step after the time of the force f. `v` is the velocity half a step before that time.
+  /// Includes damping.
   MACADAM_HD R moved(R v, R f, R inverse) const {
-    if (on_device || damping == Damping::local) {  // on a device, computing with χ = 0 costs less than a branch
+    if (on_device || damping == Damping::local) {  // on a GPU, computing with χ = 0 costs less than a branch
       const R against = v == 0 ? R(0) : std::copysign(chi, -v);  // F_d = −χ·|F|·sign(v)
       f = multiply_add(against, f < 0 ? -f : f, f);
     }

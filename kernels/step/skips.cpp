@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Finds motions that a network cannot make, so that the step can leave them out.
+// SPDX-License-Identifier: GPL-3.0-or-later skips.cpp  Finds rotations and shear that a contact network cannot have, so
+// that the time step does not compute them.
 #include <cmath>
 
 #include "macadam/stepper.hpp"

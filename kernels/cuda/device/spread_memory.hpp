@@ -48,7 +48,7 @@ Function driver_function(const char* name) {
   return reinterpret_cast<Function>(found);
 }
 
-/// Memory for the items of `shares`, each of `bytes` bytes. Each page is on the device whose items fill most of the
+/// Memory for the items of `shares`; an item has `bytes` bytes. Each page is on the device whose items fill most of the
 /// page.
 class SpreadMemory {
  public:
@@ -87,7 +87,7 @@ class SpreadMemory {
   }
   ~SpreadMemory() {
     if (size_ == 0) return;
-    try {  // does not fail: the driver that mapped the memory also has these functions
+    try {  // the driver that mapped the memory also has these functions, so look-up cannot fail
       if (mapped_ > 0) driver_function<decltype(&cuMemUnmap)>("cuMemUnmap")(begin_, mapped_);
       driver_function<decltype(&cuMemAddressFree)>("cuMemAddressFree")(begin_, size_);
     } catch (const RunError&) {}
