@@ -12,8 +12,8 @@
 
 namespace macadam::kernels {
 
-/// Arrays of the bodies; the walls are last. Contacts read `velocity` (Geometry precision); `master` is integrated
-/// (Particle precision). Both are one array if the precisions are the same.
+/// Arrays of the bodies; the walls are last. Contacts read `velocity`, in precision Geometry. The step integrates
+/// `master`, in precision Particle. If the precisions are the same, the two pointers refer to one array.
 template <class P>
 struct BodyView {
   typename P::Geometry* velocity;  ///< [body][8] v [m/s], ω [rad/s]
@@ -31,9 +31,10 @@ struct ParticleMotion {
   using R = typename P::Particle;
   BodyView<P> body;
   Damping damping;
-  R chi;                           ///< local damping; 0: none
-  R damping_factor, force_factor;  ///< factors of v and of the force in viscous damping, model (10.1): (1 − βΔt/2)/(1 +
-                                   /// < βΔt/2) and 1/(1 + βΔt/2); both 1 without it
+  R chi;  ///< local damping; 0: none
+  /// Factors of v and of the force in viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2). Both
+  /// are 1 without viscous damping.
+  R damping_factor, force_factor;
   double dt;  ///< [s]
   WallMotion<R> wall;
 

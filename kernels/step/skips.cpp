@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later skips.cpp  Finds rotations and shear that a contact network cannot have, so
-// that the time step does not compute them.
+// SPDX-License-Identifier: GPL-3.0-or-later skips.cpp  Determines whether the bodies of a contact network cannot
+// rotate, so that a time step may leave out rotations.
 #include <cmath>
 
 #include "macadam/stepper.hpp"
