@@ -117,8 +117,8 @@ template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
                                const LawFacts& law, const StepperOptions& options);
 
-/// Fills the arrays that a step changes. Their values are those of the start state in the options or, if
-/// `options.start` is null, of the state at rest.
+/// Fills the arrays that a step changes. Sets the start state in the options or, if `options.start` is null, the state
+/// at rest.
 template <class P>
 void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const LawFacts& law,
                  const StepperOptions& options, ContactArrays<P>& out);

@@ -57,7 +57,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
     states_.add("sums", "N, N m",
-                sums_);  // a checkpoint stores it unsorted, because the tiles are the same on all CPUs
+                sums_);  // not reordered: tiles are the same on all CPUs
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
     states_.add("velocity", "m/s, rad/s", master_, by_body);
     states_.add("displacement", "m, rad", displacement_, by_body);
@@ -133,7 +133,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
   void use_device() const {}
 
  private:
-  /// What one thread computes in a step.
+  /// Computes the part of a step that belongs to one thread.
   struct Team {
     ExecCpu& exec;
     std::size_t thread, threads;

@@ -46,7 +46,7 @@ class ThreadChoice {
     }
     const bool was = one_faster_;
     one_faster_ = step_[1] > 0 && step_[1] < step_[0];
-    // the longer a choice has been the faster one, the rarer are trials of the other; so trials cost a few per cent at
+    // as long as one choice remains the faster one, trials of the other become rarer; so trials cost a few per cent at
     // most
     pause_ = one_faster_ == was ? std::min(2 * pause_, longest_pause) : first_pause;
     until_trial_ = std::max(pause_, 20 * seconds);

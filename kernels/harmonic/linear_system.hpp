@@ -63,8 +63,8 @@ struct LinearLoad {
   std::array<double, pair_types> alpha{};
   std::complex<double> inertia = 0;  ///< inertia·M is subtracted from K
   double scale = 1;                  ///< ‖f‖
-  double tolerance = 0;              ///< largest ‖r‖ / ‖f‖
-  double energy_limit = 0;           ///< largest rᴴ·P⁻¹·r
+  double tolerance = 0;              ///< largest accepted ‖r‖ / ‖f‖
+  double energy_limit = 0;           ///< largest accepted rᴴ·P⁻¹·r
 };
 
 /// Result of the iteration for one load.

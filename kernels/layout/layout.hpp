@@ -64,7 +64,8 @@ Layout make_order(const Specimen& specimen, std::size_t tiles);
 /// Target size of the tiles.
 struct TileSize {
   std::size_t contacts;  ///< contacts per tile: the number of tiles is the network's contacts divided by this
-  bool even;  ///< balances the contacts that each tile touches, because tiles wait for one another; takes four rounds
+  bool even;  ///< gives all tiles about the same number of contacts, because tiles wait for one another; bisects four
+              ///< times
 
   TileSize(std::size_t contact_count, bool evenly = false) : contacts(contact_count), even(evenly) {}
 };

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later tile_plan.cpp  Computes contacts, halo, ranks and load cells of every tile
-// (the particles of one thread block). tile_plan.hpp explains these words.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// tile_plan.cpp  Computes contacts, halo, ranks and load cells of every tile (the particles of one thread block).
+// tile_plan.hpp explains these words.
 #include "kernels/layout/tile_plan.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later device_speed.cu  Measures the limits of a device (GPU): the bandwidths of
-// its memories, and its clock under load.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// device_speed.cu  Measures the limits of a device (GPU): the bandwidths of its memories, and its clock under load.
 #include <algorithm>
 #include <functional>
 

@@ -12,7 +12,7 @@
 /// took turns, all would finish at the same time, and the device would be idle until the next ones are ready.
 ///
 /// When all steps of one specimen are enqueued (is_queued()), the next specimen may already take the device. Its steps
-/// are enqueued behind an event that marks the end of the first specimen's steps. So the device does not wait until the
+/// are enqueued behind an event that marks the end of the first specimen's steps. So the device is not idle while the
 /// host thread of the next specimen wakes up.
 ///
 /// A solution in the frequency domain goes before all steps that need multiprocessors of their own, and these steps

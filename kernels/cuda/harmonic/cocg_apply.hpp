@@ -29,8 +29,8 @@ struct alignas(16) StagedEnds {
   __device__ const ContactEnd& operator[](unsigned i) const { return *reinterpret_cast<const ContactEnd*>(end[i]); }
 };
 
-/// Iterates over the bodies of a warp that have few contacts, taking as many contacts at a time as the warp has slices
-/// (groups of W threads).
+/// Iterates over those bodies of a warp that have few contacts. A warp consists of slices (groups of W threads), each
+/// of which takes one contact at a time.
 struct WarpBodies {
   /// Consecutive contacts of one body of the warp.
   struct Place {
@@ -218,7 +218,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
   });
 }
 
-/// Computes α of every load, by one thread block. `first`: there was no iteration before; then α = 1, so that the
+/// Computes α of every load, by one thread block. `first`: this call prepares the iteration; then α = 1, so that the
 /// residual becomes r = f − K·x.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_step(CocgView<F> d, bool first) {

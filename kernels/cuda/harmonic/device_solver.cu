@@ -229,7 +229,8 @@ class Solver : public DeviceSolver {
     }
   }
 
-  static constexpr std::size_t worth_pinning = std::size_t{32} << 20;  ///< bytes; pinning memory takes milliseconds
+  static constexpr std::size_t worth_pinning = std::size_t{32}
+                                               << 20;  ///< bytes; smaller vectors are copied to pageable memory
 
   DeviceList devices_;
   DeviceTeam team_;
