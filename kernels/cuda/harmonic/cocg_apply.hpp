@@ -35,8 +35,8 @@ struct WarpBodies {
   /// Consecutive contacts of one body of the warp.
   struct Place {
     int body;
-    unsigned begin,
-        left;  ///< first contact, counted from the first contact of the segment, and number of contacts from it on
+    /// First contact, counted from the first contact of the segment, and number of contacts from it on.
+    unsigned begin, left;
   };
   const std::size_t* row_begin;
   Segment segment;
@@ -141,8 +141,8 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     own = twist(three(static_cast<std::size_t>(bodies.body(now.body))));
   }
   while (bodies.there(now)) {
-    const WarpBodies::Place next =
-        bodies.after(now, slices);  // its contacts are copied while those of `now` are computed
+    // The contacts of `next` are copied while the contacts of `now` are computed
+    const WarpBodies::Place next = bodies.after(now, slices);
     const bool last = !bodies.there(next), ends_body = next.body != now.body;
     if (!last) staged[warp][turn ^ 1].send(ends + next.begin, next.left);
     if (!last && ends_body) next_own = three(static_cast<std::size_t>(bodies.body(next.body)));

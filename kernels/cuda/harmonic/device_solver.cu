@@ -229,8 +229,8 @@ class Solver : public DeviceSolver {
     }
   }
 
-  static constexpr std::size_t worth_pinning = std::size_t{32}
-                                               << 20;  ///< bytes; smaller vectors are copied to pageable memory
+  /// Bytes from which on a solution is copied through pinned memory. Pinning memory takes milliseconds.
+  static constexpr std::size_t worth_pinning = std::size_t{32} << 20;
 
   DeviceList devices_;
   DeviceTeam team_;

@@ -217,8 +217,8 @@ class TileData {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
       if (plan_.contact[i].group_slot == UINT32_MAX) TileContactWords::pack_inert(constant_of(i));
     }
-    team_.each([&](std::size_t m) {  // each thread block reads the arrays below at its beginning, so every device has
-                                     // its own copy
+    // Each thread block reads the following arrays at its beginning, so every device has its own copy
+    team_.each([&](std::size_t m) {
       tables_[m].tile = store_.keep(plan_.tile);
       tables_[m].body = store_.keep(plan_.body);
       tables_[m].list = reinterpret_cast<const uint2*>(store_.keep(plan_.list));

@@ -182,8 +182,8 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   std::vector<ContactLaunches<P, AnyLaw>> contacts_;  // [member]
   std::uint32_t slots_ = 0;                           // number of slots of the groups set so far
   bool crosses_ = false;
-  RankExchange moved_,
-      loads_;  // with several ranks. moved_: sent after bodies have moved; loads_: sent after contacts were stepped
+  // With several ranks: moved_ is sent after the bodies have moved, loads_ after the contacts were stepped
+  RankExchange moved_, loads_;
 };
 
 }  // namespace macadam::kernels
