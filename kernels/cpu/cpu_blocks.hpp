@@ -41,8 +41,7 @@ class CpuBlocks {
 
   void add_states(StateList& states) {
     if (!on_) return;
-    states.add("base_sums", "N, N m",
-               base_);  // not reordered: tiles are the same on all CPUs
+    states.add("base_sums", "N, N m", base_);  // not reordered, because the tiles are the same on all CPUs
     states.add("displacement_at_block", "m, rad", before_, [this] { return body_order(layout_, displacement_words); });
     schedule_.add_state(states);
   }

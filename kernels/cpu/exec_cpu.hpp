@@ -56,8 +56,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
-    states_.add("sums", "N, N m",
-                sums_);  // not reordered: tiles are the same on all CPUs
+    states_.add("sums", "N, N m", sums_);  // not reordered, because the tiles are the same on all CPUs
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
     states_.add("velocity", "m/s, rad/s", master_, by_body);
     states_.add("displacement", "m, rad", displacement_, by_body);

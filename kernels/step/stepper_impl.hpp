@@ -310,8 +310,8 @@ class StepperImpl final : public Stepper {
       for (Vec3d& v : *list)
         v = (1 / static_cast<double>(motion_.damping_factor)) * v;  // because the step multiplies by this factor
     }
-    if (options_.skip_rotations)
-      spin.assign(spin.size(), {});  // the spins of the steady state are then only rounding errors
+    // If rotations are skipped, the spins of the steady state are only rounding errors
+    if (options_.skip_rotations) spin.assign(spin.size(), {});
     set_velocities(velocity, spin);
     std::vector<double> u = exec_.displacements();
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
