@@ -11,10 +11,11 @@
 ///   set_bodies(…)            sets masses and body forces
 ///   set_group(…)             called once per group (contacts of one pair type). On the first start it sets the group's
 ///                            arrays, on later starts only the states; it always sets the functor that steps the group
-///   prepare(motion)          ends the set-up After that it calls, any number of times, set_wall_rows(), run() and,
-/// after the last of them, wait(). The other functions read results, or copy and replace the states of a checkpoint.
-/// Between two calls of run(), StepperImpl may take samples (max_samples(), take_sample(), wait_for_samples());
-/// executors that cannot take samples inherit NoSamples.
+///   prepare(motion)          ends the set-up
+/// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). The other
+/// functions read results, or copy and replace the states of a checkpoint. Between two calls of run(), StepperImpl may
+/// take samples (max_samples(), take_sample(), wait_for_samples()); executors that cannot take samples inherit
+/// NoSamples.
 #pragma once
 
 #include <concepts>
