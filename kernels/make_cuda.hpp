@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file make_cuda.hpp  Makes a stepper on CUDA devices for a list of laws: ExecCudaTiles if the run can be stepped in
-/// blocks and fits, else ExecCuda.
+/// blocks of steps and the tiles fit the devices, else ExecCuda.
 #pragma once
 
 #include "kernels/cuda/two_kernels/exec_cuda.hpp"

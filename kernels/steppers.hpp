@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file steppers.hpp  Declares the functions that make the steppers of the backends.
+/// \file steppers.hpp  Declares the functions that make the steppers of the backends (CPU, CUDA).
 #pragma once
 
 #include <memory>
@@ -23,8 +23,9 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
 /// @}
 
 /// Returns the backend that makes a stepper: cpu or, if the program has kernels for devices (`on_device`), possibly
-/// cuda; `options.devices` then holds their numbers. \throws as select_backend(); RunError if a device is asked for but
-/// the program has no kernels for it; InputError for the reference, which only supports Macadam's own laws.
+/// cuda; in the latter case, `options.devices` receives the numbers of the devices. \throws as select_backend();
+/// RunError if a device is asked for but the program has no kernels for it; InputError for the reference, which only
+/// supports Macadam's own laws.
 Backend resolved(Backend asked, bool on_device, StepperOptions& options);
 
 }  // namespace macadam::kernels

@@ -9,7 +9,8 @@
 namespace macadam {
 
 /// Calls f(k) for k < n on all threads (on the calling thread if `threads` is false), in any order. An exception must
-/// not leave an OpenMP thread. So all calls are made first; then the exception of the lowest k is thrown again.
+/// not leave an OpenMP thread. So all calls are made first, and exceptions are stored. Then the exception of the lowest
+/// k is thrown again.
 template <class F>
 void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
   std::vector<std::exception_ptr> thrown(n);
@@ -24,8 +25,8 @@ void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
   }
 }
 
-/// Returns Σ f(k) over k < n. Pieces are summed first, then the sums of the pieces in order, so that the bits do not
-/// depend on the number of threads. Treats exceptions like for_each_in_parallel().
+/// Returns Σ f(k) over k < n. Splits the range of k into pieces, sums each piece, and adds the sums of the pieces in
+/// order. So the bits do not depend on the number of threads. Treats exceptions like for_each_in_parallel().
 template <class T, class F>
 T sum_in_parallel(std::size_t n, F&& f) {
   constexpr std::size_t piece = 1 << 14;

@@ -23,8 +23,8 @@ struct CudaCode {
   std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                            std::unique_ptr<Stepper> used);
-  /// Makes a solver of the frequency domain that spreads the system over the devices. `singular_body`: set to the first
-  /// body whose own stiffness is singular, else −1. \throws RunError if a device has too little memory.
+  /// Makes a solver of the frequency domain that distributes the linear system over the devices. `singular_body`: set
+  /// to the first body whose own stiffness is singular, else −1. \throws RunError if a device has too little memory.
   std::unique_ptr<DeviceSolver> (*make_solver)(const LinearSystem& system, const DeviceList& devices,
                                                std::int64_t& singular_body);
   /// Measures the bandwidths and the clock of a device.

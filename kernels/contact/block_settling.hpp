@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file block_settling.hpp  Updates the viscoelastic states of a contact at the end of each block of steps, by
-/// equations (6.8) and (6.9) of docs/model/motion.md. The CPU and the devices share this code.
+/// equations (6.8) and (6.9) of docs/model/motion.md. A block is a number of steps during which contacts store only the
+/// change of their force. The CPU and the GPUs share this code.
 ///
 /// f is the force density of one displacement component of a contact. Within a block a contact stores only two numbers
 /// per component, in single precision: δf, which is the change of f since the beginning of the block; and the sum, over
 /// the steps so far, of δf before the step and δf after it. `drift` is the constant D of (6.8): the effect that the
-/// states at the beginning of the block have on every step. The loads that belong to f at the beginning of the block
-/// are summed once per block. Callers are cpu_blocks.hpp and settle_kernels.hpp.
+/// states at the beginning of the block have on every step. The loads of the contacts at the beginning of the block are
+/// summed once per block. Callers are cpu_blocks.hpp and settle_kernels.hpp.
 #pragma once
 
 #include <cmath>
@@ -54,7 +55,7 @@ struct BlockSettling {
     double f[6] = {0, 0, 0, 0, 0, 0}, m[6];
     for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
     for (float& d : out.drift) d = 0;
-    if (!view.chain) {  // f follows from the current displacements
+    if (!view.chain) {  // without states: f follows from the current displacements
       const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
       double x[6];
       relative_rates(out.frame, Twist<double>{{0, 0, 0}, vector(now, a, 4)},
@@ -64,7 +65,7 @@ struct BlockSettling {
       }
     }
     // If the number of units is known at compile time, all chains are loaded before the first is stored. The loops have
-    // compile-time bounds, because a device keeps an array in registers only if every index is known at compile time.
+    // compile-time bounds, because a GPU keeps an array in registers only if every index is known at compile time.
     constexpr int together = Units >= 0 ? 6 : 1, most = Units >= 0 ? Units : Block::most_units;
     for (int first = 0; view.chain && first < (Units >= 0 ? 1 : view.components); first += together) {
       State held[together][1 + most];
@@ -105,9 +106,9 @@ struct BlockSettling {
     return {w[0], w[1], w[2]};
   }
 
-  /// Returns the frame by Eq. 5–6 after a whole block. ContactForces::carry() does the same for one step. This function
-  /// needs no frame in the middle of a step, and computes the previous normal by a root instead of a series. Both share
-  /// follow_branch() and turn_tangent() (carried_frame.hpp).
+  /// Returns the frame by Eq. 5–6 after a whole block. ContactForces::carry() does the same for one step, but also
+  /// needs the frame in the middle of the step, and computes the previous normal by a series instead of a root. Both
+  /// functions use follow_branch() and turn_tangent() (carried_frame.hpp).
   template <class Item>
   MACADAM_HD Placement<double> frame_after_block(const Item& item, std::uint32_t packet, std::size_t slot,
                                                  const Vec3<double>& n0, double arm_a, double arm_b, double d0,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file block_step.hpp  Takes one step within a block of steps, for one displacement component of a contact: model
-/// (6.8). The CPU (cpu_group.hpp) and the tiles of a GPU (tile_step.hpp) share this code.
+/// \file block_step.hpp  Takes one step within a block of steps, for one displacement component of a contact, by
+/// equation (6.8) of the model. Within a block, a contact stores only the change of its force. The CPU (cpu_group.hpp)
+/// and the tiles of a GPU (tile_step.hpp) share this code.
 #pragma once
 
 #include "macadam/numeric.hpp"

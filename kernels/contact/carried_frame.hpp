@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file carried_frame.hpp  Updates the frame of a facet as its two bodies move: docs/model.md, section 9.
 ///
-/// S is a scalar or a SIMD pack. The frame rotates by a small angle in one step or block. So roots, sines and divisions
-/// are replaced by series, which are exact to rounding for such angles.
+/// S is a scalar or a SIMD pack. The frame rotates by a small angle in one step or one block of steps. So roots, sines
+/// and divisions are replaced by series, whose error is below rounding for such angles.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Distance {
 
 /// Sets normal and lever arms of a frame from the displaced centres, whose distance vector is `branch`. On entry the
 /// frame has the arms of the undeformed contact. Each arm takes half the change of the distance d0; a facet on a wall
-/// stays on the wall. Returns the distance; zero at a wall.
+/// stays on the wall. Returns the distance of the centres, or zero for a facet on a wall.
 template <class T>
 MACADAM_HD Distance<T> follow_branch(Placement<T>& frame, const Vec3<T>& n0, const T& d0, const Vec3<T>& branch,
                                      bool wall) {
@@ -43,7 +43,8 @@ MACADAM_HD Distance<T> follow_branch(Placement<T>& frame, const Vec3<T>& n0, con
   return {d, inverse};
 }
 
-/// Returns 1/√x by its series about 1: exact to rounding for |1 − x| < 1e-3 in double, and never NaN for a finite x.
+/// Returns 1/√x by its series about 1. The error is below rounding for |1 − x| < 1e-3 in double precision. A finite x
+/// never gives NaN.
 template <class S>
 MACADAM_HD S inverse_root_near_one(const S& x) {
   const S e = S(1) - x;
@@ -51,8 +52,8 @@ MACADAM_HD S inverse_root_near_one(const S& x) {
 }
 
 /// Returns ŝ turned by the smallest rotation that takes the normal `from` to the normal `to`, followed by one Newton
-/// step towards unit length. The exact divisor of (from + to) is 1 + from·to = 2 − e; 1/(2 − e) is expanded in the
-/// small e.
+/// step towards unit length. The exact divisor of (from + to) is 1 + from·to = 2 − e; 1/(2 − e) is computed by its
+/// series in e, which is small.
 template <class S>
 MACADAM_HD Vec3<S> swung(Vec3<S> s, const Vec3<S>& from, const Vec3<S>& to) {
   const S e = S(1) - dot(from, to);
@@ -61,7 +62,7 @@ MACADAM_HD Vec3<S> swung(Vec3<S> s, const Vec3<S>& from, const Vec3<S>& to) {
   return (S(1.5f) - S(0.5f) * dot(s, s)) * s;
 }
 
-/// Returns ŝ turned about n by a small angle; the series is exact to rounding below 1e-3.
+/// Returns ŝ turned about n by a small angle. Below 1e-3 the error of the series is smaller than rounding.
 template <class S>
 MACADAM_HD Vec3<S> spun(const Vec3<S>& s, const Vec3<S>& n, const S& angle) {
   const S square = angle * angle;

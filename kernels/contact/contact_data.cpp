@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_data.cpp  Fills the arrays of a group of contacts. The slots are divided among threads; no two slots share a
-// word.
+// contact_data.cpp  Fills the arrays of a group of contacts. The slots are divided among threads. This is safe because
+// no two slots share a word.
 #include "kernels/contact/contact_data.hpp"
 
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file contact_data.hpp  Defines and fills the arrays of one group of contacts. Constant arrays are filled from the
-/// network once, states at every start.
+/// contact network once. States are filled whenever a run starts.
 ///
 /// Layout: blocked structure of arrays. Word w of the contact in lane j of packet p is at [(p·words + w)·lanes + j]. A
 /// packet is a SIMD register on the CPU and a warp on the device; both load one word of all lanes at once.
@@ -18,8 +18,8 @@
 
 namespace macadam::kernels {
 
-/// Words of ContactView::geometry, in order. `distance` is only present if the geometry is updated or the law is
-/// coupled.
+/// Words of ContactView::geometry, in order. `distance` is only present if the geometry is updated during the run, or
+/// if the law advances the components of a contact point together.
 enum GeometryWord { n_x, n_y, n_z, arm_a, arm_b, moment_0, distance = moment_0 + 6 };
 /// Words of one layer of ContactView::points.
 enum PointWord { point_s, point_t, point_weight, point_words };
@@ -41,8 +41,8 @@ struct ContactView {
   std::uint32_t packets;
   std::int32_t geometry_words;
   std::int32_t frame_words;
-  /// Number of components that have chains. Condensed: 6, 3 (no shear) or 1 (no shear, no turns); points: 3 or 1 (no
-  /// shear).
+  /// Number of displacement components that have chains. Condensed form: 6, or 3 without shear, or 1 without shear and
+  /// rotations. Points form: 3, or 1 without shear.
   std::int32_t components;
   std::int32_t units;  ///< Kelvin units
   bool by_points;      ///< points form: each contact point has its own chains
@@ -57,7 +57,7 @@ struct ContactArrays {
   ZeroVector<typename P::Geometry> geometry, points;
   AlignedVector<std::uint32_t> packet_layer;
   ZeroVector<typename P::State> chain, frame;
-  ContactView<P> shape{};  ///< the numbers of the view; its pointers are null
+  ContactView<P> shape{};  ///< sizes and flags of the view; its pointers are null
 
   /// Calls f(name, unit, array, pointer of the view that addresses the array) for every array.
   template <class F>
@@ -75,7 +75,7 @@ struct ContactArrays {
 /// Sizes of the arrays of a group.
 template <class P>
 struct GroupShape {
-  ContactView<P> view{};  ///< numbers only; pointers are null
+  ContactView<P> view{};  ///< sizes and flags only; pointers are null
   bool by_points, stateless;
   std::size_t slots, lanes, layers;  ///< layers: number of layers of chains
 
@@ -110,14 +110,15 @@ struct GroupShape {
   }
 };
 
-/// Returns the arrays of a group that no step changes, and its numbers. An inert slot reads `body_a` of a real contact
-/// and has zero arms and moments, so it adds zero. `options.skip_rotations` must be final (StepperImpl::decided()).
+/// Returns the arrays of a group that no step changes, and the sizes in its view. An inert slot reads `body_a` of a
+/// real contact and has zero arms and moments, so it adds zero. `options.skip_rotations` must be final
+/// (StepperImpl::decided()).
 template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
                                const LawFacts& law, const StepperOptions& options);
 
-/// Fills the arrays that a step changes: with the start state in the options or, if `options.start` is null, with the
-/// state at rest.
+/// Fills the arrays that a step changes. Sets the start state in the options or, if `options.start` is null, the state
+/// at rest.
 template <class P>
 void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const LawFacts& law,
                  const StepperOptions& options, ContactArrays<P>& out);

@@ -26,7 +26,7 @@ struct Placement {
   T arm_a, arm_b;
 };
 
-/// Returns 1/x for 1 ≤ |x| ≤ 2. On a device this is faster than a division, which must also handle very small and very
+/// Returns 1/x for 1 ≤ |x| ≤ 2. On a GPU this is faster than a division, which must also handle very small and very
 /// large numbers.
 template <class T>
 MACADAM_HD T reciprocal_near_one(const T& x) {
@@ -69,8 +69,8 @@ struct FacetLoad {
   T moment_n{}, moment_s{}, moment_t{};
 };
 
-/// Returns the load of a facet by model (7.1), (7.2), from the six force densities f[c] (force per unit of area divided
-/// by distance) and the area moments divided by the distance d.
+/// Returns the load of a facet by equations (7.1) and (7.2) of the model. d is the distance of the two bodies. f[c] are
+/// the six force densities: f[c]/d is a force per unit of area. m are the area moments divided by d.
 template <class T>
 MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T (&m)[6]) {
   const T slip_s = alpha * f[3], slip_t = alpha * f[4], twist = alpha * f[5];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_readout.hpp  Computes forces and deformation of the contacts of a group from the states of an
-/// executor, on the host and in double precision, for output.
+/// \file contact_readout.hpp  Computes forces and deformation of the contacts of a group for output. Reads the states
+/// of an executor (the object that runs the steps on a CPU or GPU); computes on the host in double precision.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace macadam::kernels {
 template <class P>
 struct GroupState {
   std::vector<typename P::State> chain, frame;  ///< as in ContactView
-  std::vector<float> change;                    ///< [slot][6] change of f since the chains were updated; empty: none
+  std::vector<float> change;  ///< [slot][6] change of the force density f since the chains were updated; empty: none
 };
 
 /// Reads one group of contacts, with the current displacements.
@@ -98,8 +98,8 @@ class GroupReading {
     return out;
   }
 
-  /// Returns f of a chain and copies the chain's numbers to `out`. For a stateless contact, returns the f that follows
-  /// from the displacement x.
+  /// Returns the force density f of a chain and copies the chain's numbers to `out`. For a stateless contact, computes
+  /// f from the displacement x.
   double chain(std::size_t layer, int component, std::size_t lane, double x, double* out) const {
     if constexpr (memoryless_law<L>) {
       if (shape_.stateless) return *out = law_.value(x);
@@ -110,7 +110,8 @@ class GroupReading {
     return out[0];
   }
 
-  /// Returns the load of a contact in condensed form; copies its chains to `out`.
+  /// Returns the load of a contact whose facet has one set of chains (condensed form), and copies these chains to
+  /// `out`.
   FacetLoad<double> condensed(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
     double f[6] = {0, 0, 0, 0, 0, 0};
     for (int k = 0; k < shape_.view.components; ++k) {
@@ -124,7 +125,8 @@ class GroupReading {
     return condensed_load(f, alpha_, moments);
   }
 
-  /// Returns the load of a contact in points form; copies the chains of its points to `out`.
+  /// Returns the load of a contact whose points have chains of their own (points form), and copies these chains to
+  /// `out`.
   FacetLoad<double> points(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
     FacetLoad<double> load;
     for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j) {

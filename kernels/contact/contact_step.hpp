@@ -32,7 +32,7 @@ struct ContactForces {
   static constexpr ContactForm form_of = form;
   static constexpr Geometry geometry_of = geometry;
   static constexpr int units_of = Units;
-  /// Whether f follows from the current displacements, so that no state is read or written.
+  /// Whether the force density f follows from the current displacements, so that no state is read or written.
   static constexpr bool stateless = LawStep::memoryless && geometry == Geometry::fixed;
   /// Whether the law advances the three components of a contact point together.
   static constexpr bool coupled = coupled_step<LawStep>;
@@ -107,8 +107,9 @@ struct ContactForces {
     return static_cast<std::size_t>(1 + units()) * item.lanes();
   }
 
-  /// Advances the first N chains of a contact. A thread that handles one contact loads all of them before it stores the
-  /// first, because a compiler cannot move a load past a store that may have the same address.
+  /// Advances the first N chains of a contact (a chain is the force density and the Kelvin units of one displacement
+  /// component). A thread that handles one contact loads all of them before it stores the first, because a compiler
+  /// cannot move a load past a store that may have the same address.
   template <int N, class Item, class T>
   MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, T (&density)[6]) const {
     if constexpr (!stateless && Units >= 0 && requires { Item::staged; }) {
@@ -134,8 +135,8 @@ struct ContactForces {
     }
   }
 
-  /// Advances one chain by one step with the relative rate `rate` of its displacement component, and returns its f. If
-  /// the contact is stateless, `rate` is the displacement, from which f follows.
+  /// Advances one chain by one step with the relative rate `rate` of its displacement component, and returns its force
+  /// density f. If the contact is stateless, `rate` is the displacement, from which f follows.
   template <class Item, class T>
   MACADAM_HD T advance(const Item& item, const T& rate, typename P::State* chain) const {
     using S = typename Item::template Value<typename P::State>;
@@ -227,9 +228,10 @@ struct ContactForces {
   }
 
   /// Updates the frame in every step by Eq. 5–6 (docs/model.md, section 9): computes the normal from the displaced
-  /// centres, moves x0 by half the change of distance, turns the frame with the normal and spins it about the normal
-  /// with the mean spin of the pair. `middle` is the frame half a step earlier. It is needed because in the frame at
-  /// the beginning or the end of the step a rigid rotation by θ would open the contact by (1 − cos θ)·d per step.
+  /// centres, moves x0 by half the change of distance, turns the frame with the normal, and rotates it about the normal
+  /// by the mean spin of the two bodies. `middle` is the frame half a step earlier; rates are computed in it. In the
+  /// frame at the beginning or the end of the step, a rigid rotation of the pair by θ would seem to open the contact by
+  /// (1 − cos θ)·d per step.
   template <class Item, class T>
   MACADAM_HD void carry(const Item& item, std::uint32_t packet, const MotionView<P>& motion, const std::int32_t* ia,
                         const std::int32_t* ib, const Twist<T>& a, const Twist<T>& b, const Vec3<T>& n0, const T& d0,
@@ -244,8 +246,8 @@ struct ContactForces {
     if (view.wall) {
       middle.arm_a = now.arm_a - T(0.5f) * dot(step, n0);
     } else {
-      // All lengths within a step are nearly equal, so the inverse length of the branch approximates the inverses of
-      // the other lengths.
+      // The branch vector hardly changes its length within a step. So its inverse length now (d.inverse) scales the
+      // branch vector before the step to nearly unit length; the series for 1/√x near 1 does the rest.
       const Vec3<T> branch_before = branch - step;
       n_before = d.inverse * branch_before;
       n_before = inverse_root_near_one(dot(n_before, n_before)) * n_before;
@@ -265,7 +267,7 @@ struct ContactForces {
                             S(item.template convert<State>(spin_rate) * S(dt)));
     Vec3<S> s_middle = S(0.5f) * (turned.before + turned.now);
     const Vec3<S> nm = converted<State>(item, middle.n);
-    s_middle -= dot(s_middle, nm) * nm;  // removes the component along nm, which is of the order of swing times spin
+    s_middle -= dot(s_middle, nm) * nm;  // removes the component along nm: swing of the normal times rotation about it
     s_middle = inverse_root_near_one(dot(s_middle, s_middle)) * s_middle;
     now.s = converted<typename P::Geometry>(item, turned.now);
     now.t = cross(now.n, now.s);

@@ -39,7 +39,7 @@ void dispatch_units(const L& law, F&& f) {
   }
 }
 
-/// Placeholder in a list for a law that has no functor there.
+/// Stands in a list of functors for a law that has no functor.
 struct NoFunctor {};
 
 /// The functor type of a law in a launch for `Units` units, or NoFunctor. Laws without memory fit any number of units.
@@ -60,8 +60,8 @@ struct StepFunctor {
   using type = typename decltype(make<fits>())::type;
 };
 
-/// Holds one of several functors by value, so that it can be passed to a kernel. Stores the functor's number in the
-/// list and its bytes.
+/// Holds one of several functors by value, so that it can be passed to a kernel. Stores the bytes of the functor and
+/// its index in the list.
 template <class... Functors>
 struct AnyFunctor {
   int kind = 0;

@@ -7,9 +7,9 @@
 
 namespace macadam::kernels {
 
-/// Returns the tangent ŝ of a contact at step −1. It is the tangent of the undeformed contact, turned by the smallest
-/// rotation that takes the initial normal to the current one, then about the normal by the mean rotation of the two
-/// particles.
+/// Returns the tangent ŝ of a contact at step −1, where a run from the steady state begins. It is the tangent of the
+/// undeformed contact, turned by the smallest rotation that takes the initial normal to the current one, then about the
+/// normal by the mean rotation of the two particles.
 inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
   const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
   const Vec3d branch = c.b >= 0 ? c.distance * c.n + (start.displacement[b] - start.displacement[a]) : c.n;
@@ -21,9 +21,9 @@ inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
   return (1 / norm(spun)) * spun;
 }
 
-/// The six chains of a facet with `words` numbers each, and the chains of its points. A point (s, t) follows the rigid
-/// motion of the facet and the law is linear, so the chains of a point are linear combinations of the facet's six
-/// chains.
+/// Computes the chains of the points of a facet from the six chains of the facet, which have `words` numbers each. A
+/// point (s, t) follows the rigid motion of the facet and the law is linear, so the chains of a point are linear
+/// combinations of the facet's six chains.
 struct StartChain {
   const double* six;
   std::size_t words;

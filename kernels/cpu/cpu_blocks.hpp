@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cpu_blocks.hpp  Blocks of steps on the CPU: decides whether and when blocks begin and end, and keeps the loads
-/// at the beginning of a block. The block of one group is in cpu_group.hpp.
+/// \file cpu_blocks.hpp  Decides on the CPU whether steps are taken in blocks and when a block begins and ends, and
+/// stores the loads at the beginning of a block. Within a block, contacts store only changes of their forces.
+/// cpu_group.hpp takes the steps of one group of contacts within a block.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@ class CpuBlocks {
       : layout_(layout), accumulators_(accumulators) {}
 
   /// Prepares for a start and returns whether steps are taken in blocks. Blocks shorter than 16 steps are not used,
-  /// because one update of the states costs as much time as about ten steps in a block save.
+  /// because the update of the states at the end of a block costs as much time as about ten steps save.
   bool begin(const ExecStart& start) {
     constexpr int shortest = 16;
     const bool possible = std::is_same_v<typename P::Geometry, float> && start.options.form == ContactForm::condensed;
@@ -40,7 +41,7 @@ class CpuBlocks {
 
   void add_states(StateList& states) {
     if (!on_) return;
-    states.add("base_sums", "N, N m", base_);  // stored in its own order, because all CPUs have the same tiles
+    states.add("base_sums", "N, N m", base_);  // not reordered, because the tiles are the same on all CPUs
     states.add("displacement_at_block", "m, rad", before_, [this] { return body_order(layout_, displacement_words); });
     schedule_.add_state(states);
   }

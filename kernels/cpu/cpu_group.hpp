@@ -100,7 +100,7 @@ struct OneOfPacket {
   }
 };
 
-/// A group of contacts. Its loads are added to `sums`, [accumulator][8].
+/// A group of contacts. It adds its loads to the array `sums`, [accumulator][8].
 template <class P, std::size_t width>
 struct CpuGroup {
   using R = typename P::Particle;
@@ -118,14 +118,14 @@ struct CpuGroup {
   /// BlockSettling.
   virtual void settle(std::uint32_t first, std::uint32_t end, const double* now, const double* before, R* sums) = 0;
 
-  /// bytes(): size of all arrays. step_bytes(): bytes that a step reads and writes; states, which are read and written,
-  /// count twice.
+  /// bytes(): size of all arrays. step_bytes(): bytes that a step reads and writes. States count twice, because a step
+  /// reads and writes them.
   std::int64_t bytes() const { return fixed_bytes() + chain_bytes() + block_bytes(); }
   std::int64_t step_bytes() const {
     if (!in_blocks) return fixed_bytes() + 2 * chain_bytes();
     return fixed_bytes() + block_bytes() + static_cast<std::int64_t>(2 * state.size() / 3 * sizeof(float));
   }
-  /// Returns the change of f since the block began, [slot][6]; empty without blocks.
+  /// Returns the change of the force density f since the block of steps began, [slot][6]; empty without blocks.
   std::vector<float> changes() const {
     const auto n = static_cast<std::size_t>(arrays.shape.components);
     std::vector<float> out(in_blocks ? 6 * layout->contact.size() : 0, 0);
@@ -154,8 +154,9 @@ struct CpuGroup {
   std::int64_t block_bytes() const { return bytes_of(state, placed); }
 };
 
-/// Calls f(packet) for the loads of each packet and adds them up. Eight contacts are added at a time, first on their
-/// ends A, then on B, so that the order of additions is the same for both packet widths.
+/// Calls f(packet) for each packet; f returns the loads of its contacts. Adds these loads to the sums. Eight contacts
+/// are added at a time, first on their ends A, then on B, so that the order of additions is the same for both packet
+/// widths.
 template <class Item, class R, class F>
 [[gnu::always_inline]] inline void add_up(std::uint32_t first, std::uint32_t end, const std::uint32_t* end_a,
                                           const std::uint32_t* end_b, R* sums, F&& f) {
@@ -206,7 +207,7 @@ struct CpuGroupOf final : CpuGroup<P, width> {
       block_.view = view;
       block_.state = this->state.data();
       block_.placed = this->placed.data();
-      // These coefficients of a step do not depend on the length of the block
+      // The coefficients of a step within a block do not depend on the length of the block
       const auto coefficients = law.block(dt, 1);
       block_.rate = static_cast<float>(coefficients.rate * dt);
       block_.relax = static_cast<float>(coefficients.relax);

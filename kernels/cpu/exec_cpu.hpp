@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cpu.hpp  Defines the executor on the CPU. Packets of contacts are in SIMD registers, and tiles are
-/// divided among threads.
+/// \file exec_cpu.hpp  Defines the executor on the CPU, which owns the arrays and runs the steps. A packet of contacts
+/// is stepped in SIMD registers; tiles (parts of the specimen) are divided among threads.
 #pragma once
 
 #include <omp.h>
@@ -56,7 +56,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
-    states_.add("sums", "N, N m", sums_);  // stored in its own order, because all CPUs have the same tiles
+    states_.add("sums", "N, N m", sums_);  // not reordered, because the tiles are the same on all CPUs
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
     states_.add("velocity", "m/s, rad/s", master_, by_body);
     states_.add("displacement", "m, rad", displacement_, by_body);
@@ -96,7 +96,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
       std::swap(group->arrays.chain, arrays.chain);
       std::swap(group->arrays.frame, arrays.frame);
     }
-    auto& all = static_cast<Group&>(*group);  // law, form and geometry have the types of the first start
+    auto& all = static_cast<Group&>(*group);  // law, form and geometry are of the same types as at the first start
     auto& own = all.forces;
     own = forces;
     all.law = law;
@@ -132,7 +132,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
   void use_device() const {}
 
  private:
-  /// The part of a step that one thread computes.
+  /// Computes the part of a step that belongs to one thread.
   struct Team {
     ExecCpu& exec;
     std::size_t thread, threads;
@@ -188,7 +188,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     return out;
   }
 
-  /// Return copies of the bodies' arrays, or replace the arrays by copies.
+  /// The next functions return copies of the bodies' arrays, or replace the arrays by copies.
   std::vector<R> velocities() const { return {master_.begin(), master_.end()}; }
   std::vector<double> displacements() const { return {displacement_.begin(), displacement_.end()}; }
   std::vector<double> wall_displacements() const {
@@ -212,7 +212,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
       const R* w = &master_[b * velocity_words];
       const double travel = dt * std::sqrt(double(w[0]) * w[0] + double(w[1]) * w[1] + double(w[2]) * w[2]);
       const double turn = dt * std::sqrt(double(w[4]) * w[4] + double(w[5]) * w[5] + double(w[6]) * w[6]);
-      // written so that NaN counts as divergent
+      // written so that a NaN makes `sensible` false
       const bool sensible = travel <= radius[static_cast<std::size_t>(i)] && turn <= 1.0;
       if (!sensible && (first < 0 || i < first)) first = i;
     }
@@ -315,7 +315,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
   ThreadChoice choice_;
   bool timed_ = false;
   double bodies_time_ = 0,
-         contacts_time_ = 0;  // time that the first thread spends in each part, its waits included [s]
+         contacts_time_ = 0;  // time of the first thread in each part of a step, with waits [s]
 };
 
 }  // namespace macadam::kernels

@@ -19,7 +19,7 @@ template <class P>
 inline constexpr std::size_t packet_width = std::clamp<std::size_t>(stdx::native_simd<typename P::Geometry>::size(), 4,
                                                                     8);
 
-/// The Item for packets of `width` contacts.
+/// Loads, converts and stores the words of a packet of `width` contacts.
 template <std::size_t width>
 struct PackItem {
   static_assert(width == 4 || width == 8);
@@ -36,7 +36,7 @@ struct PackItem {
     x.copy_to(p, stdx::vector_aligned);
   }
 
-  /// A reference to one word of all lanes, which can be read and added to.
+  /// Refers to one word of all lanes; the word can be read and added to.
   template <class R>
   struct Ref {
     R* p;
@@ -68,8 +68,8 @@ struct PackItem {
     return {gather<R>(velocity, body), gather<R>(velocity + velocity_words / 2, body)};
   }
 
-  /// vector() returns u of one body per lane. relative() returns u_b − u_a, subtracted before it is rounded to To. `u`
-  /// points to the vector of the first body.
+  /// vector() returns the vector u of one body per lane. relative() returns u_b − u_a. The difference is computed
+  /// before it is rounded to type To. `u` points to the vector of the first body.
   template <class To, class R>
   static Vec3<Value<To>> vector(const R* u, const std::int32_t* body) {
     return gather<To>(u, body);
@@ -105,8 +105,7 @@ struct PackItem {
   static constexpr std::size_t line_words = 8;
   static_assert(velocity_words == line_words && displacement_words == line_words);
 
-  /// Whether a packet of R fits in one register. gcc 12 keeps wider vectors in memory, where words are moved one by
-  /// one.
+  /// Whether a packet of R fits in one register. gcc 12 keeps wider vectors in memory and moves their words one by one.
   template <class R>
   static constexpr bool one_register = width * sizeof(R) <= sizeof(stdx::native_simd<R>);
 

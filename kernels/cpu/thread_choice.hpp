@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file thread_choice.hpp  Chooses between all threads and one thread, whichever has been faster recently.
+/// \file thread_choice.hpp  Takes steps with all threads or with one thread, whichever has been faster recently.
 ///
 /// Threads wait for each other twice per step. If other programs use the same cores, a thread waits milliseconds for
 /// another one that has no core, and two threads become many times slower than one (measured beside a build on two
@@ -46,7 +46,8 @@ class ThreadChoice {
     }
     const bool was = one_faster_;
     one_faster_ = step_[1] > 0 && step_[1] < step_[0];
-    // the longer a choice has held, the less often it is questioned, so that trials cost a few per cent at most
+    // as long as one choice remains the faster one, trials of the other become rarer; so trials cost a few per cent at
+    // most
     pause_ = one_faster_ == was ? std::min(2 * pause_, longest_pause) : first_pause;
     until_trial_ = std::max(pause_, 20 * seconds);
   }

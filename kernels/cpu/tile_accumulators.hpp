@@ -2,9 +2,10 @@
 /// \file tile_accumulators.hpp  Decides, for the CPU, to which accumulator each contact adds its loads, and which
 /// accumulators are summed for a body.
 ///
-/// Each tile has one accumulator for each of its bodies and, after them, one for each body of another tile that its
-/// contacts touch (halo). The load on a body is its own accumulator plus the accumulators of its halo row, in the order
-/// of the tiles. So the order of additions depends on the specimen, not on the number of threads.
+/// A tile is a range of neighbouring particles. It has one accumulator for each of its bodies and, after them, one for
+/// each body of another tile that its contacts touch (its halo). The load on a body is its own accumulator plus the
+/// accumulators of its halo row, in the order of the tiles. So the order of additions depends on the specimen, not on
+/// the number of threads.
 #pragma once
 
 #include <unordered_map>
@@ -17,7 +18,7 @@ namespace macadam::kernels {
 /// The accumulators of all tiles. An accumulator is eight words that hold a force and a moment.
 struct TileAccumulators {
   std::vector<std::uint32_t> tile_begin;      ///< tile → first accumulator; tiles + 1 entries
-  std::vector<std::uint32_t> row_begin, row;  ///< body → its accumulators in other tiles; for walls, all of them
+  std::vector<std::uint32_t> row_begin, row;  ///< body → its accumulators in other tiles; wall → all its accumulators
   /// Accumulators of the two ends of each slot, one vector per group.
   std::vector<std::vector<std::uint32_t>> end_a, end_b;
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file transpose.hpp  Transposes half lines of bodies (four words each) into SIMD packets, and back.
 ///
-/// Gathering word by word costs one scalar load and one insertion per word, several times the arithmetic of a contact.
-/// Loading half lines and transposing them with about two shuffles per packet costs a third of that.
+/// Gathering word by word costs one scalar load and one insertion per word, which takes several times as long as the
+/// arithmetic of a contact. Loading half lines and transposing them with about two shuffles per packet takes a third of
+/// the time of gathering.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,8 @@ using Words = typename WordsOf<R, n>::type;
 template <class R>
 using HalfLine = Words<R, 4>;
 
-/// In every block of four words, returns words i, j, k, l, where 0…3 are words of a's block and 4…7 words of b's block.
+/// Returns, in every block of four words, words i, j, k, l, where 0…3 are words of a's block and 4…7 words of b's
+/// block.
 template <int i, int j, int k, int l, class V>
 inline __attribute__((always_inline)) V pick(const V& a, const V& b) {
   if constexpr (sizeof(V) == 4 * sizeof(a[0])) {
@@ -31,7 +33,8 @@ inline __attribute__((always_inline)) V pick(const V& a, const V& b) {
   }
 }
 
-/// Transposes every block: r[i][j] ↔ r[j][i]. Each pick is one instruction; floats and doubles need different ones.
+/// Transposes every block of four words: r[i][j] ↔ r[j][i]. Each pick() is one instruction. Floats and doubles need
+/// different instructions, so the picks differ.
 template <class V>
 inline __attribute__((always_inline)) void transpose(V (&r)[4]) {
   if constexpr (sizeof(r[0][0]) == 4) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file box_motion.hpp  Converts the rigid motions of a box of particles to the motion of one of its particles, and a
-/// load on a particle to the load on the rigid motions.
+/// \file box_motion.hpp  Converts the rigid motions of a box (a group of neighbouring particles) to the motion of one
+/// of its particles, and the load on a particle to the load on the rigid motions of its box.
 #pragma once
 
 #include "kernels/contact/contact_kinematics.hpp"

@@ -2,8 +2,8 @@
 /// \file contact_end.hpp  Stores a contact as seen from one of its ends, and computes the load that it puts on that
 /// end.
 ///
-/// Each contact is computed for both ends separately. This costs less than coordinating who adds where, and gives the
-/// same bits for any number of threads.
+/// Each contact is computed for both ends separately. So each thread adds only to its own particles. This costs less
+/// than synchronising threads, and gives the same bits for any number of threads.
 #pragma once
 
 #include <cstdint>

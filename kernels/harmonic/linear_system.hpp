@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_system.hpp  Stores the linear system K*(s) + s²·M of a network and its real preconditioner as arrays in
-/// the order of a layout.
+/// \file linear_system.hpp  Stores the matrix K*(s) + s²·M of a contact network in the frequency domain, and its real
+/// preconditioner, as arrays in the order of a layout.
 #pragma once
 
 #include <array>
@@ -22,13 +22,14 @@ namespace macadam::kernels {
 /// specimen that no wall resists; two separate specimens side by side in one box have some.
 inline constexpr int most_free_motions = 6;
 
-/// Real stiffness per unit of area over distance, and α, for each pair type.
+/// For each pair type: real stiffness k (times area over distance, it is the stiffness of a contact), and the factor α
+/// of the shear stiffness.
 struct RealStiffness {
   std::array<double, pair_types> k{}, alpha{};
 };
 
-/// A system and its preconditioner z = (Σ_i K_ii⁻¹ + R·(RᵀKR)⁻¹·Rᵀ)·r, with K computed from the stiffnesses in
-/// `typical`. R has the six motions of each box.
+/// A linear system and its preconditioner z = (Σ_i K_ii⁻¹ + R·(RᵀKR)⁻¹·Rᵀ)·r, where K is computed from the stiffnesses
+/// in `typical`, and the columns of R are the six rigid motions of each box (a group of neighbouring particles).
 struct LinearSystem {
   std::vector<std::int32_t> particle;  ///< body → particle of the specimen
   std::vector<std::size_t> row_begin;  ///< body → first of its ends; bodies + 1 entries
@@ -37,10 +38,10 @@ struct LinearSystem {
   RealStiffness typical;
   std::vector<Lever> lever;            ///< [body]
   std::vector<std::int32_t> box_body;  ///< box → first body; boxes + 1 entries
-  std::vector<double> coarse;  ///< (RᵀKR)⁻¹ [6·boxes][6·boxes], without the free motions of the whole specimen
+  std::vector<double> coarse;  ///< (RᵀKR)⁻¹ [6·boxes][6·boxes]; free motions of the whole specimen are left out
   int free = 0;                ///< number of motions of the whole specimen that no wall resists
   std::vector<double> motion;  ///< [body][free][6], orthonormal with respect to M
-  std::vector<std::uint8_t> own_motions;  ///< [body] number of these motions that move this body alone
+  std::vector<std::uint8_t> own_motions;  ///< [body] number of the free motions that move this body alone
   std::vector<double> weight;             ///< [free][6·boxes]: Rᵀ·M·motion
 
   std::size_t bodies() const { return row_begin.size() - 1; }
@@ -62,8 +63,8 @@ struct LinearLoad {
   std::array<double, pair_types> alpha{};
   std::complex<double> inertia = 0;  ///< inertia·M is subtracted from K
   double scale = 1;                  ///< ‖f‖
-  double tolerance = 0;              ///< largest ‖r‖ / ‖f‖
-  double energy_limit = 0;           ///< largest rᴴ·P⁻¹·r
+  double tolerance = 0;              ///< largest accepted ‖r‖ / ‖f‖
+  double energy_limit = 0;           ///< largest accepted rᴴ·P⁻¹·r
 };
 
 /// Result of the iteration for one load.

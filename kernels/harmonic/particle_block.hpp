@@ -31,7 +31,8 @@ MACADAM_HD void add_block(const ContactEnd& e, double k, double alpha, double (&
 }
 
 /// Replaces a symmetric block without negative eigenvalues by its inverse. Returns the number of rows that are, to
-/// rounding, linear combinations of the rows before them. Such rows and columns are zero in the (generalised) inverse.
+/// rounding, linear combinations of the rows before them. In the inverse, which is then a generalised one, these rows
+/// and columns are zero.
 MACADAM_HD int invert_block(double (&a)[36]) {
   constexpr double rounding = 4 * 2.3e-16;  // relative error of a pivot, from sums of a dozen contacts
   double low[36];                           // a = low·lowᵀ; later low is replaced by its inverse

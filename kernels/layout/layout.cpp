@@ -22,8 +22,8 @@ struct Item {
 };
 
 /// Splits the particles along their longest extent into two ranges, recursively, until there are `tiles` ranges of
-/// about equal weight. Then orders the particles within each tile in the same way. The two halves are independent, so
-/// the order does not depend on which thread sorts which half.
+/// about equal weight. Then orders the particles within each tile in the same way. The two ranges of a split are
+/// independent, so the order does not depend on which thread sorts which range.
 class Bisection {
  public:
   /// Without weights all particles count the same. `tile_body`: [tiles], receives the first body of each tile.
@@ -63,9 +63,9 @@ class Bisection {
     order(items.subspan(cut));
   }
 
-  /// Partitions the items along `axis` and returns the position of the cut. The items before it have left/whole of the
-  /// total weight. Halves the range that contains the cut until it is short, because sorting all items would take
-  /// longer.
+  /// Partitions the items along `axis` and returns the position of the cut. The items before the cut have the fraction
+  /// left/whole of the total weight. Halves the range that contains the cut until it is short, and sorts only this
+  /// range, because sorting all items would take longer.
   std::size_t cut_at(std::span<Item> items, int axis, std::size_t left, std::size_t whole) {
     const double share = static_cast<double>(left) / static_cast<double>(whole);
     if (weight_.empty()) {
@@ -149,7 +149,7 @@ void order_particles(const Specimen& specimen, const std::vector<double>& weight
 GroupLayout make_group(const ContactNetwork& network, const Layout& layout, const std::vector<std::int32_t>& tile_of,
                        PairType pair, const std::vector<std::uint32_t>& numbers) {
   using Key = std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint32_t>;  // points, bodies, number
-  // The tile of the lower-numbered body, which is always a particle
+  // A contact belongs to the tile of its lower-numbered body, which is always a particle
   const auto tile_of_contact = [&](const Contact& c) {
     const std::int32_t low = std::min(layout.body_of(c.a), layout.body_of(c.b));
     return static_cast<std::size_t>(tile_of[static_cast<std::size_t>(low)]);
@@ -191,8 +191,9 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
   return group;
 }
 
-/// Multiplies each particle's weight by (particles + touched contacts of its tile) / mean over the tiles. The next
-/// bisection then makes overfull tiles smaller and others larger.
+/// Multiplies each particle's weight by the size of its tile divided by the mean size of the tiles. Size is the number
+/// of particles plus the number of contacts that touch them. The next bisection then makes overfull tiles smaller and
+/// others larger.
 void weigh_by_touched(const ContactNetwork& network, const Layout& layout, const std::vector<std::int32_t>& tile_of,
                       std::vector<double>& weight) {
   std::vector<std::int64_t> touched(layout.tiles());
@@ -245,7 +246,7 @@ Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int 
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < n; ++i) weight[i] += static_cast<double>(network.row(i).size());
   std::vector<std::int32_t> tile_of;
-  const int rounds = size.even ? 4 : 1;  // tile_plan_test shows the balance that four rounds reach
+  const int rounds = size.even ? 4 : 1;  // tile_plan_test checks the balance after four rounds
   for (int round = 0; round < rounds; ++round) {
     if (round > 0) weigh_by_touched(network, layout, tile_of, weight);
     order_particles(specimen, weight, tiles, layout);

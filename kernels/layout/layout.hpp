@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file layout.hpp  Defines the private order in which a backend stores particles and contacts.
+/// \file layout.hpp  Defines the order in which the CPU and CUDA backends store particles and contacts. It is never
+/// visible outside a backend.
 ///
 /// Particles are ordered by recursive bisection, so that neighbours in space are neighbours in memory. A tile is a
 /// range of particles whose contacts fit the cache of one core or, on the tile path of the GPU, the memory of one
@@ -63,7 +64,8 @@ Layout make_order(const Specimen& specimen, std::size_t tiles);
 /// Target size of the tiles.
 struct TileSize {
   std::size_t contacts;  ///< contacts per tile: the number of tiles is the network's contacts divided by this
-  bool even;  ///< balances the contacts that each tile touches, because tiles wait for one another; takes four rounds
+  bool even;  ///< gives all tiles about the same number of contacts, because tiles wait for one another; bisects four
+              ///< times
 
   TileSize(std::size_t contact_count, bool evenly = false) : contacts(contact_count), even(evenly) {}
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tile_plan.cpp  Computes contacts, halo, ranks and cells of every tile; tile_plan.hpp explains the words.
+// tile_plan.cpp  Computes contacts, halo, ranks and load cells of every tile (the particles of one thread block).
+// tile_plan.hpp explains these words.
 #include "kernels/layout/tile_plan.hpp"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ struct Touch {
 
 using Couple = std::vector<std::uint32_t>;
 
-/// Couples of two contacts as columns (a thread steps a column from one end to the other), and couples of one contact.
+/// Couples of two contacts, stored as columns (one thread steps the contacts of a column in order), and couples of one
+/// contact.
 struct Columns {
   static_assert(TilePlan::couple == 2);
   using Column = std::array<std::uint32_t, TilePlan::couple>;
@@ -40,7 +42,7 @@ struct Columns {
   }
 };
 
-/// The plan of one tile, with places and packets counted from 0.
+/// The plan of one tile. Places and packets are counted from the beginning of the tile.
 struct TilePart {
   Tile tile{};
   std::vector<std::int32_t> body, halo;
@@ -115,7 +117,8 @@ class Planner {
     }
   }
 
-  /// Appends the plan of tile t to the plan of all tiles and shifts its places and packets.
+  /// Appends the plan of tile t to the plan of all tiles. Adds the numbers of places and packets of earlier tiles to
+  /// its own.
   void add_tile(std::size_t t, const TilePart& part) {
     if (!begins_share_.empty() && begins_share_[t]) {
       out_.contact.resize(whole(out_.packets(), TilePlan::share_packets) * 32);  // inert
@@ -178,7 +181,8 @@ class Planner {
       }
     }
     for (std::uint32_t e = 0; e < TilePlan::longest_short_list; ++e) {
-      // short ranks r ≥ long_lists have list lengths that fall with r, so cell e exists for the first `count` of them
+      // from rank long_lists on, lists become shorter with rising rank, so cell e exists for the first `count` of these
+      // ranks
       std::uint32_t count = 0;
       for (std::uint32_t r = tile.long_lists; r < bodies && part.list[2 * r] > e; ++r) ++count;
       part.diagonal[e] = tile.cells - tile.long_lists;

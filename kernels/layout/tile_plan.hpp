@@ -4,9 +4,9 @@
 ///
 /// The tile path is the fast way to step condensed contacts on a GPU. A tile is a set of neighbouring particles (a tile
 /// of the layout) that one thread block owns. The block computes every contact that touches one of its particles. A
-/// contact between particles of two tiles is computed by both, from the same numbers in the same order of operations,
-/// so only velocities must be exchanged between tiles. ExecCudaTiles::plan() calls plan_tiles() once per
-/// network, before the first step; the kernels read the plan through TileArrays (tile_step.hpp).
+/// contact between particles of two tiles is computed by both blocks, from the same numbers in the same order of
+/// operations. So tiles exchange only velocities, not loads. ExecCudaTiles::plan() calls plan_tiles() once per network,
+/// before the first step; the kernels read the plan through TileArrays (tile_step.hpp).
 ///
 /// Reading order of the tile path: this file; contact_words.hpp (the words of a contact); tile_step.hpp (one step of
 /// one contact, and the arrays); shared_memory_map.hpp, resident_kernel.hpp and resident_tile.hpp (the resident
@@ -32,7 +32,7 @@
 ///   whose end B it is. The particle sums them in this order, which does not depend on how particles are divided into
 ///   tiles.
 /// - wall contact number: the number of a contact among all contacts at walls.
-/// - share: the consecutive tiles of one GPU, if several GPUs step one specimen.
+/// - share: the consecutive tiles that one GPU computes, if several GPUs step one specimen.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +69,7 @@ struct TileContact {
 
 /// The plan of all tiles.
 struct TilePlan {
-  static constexpr std::uint32_t longest_short_list = 32;  ///< a list with more cells is long, which a warp sums
+  static constexpr std::uint32_t longest_short_list = 32;  ///< a list with more cells is long; a whole warp sums it
   static constexpr std::uint16_t no_cell = UINT16_MAX, more_of_couple = UINT16_MAX - 1;
   /// Largest number of contacts in a couple, and number of packets in a double packet.
   static constexpr std::uint32_t couple = 2;

@@ -26,18 +26,18 @@ inline bool blocks_are_exact(Geometry geometry, const FactsTable& laws) {
   return geometry == Geometry::fixed && std::all_of(laws.begin(), laws.end(), has_none);
 }
 
-/// Number of blocks, within the shortest time of the load, that is sufficient if blocks are exact. The change of f
-/// within such a block, which is rounded, is a small part of the amplitude of f; and when the block ends, f is computed
-/// afresh from the displacements.
+/// Number of blocks of steps within the shortest characteristic time of the load that is sufficient if blocks are
+/// exact. The change of f within such a block, which is rounded, is a small part of the amplitude of f; and when the
+/// block ends, f is computed afresh from the displacements.
 inline constexpr double exact_blocks = 400;
 
 /// Returns the number of steps of a block, at most longest_block. A block is at most the shortest characteristic time
-/// of the load or the laws, divided by `options.blocks` (exact blocks: up to ten times that). With updated geometry
-/// this time is also limited such that, at the specimen's strain rate, a normal turns by less than 1e-6 in a 4,000th of
-/// it. If possible, the length divides the interval between observations or is a multiple of it; otherwise observations
-/// cut blocks short. Returns 0 if blocks would be too short to save time, no wall is driven by a displacement (so
-/// nothing tells how fast the load changes), a law has no blocks, or a wall is driven by a force, which needs the sum
-/// of its loads at every step. `size`: edges of the specimen [m].
+/// of the load or the laws, divided by `options.blocks` (exact blocks: up to ten times that). With updated geometry,
+/// the shortest time is at most 4,000 times the time in which a normal turns by 1e-6 at the specimen's strain rate. If
+/// possible, the length of a block divides the interval between observations or is a multiple of it; otherwise a block
+/// ends early at each observation. Returns 0 in four cases: blocks would be too short to save time; no wall is driven
+/// by a displacement, so it is unknown how fast the load changes; a law cannot be stepped in blocks; a wall is driven
+/// by a force, so the sum of its loads is needed at every step. `size`: edges of the specimen [m].
 inline int block_steps(const StepperOptions& options, const FactsTable& laws, const Vec3d& size) {
   if (!options.boundary.any(DrivenBy::displacement) || options.boundary.any(DrivenBy::force)) return 0;
   constexpr double pi = std::numbers::pi;
@@ -62,7 +62,7 @@ inline int block_steps(const StepperOptions& options, const FactsTable& laws, co
   const auto most =
       static_cast<std::int64_t>(std::min<double>(longest_block, std::floor(shortest / (blocks * options.dt))));
   if (most < 4) return 0;
-  // Shortening a block to less than half would cost more than it saves
+  // Blocks shorter than half of `most` would cost more time than blocks that end at observations save
   for (std::int64_t steps = most; 2 * steps >= most; --steps) {
     const std::int64_t observed = options.observed_every;
     if (observed > 0 && (observed % steps == 0 || steps % observed == 0)) return static_cast<int>(steps);
@@ -70,7 +70,7 @@ inline int block_steps(const StepperOptions& options, const FactsTable& laws, co
   return static_cast<int>(most);
 }
 
-/// Returns the coefficients of a block of `steps` steps that follows a block of `ended` steps.
+/// Returns the coefficients of the law for a block of `steps` steps that follows a block of `ended` steps.
 template <class L>
 typename L::Block block_after(const L& law, double dt, int ended, int steps) {
   typename L::Block out = law.block(dt, steps);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file block_schedule.hpp  Tracks where a run is within its blocks of steps: which block is in progress, and how many
-/// of its steps have been taken.
+/// \file block_schedule.hpp  Tracks where a run is within its blocks of steps (contacts update their viscoelastic
+/// states between two blocks): the length of the current block, and how many of its steps have been taken.
 #pragma once
 
 #include <cstdint>

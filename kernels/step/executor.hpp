@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file executor.hpp  Defines the functions that an executor must have. An executor owns the arrays of a specimen and
-/// steps it.
+/// takes its time steps, on the CPU or on devices (GPUs).
 ///
-/// There are three: ExecCpu (threads and SIMD registers), ExecCuda (two kernels per step, any law and contact form),
-/// and ExecCudaTiles (blocks of steps over tiles). plan() first answers whether the executor fits the devices, without
+/// There are three executors: ExecCpu (threads and SIMD registers), ExecCuda (two kernels per step, any law and contact
+/// form), and ExecCudaTiles (blocks of steps over tiles). plan() answers whether the specimen fits the devices, without
 /// allocating anything on them. An executor is made once for a network and a plan, and can be restarted many times. For
 /// each start, StepperImpl calls, in this order:
 ///   begin(start)             sets all bodies to rest; applies the options
-///   wall_table(values)       allocates the walls' table and returns its address
+///   wall_table(values)       allocates the table of the walls' motion; returns its address
 ///   set_bodies(…)            sets masses and body forces
 ///   set_group(…)             called once per group (contacts of one pair type). On the first start it sets the group's
 ///                            arrays, on later starts only the states; it always sets the functor that steps the group
 ///   prepare(motion)          ends the set-up
 /// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). The other
 /// functions read results, or copy and replace the states of a checkpoint. Between two calls of run(), StepperImpl may
-/// take samples (max_samples(), take_sample(), wait_for_samples()); executors that cannot, inherit NoSamples.
+/// take samples (max_samples(), take_sample(), wait_for_samples()); executors that cannot take samples inherit
+/// NoSamples.
 #pragma once
 
 #include <concepts>
@@ -39,7 +40,7 @@ struct ExecStart {
   std::size_t group_bytes;  ///< size of the arrays of all groups, if `first`
 };
 
-/// Plan of an executor that needs only a layout.
+/// Plan of an executor that needs no plan beyond the layout.
 struct LayoutPlan {
   Layout layout;
 };

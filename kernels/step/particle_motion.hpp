@@ -12,8 +12,8 @@
 
 namespace macadam::kernels {
 
-/// Arrays of the bodies; the walls are last. Contacts read `velocity` (Geometry precision); `master` is integrated
-/// (Particle precision). Both are one array if the precisions are the same.
+/// Arrays of the bodies; the walls are last. Contacts read `velocity`, in precision Geometry. The step integrates
+/// `master`, in precision Particle. If the precisions are the same, the two pointers refer to one array.
 template <class P>
 struct BodyView {
   typename P::Geometry* velocity;  ///< [body][8] v [m/s], ω [rad/s]
@@ -31,9 +31,10 @@ struct ParticleMotion {
   using R = typename P::Particle;
   BodyView<P> body;
   Damping damping;
-  R chi;                           ///< local damping; 0: none
-  R damping_factor, force_factor;  ///< factors of v and of the force in viscous damping, model (10.1): (1 − βΔt/2)/(1 +
-                                   /// < βΔt/2) and 1/(1 + βΔt/2); both 1 without it
+  R chi;  ///< local damping; 0: none
+  /// Factors of v and of the force in viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2). Both
+  /// are 1 without viscous damping.
+  R damping_factor, force_factor;
   double dt;  ///< [s]
   WallMotion<R> wall;
 
@@ -53,8 +54,8 @@ struct ParticleMotion {
     }
   }
 
-  /// Moves only word w of [v, –, ω, –] of body i, under word w of force and moment; one thread per word.
-  /// `has_external_loads`: there are body forces, or walls driven by forces.
+  /// Moves one word of body i: word w of [v, –, ω, –], under word w of [force, –, moment, –]. Each word has its own
+  /// thread. `has_external_loads`: there are body forces, or walls driven by forces.
   template <bool has_external_loads>
   MACADAM_HD void word(std::int32_t i, int w, R force, std::int64_t k) const {
     const std::size_t at = place(i, w);
@@ -97,9 +98,10 @@ struct ParticleMotion {
 #else
   static constexpr bool on_device = false;
 #endif
-  /// Returns the velocity half a step after the force f, from the velocity v half a step before it, with damping.
+  /// Returns the velocity half a step after the time of the force f. `v` is the velocity half a step before that time.
+  /// Includes damping.
   MACADAM_HD R moved(R v, R f, R inverse) const {
-    if (on_device || damping == Damping::local) {  // on a device, computing with χ = 0 costs less than a branch
+    if (on_device || damping == Damping::local) {  // on a GPU, computing with χ = 0 costs less than a branch
       const R against = v == 0 ? R(0) : std::copysign(chi, -v);  // F_d = −χ·|F|·sign(v)
       f = multiply_add(against, f < 0 ? -f : f, f);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Finds motions that a network cannot make, so that the step can leave them out.
+// skips.cpp  Determines whether the bodies of a contact network cannot rotate, so that a time step may leave out
+// rotations.
 #include <cmath>
 
 #include "macadam/stepper.hpp"

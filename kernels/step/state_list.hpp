@@ -15,14 +15,14 @@
 
 namespace macadam::kernels {
 
-/// For each array, two functions copy and replace its values, so that the list does not depend on where the array lives
-/// (host or device).
+/// Holds two functions for each array, which copy and replace its values. So the list does not depend on where the
+/// array is (host or GPU).
 class StateList {
  public:
   using Order = std::function<StateOrder()>;
 
   /// Adds an array of `size` numbers of type T; an empty array is left out. `order`: order of the array in a
-  /// checkpoint, made when needed; without it the array is stored in its own order.
+  /// checkpoint, made when needed. Without `order`, a checkpoint has the array in the order of memory.
   template <class T>
   void add(const std::string& name, const std::string& unit, std::size_t size, std::function<std::vector<T>()> copy,
            std::function<void(const std::vector<T>&)> replace, const Order& order = {}) {
@@ -63,7 +63,8 @@ class StateList {
   }
 
   /// Replaces each array by the given array of the same name. The given arrays may be in any order, and there may be
-  /// more of them. If one does not fit, replaces none. \throws RunError naming the array that does not fit.
+  /// others among them. If an array is missing or has another length, replaces none. \throws RunError naming the array
+  /// that does not fit.
   void replace(std::span<const StateArray> arrays) const {
     std::vector<const StateArray*> found;
     for (const Entry& e : entries_) {

@@ -12,7 +12,8 @@
 namespace macadam::kernels {
 
 /// Order of an array whose items have the same number of words. Word k of item i of a checkpoint is at first[i] +
-/// word[k] of the executor's array. If the executor stores the item twice, the word is also at twin[i] + word[k].
+/// word[k] of the executor's array. If the executor stores the item twice (a contact computed by two tiles), the word
+/// is also at twin[i] + word[k].
 struct StateOrder {
   static constexpr std::uint64_t none = UINT64_MAX;
   std::vector<std::uint64_t> first, word;

@@ -57,7 +57,7 @@ class StepperImpl final : public Stepper {
   ~StepperImpl() override { exec_.use_device(); }
 
   /// Starts again with other options, for the network for which the stepper was made. Returns false and changes nothing
-  /// if the arrays it holds do not suit these options, or if the laws are of other kinds.
+  /// if the arrays of the stepper do not suit these options, or if the laws are of other kinds.
   bool begin_again(const ContactNetwork& network, const Laws& laws, const Inertia& inertia,
                    const StepperOptions& options) {
     const FactsTable facts = facts_of(laws);
@@ -251,7 +251,7 @@ class StepperImpl final : public Stepper {
       return x && y ? kind(*x) == kind(*y) : x.has_value() == y.has_value();
     });
   }
-  /// Returns the options with `skip_rotations` set only if nothing can turn, now or later.
+  /// Returns the options. Leaves `skip_rotations` set only if no body can rotate, now or after a later start.
   static StepperOptions decided(StepperOptions options, const ContactNetwork& network, const FactsTable& laws) {
     options.skip_rotations = options.skip_rotations && nothing_turns(network, laws);
     return options;
@@ -262,8 +262,7 @@ class StepperImpl final : public Stepper {
     return out;
   }
 
-  /// Applies everything that the options decide. The first time, makes the groups, which are kept; later only sets
-  /// their states.
+  /// Applies the options. The first time, makes the groups of contacts, which are kept; later only sets their states.
   void begin(const ContactNetwork& network, const Laws& laws, const Inertia& inertia, bool first) {
     exec_.use_device();
     const StepperOptions& options = options_;
@@ -309,9 +308,10 @@ class StepperImpl final : public Stepper {
     std::vector<Vec3d> velocity = start.velocity, spin = start.spin;
     for (auto* list : {&velocity, &spin}) {
       for (Vec3d& v : *list)
-        v = (1 / static_cast<double>(motion_.damping_factor)) * v;  // the step multiplies by this factor
+        v = (1 / static_cast<double>(motion_.damping_factor)) * v;  // because the step multiplies by this factor
     }
-    if (options_.skip_rotations) spin.assign(spin.size(), {});  // spins in the solution are only rounding errors
+    // If rotations are skipped, the spins of the steady state are only rounding errors
+    if (options_.skip_rotations) spin.assign(spin.size(), {});
     set_velocities(velocity, spin);
     std::vector<double> u = exec_.displacements();
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
@@ -352,7 +352,8 @@ class StepperImpl final : public Stepper {
     });
   }
 
-  /// Steps that are enqueued in several parts, and the rows of the walls' table that are filled in for them.
+  /// Counts the steps that are enqueued in several parts, and the rows of the walls' table that are filled in for these
+  /// steps.
   struct StepsToTake {
     std::int64_t begin, end, row = 0, rows = 0;
   };
@@ -455,8 +456,8 @@ class StepperImpl final : public Stepper {
   bool started_ = false;  // whether the run started in motion, at step −1
 };
 
-/// Returns the used stepper, started again, if it can be; otherwise makes a new one. If the executor does not fit the
-/// devices, returns null and does not change `used`.
+/// Starts the used stepper again and returns it if that is possible; otherwise makes a new one. If the specimen does
+/// not fit the devices, returns null and does not change `used`.
 template <Executor Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<typename Exec::AnyLaw>, pair_types>& laws,
@@ -467,7 +468,7 @@ std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const Contact
   if (again && again->begin_again(network, laws, inertia, options)) return std::move(used);
   auto plan = Exec::plan(specimen, network, options);
   if (!plan) return nullptr;
-  used.reset();  // frees its memory before the new one is made
+  used.reset();  // frees the memory of the used stepper before the new one is made
   return std::make_unique<StepperImpl<Exec>>(*std::move(plan), specimen, network, laws, inertia, options);
 }
 

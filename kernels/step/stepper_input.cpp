@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_input.cpp  Checks laws, damping, boundary and start of a stepper before anything is made.
+// stepper_input.cpp  Checks laws, damping, boundary and start of a stepper before any array is made.
 #include "kernels/step/stepper_input.hpp"
 
 #include <cmath>

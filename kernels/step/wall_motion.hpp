@@ -15,8 +15,8 @@ namespace macadam::kernels {
 
 inline constexpr int wall_axes = 3 * walls;  ///< numbered 3·wall + 0, 1 or 2 for x, y, z
 
-/// The rows of the steps to come. A driven wall has four words, so that a device reads them by one or two instructions.
-/// R: precision of the particles. Passed to kernels by value.
+/// The rows of the table for the next steps. A driven wall has four words in a row, so that a GPU reads them by one or
+/// two instructions. R: precision of the particles. Passed to kernels by value.
 template <class R>
 struct WallMotion {
   static constexpr int words = 4;
@@ -57,11 +57,11 @@ class WallTable {
   /// Returns the description of the table; its address is not set.
   const WallMotion<R>& motion() const { return motion_; }
   /// Returns how many rows to fill at once if `done` steps were requested before and `left` remain: few at first, so
-  /// that a device does not wait for the host; later as many as all earlier calls together, up to `most_rows`.
+  /// that a GPU does not wait for the host; later as many as all earlier calls together, up to `most_rows`.
   std::int64_t rows(std::int64_t done, std::int64_t left) const {
     return driven_.empty() ? left : std::min({left, std::max(first_rows, done), most_rows});
   }
-  /// Size of the table, with one more row behind the last one, which kernels load but do not use.
+  /// Size of the table. It includes one row after the last step, which kernels load but do not use.
   std::size_t most_values() const { return static_cast<std::size_t>(most_rows + 1) * motion_.row_words(); }
 
   /// Returns the rows of the steps first … first + n − 1; axes at rest are 0.

@@ -18,8 +18,8 @@ namespace macadam::python {
 
 namespace nb = nanobind;
 
-/// A read-only NumPy array that refers to the library's memory without a copy. Properties are bound with
-/// reference_internal by default, so the array keeps the object that owns the memory alive.
+/// A read-only NumPy array that refers to the library's memory without a copy. By default nanobind binds properties
+/// with reference_internal, so the array keeps alive the object that owns the memory.
 template <class T>
 using View = nb::ndarray<nb::numpy, const T>;
 

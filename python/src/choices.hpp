@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file choices.hpp  Checks arguments of Python calls that must be one of several names, a number in a range, or
-/// devices. Names and limits are the same as for the command's options.
+/// \file choices.hpp  Checks arguments of Python calls that must be one of several names, a number in a range, or a
+/// list of devices (GPUs). Names and limits are the same as for the command's options.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fields.cpp  Writes files for viewers with arrays that the caller gives, one file or a series of frames in time.
+// fields.cpp  Writes files for viewers that contain arrays of the caller: a single file, or a series of files, one for
+// each time.
 #include "python/src/fields.hpp"
 
 #include <fmt/format.h>

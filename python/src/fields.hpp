@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fields.hpp  Fields of a specimen (one value or vector per particle, contact or cell polygon): as NumPy arrays
-/// and in files for viewers.
+/// \file fields.hpp  Declares functions that return fields of a specimen as NumPy arrays or write them to files for
+/// viewers. A field has one value or vector per particle, contact or polygon of a cell.
 #pragma once
 
 #include <filesystem>

@@ -38,9 +38,9 @@ std::vector<Vec3d> vectors(const ArrayLike& given, const std::string& name, std:
 /// Returns rows of three whole numbers of 32 bits, shape (n, 3). \throws InputError as whole_numbers().
 std::vector<std::array<std::int32_t, 3>> whole_triples(const ArrayLike& given, const std::string& name);
 
-/// Returns the numbers as a NumPy array of any shape. The kind of number is kept: bool, int, uint or float.
-/// \throws InputError for text, rows of different lengths and the like. expected: text for the part of the message that
-/// says what was expected.
+/// Returns the numbers as a NumPy array of any shape. The kind of number is kept: bool, int, uint or float. \throws
+/// InputError for anything that is not an array of numbers, such as text or rows of different lengths. expected: the
+/// words of the message that say what was expected.
 nb::object number_array(nb::handle given, const std::string& name, const std::string& expected);
 
 }  // namespace macadam::python

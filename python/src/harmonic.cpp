@@ -48,7 +48,8 @@ class Solver {
     for (const double f : numbers(frequencies, "frequencies")) loads.push_back({f, scaling, damping});
     std::unique_lock one_at_a_time(busy_, std::defer_lock);
     {
-      const nb::gil_scoped_release release;  // the thread that is solving needs the interpreter's lock in stop()
+      // The thread that is solving needs the interpreter's lock when it calls stop()
+      const nb::gil_scoped_release release;
       one_at_a_time.lock();
     }
     LongCall call;

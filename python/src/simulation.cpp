@@ -47,9 +47,9 @@ class StepView {
   Observation now;
 };
 
-/// Returns the watcher that calls Python's callbacks during a run. started: becomes true when the run is planned; after
-/// that the run itself asks stop(), so that an interrupted run writes its checkpoint. made: is set to the specimen when
-/// that has been prepared.
+/// Returns the watcher that calls Python's callbacks during a run. `started` becomes true when the run is planned. From
+/// then on the run itself asks stop(), so that it writes its checkpoint if it is interrupted. `made` is set to the
+/// specimen as soon as the specimen is prepared.
 Watcher watcher_of(LongCall& call, bool& started, const Preparation*& made, const nb::object& on_step,
                    std::int64_t every, const nb::object& on_plan, const nb::object& on_warning) {
   Watcher w;

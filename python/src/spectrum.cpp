@@ -21,7 +21,7 @@
 namespace macadam::python {
 namespace {
 
-/// Returns the array of f(time), (n,).
+/// Returns f(time) for all times, as an array of shape (n,).
 template <class F>
 nb::ndarray<nb::numpy, double> values_at(const ArrayLike& times, F&& f) {
   std::vector<double> out = numbers(times, "times");
@@ -29,7 +29,8 @@ nb::ndarray<nb::numpy, double> values_at(const ArrayLike& times, F&& f) {
   return owned(std::move(out));
 }
 
-/// Returns (value, time) of each unit, (n, 2). value: the member of Unit that is returned, a modulus or a compliance.
+/// Returns the pairs (value, time) of all units as an array of shape (n, 2). value: the member of Unit to return, a
+/// modulus or a compliance.
 template <class Unit>
 nb::ndarray<nb::numpy, double> pairs_of(const std::vector<Unit>& units, double Unit::*value) {
   std::vector<double> out;

@@ -31,7 +31,7 @@ struct HeldStepper {
   double dt = 0;
   mutable std::mutex busy = {};
 
-  /// Locks the stepper as long as the returned lock lives. \throws RunError if another thread holds it.
+  /// Locks the stepper for the lifetime of the returned lock. \throws RunError if another thread holds it.
   std::unique_lock<std::mutex> hold() const {
     std::unique_lock held(busy, std::try_to_lock);
     if (!held) throw RunError("stepper: found a call from another thread, expected one thread at a time");
@@ -39,8 +39,7 @@ struct HeldStepper {
   }
 };
 
-/// Returns the time step that the drives were made for, or nothing if no wall is driven. All drives must have the same
-/// step; the time step of the first drive is returned.
+/// Returns the time step of the first drive, or nothing if no wall is driven. All drives must have the same time step.
 std::optional<double> step_of(const Boundary& boundary) {
   std::optional<double> out;
   for (const WallMotionSpec& wall : boundary.wall) {

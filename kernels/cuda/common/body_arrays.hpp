@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file body_arrays.hpp  Defines the base class of both executors on devices (ExecCuda, ExecCudaTiles). It owns
-/// the team of devices, the bodies, the walls' table, and the arrays of the groups.
+/// \file body_arrays.hpp  Defines the base class of both executors on devices (ExecCuda and ExecCudaTiles take steps on
+/// GPUs). It owns the team of devices, the bodies, the walls' table, and the arrays of the groups.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@
 
 namespace macadam::kernels {
 
-/// Owns the arrays that both executors on devices have; P is the precision.
+/// Owns the arrays that ExecCuda and ExecCudaTiles have in common. P is the precision.
 template <class P>
 class CudaBodyArrays {
  public:
@@ -167,7 +167,7 @@ class CudaBodyArrays {
     velocity_.clear();
   }
 
-  /// Takes the arrays of group `number` (the first time) or only its states.
+  /// Uploads the arrays of group `number` at the first start; at later starts, only its states.
   ContactView<P> take_group(std::size_t number, bool first, ContactArrays<P>& arrays) {
     ContactView<P> view = first ? arrays.shape : views_[number];
     arrays.for_each_array(view, [&](auto name, auto unit, auto& array, auto& pointer) {
@@ -201,7 +201,8 @@ class CudaBodyArrays {
     add("gathered_velocity", "m/s, rad/s", velocity_);
   }
 
-  /// \throws RunError if a device has fewer than its part of `needed` bytes free.
+  /// Checks the memory of every device. \throws RunError if a device has less free memory than its part of `needed`
+  /// bytes.
   void require_memory(std::size_t needed) const {
     if (!team_.ranks()) needed = needed / team_.size() * static_cast<std::size_t>(team_.shares_of(0));
     team_.each([&](std::size_t m) {
@@ -215,7 +216,7 @@ class CudaBodyArrays {
     });
   }
 
-  /// Returns the description of backend and devices; `way`: words that say how steps are taken.
+  /// Returns the description of backend and devices; `way`: text that says how steps are taken.
   std::string described(const std::string& way) const {
     cudaDeviceProp properties{};
     check_cuda(cudaGetDeviceProperties(&properties, team_.device(team_.first())), "device properties");
@@ -226,8 +227,8 @@ class CudaBodyArrays {
     return "cuda" + (devices == DeviceList{0} ? "" : named + to_string(devices)) + ", " + properties.name + ", " + way;
   }
 
-  /// body_traffic(): bytes of the bodies that a step reads and writes. held_bytes(): all bytes held, except for the
-  /// load records.
+  /// body_traffic(): bytes of the bodies' arrays that a step reads and writes. held_bytes(): bytes of all arrays except
+  /// the load records.
   std::int64_t body_traffic() const {
     return static_cast<std::int64_t>(2 * (master_.bytes() + displacement_.bytes() + velocity_.bytes()) +
                                      inverse_.bytes());
@@ -264,7 +265,7 @@ class CudaBodyArrays {
   }
 
   /// Returns how an array of a group is divided among the devices. An array with one item per slot is cut between
-  /// slots; an array with one item per contact point is cut at about the same contacts.
+  /// slots; an array with one item per contact point is cut near the same contacts.
   Shares array_shares(std::size_t words, const GroupLayout& group) const {
     if (words % group.contact.size() == 0) return cuts_.slots(group);
     return cuts_.of([&](std::size_t m) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file divergence.hpp  Finds on the device the first particle that moves too far in one step.
+/// \file divergence.hpp  Finds on the device (GPU) the first particle that moves too far in one step.
 #pragma once
 
 #include "kernels/contact/contact_step.hpp"

@@ -18,7 +18,8 @@ __device__ __forceinline__ Vec3<double> load_vec3(const double* p) {
   return {v.x, v.y, w.x};
 }
 
-/// One contact of a packet of 32: the contact in lane `lane`. The Item of contact_step.hpp for threads.
+/// Loads and stores the words of the contact in lane `lane` of a packet of 32. It is the Item of contact_step.hpp on
+/// the GPU.
 struct LaneItem {
   std::uint32_t lane;
   template <class R>
@@ -26,8 +27,8 @@ struct LaneItem {
   static constexpr bool staged = true;  ///< all chains of a contact are loaded before the first is stored
 
   MACADAM_HD static constexpr std::size_t lanes() { return 32; }
-  // The words of a contact are used once per step. Streaming loads keep them from displacing bodies and load records in
-  // the cache.
+  // The words of a contact are used once per step. Streaming loads are used so that these words do not push bodies and
+  // load records out of the cache.
   template <class R>
   __device__ __forceinline__ R load(const R* p) const {
     return __ldcs(p + lane);

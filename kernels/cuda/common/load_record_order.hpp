@@ -14,12 +14,12 @@
 
 namespace macadam::kernels {
 
-/// Order in which the loads of a body lie in memory and are summed. `as_written`: the order in which a step writes
-/// them, so that records in the same memory sector are written at about the same time. `by_number`: by the contacts'
-/// numbers, first the contacts whose end A the body is; this order does not depend on the layout.
+/// Order in which the load records of a body are stored and summed. `as_written`: the order in which a step writes
+/// them, so that records in the same memory sector are written at about the same time. `by_number`: the order of the
+/// contacts' numbers, where contacts that have the body at end A come first. This order does not depend on the layout.
 enum class RecordOrder { as_written, by_number };
 
-/// The rows of all bodies, on the device.
+/// The rows of load records of all bodies, on the device.
 struct LoadLists {
   DeviceArray<std::uint32_t> begin;  ///< [body + 1] first record of a body
   /// [slot of all groups][2] records of the ends A and B; UINT32_MAX in an inert slot.
@@ -86,7 +86,8 @@ struct LoadLists {
     return {long_body.data() + first, std::min(long_cut[m + 1], most) - first};
   }
 
-  /// Returns the order in which a checkpoint stores an array [record][record_words]: rows in the order of the specimen.
+  /// Returns the order in which a checkpoint stores an array [record][record_words]: the rows of the bodies follow one
+  /// another in the order of the specimen.
   StateOrder state_order(const Layout& layout) const {
     StateOrder out{{}, strided(record_words, 1), {}};
     const std::vector<std::uint32_t> row = begin.download();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sample_buffer.hpp  Takes samples of a run on the device while the run continues.
+/// \file sample_buffer.hpp  Takes samples of a run on the device (GPU) while the run continues.
 ///
 /// A sample holds the wall forces, the motion of the walls, and the first particle that has diverged. ExecCudaTiles
 /// enqueues samples between steps. The host reads several at a time: it waits once for all of them, and the device
@@ -48,7 +48,7 @@ class DeviceSamples {
   DeviceSamples(const DeviceSamples&) = delete;
   ~DeviceSamples() { cudaFreeHost(read_); }
 
-  /// Enqueues the reset of all samples, after which none reports a diverged particle.
+  /// Enqueues the reset of all samples. After it, no sample reports a diverged particle.
   void clear(cudaStream_t stream) {
     check_cuda(cudaMemsetAsync(taken_.data(), 0xff, taken_.bytes(), stream), "samples");
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file wall_table.hpp  Uploads rows of the walls' table while the device takes steps.
+/// \file wall_table.hpp  Uploads rows of the walls' table (one row of prescribed motion per step) while the GPU takes
+/// steps.
 #pragma once
 
 #include <cstring>
@@ -9,8 +10,8 @@
 
 namespace macadam::kernels {
 
-/// One table on the device, whose address does not change, and two host buffers that fill it in turn. The host writes
-/// one buffer while the copy from the other waits in the stream behind the steps that still read the table.
+/// The table on the device, whose address does not change, and two host buffers that fill it in turn. The copy from one
+/// buffer is enqueued behind the steps that still read the table. Meanwhile the host writes the other buffer.
 template <class R>
 class WallRowsOnDevice {
  public:

@@ -11,8 +11,9 @@
 
 namespace macadam::kernels {
 
-/// An array on the current device, zero at first. Nothing may use it when it is destroyed. Allocation and release go
-/// through the calling thread's own stream, so that they do not stop other work on the device.
+/// An array on the current device (GPU), zero at first. No kernel or copy may still use it when it is destroyed.
+/// Allocation and release go through the calling thread's own stream, so that they do not stop other work on the
+/// device.
 template <class T>
 class DeviceArray {
  public:

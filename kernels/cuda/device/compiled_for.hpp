@@ -12,7 +12,7 @@ namespace macadam::kernels {
 /// Returns whether a device of compute capability major.minor can run a build. `list`: CMAKE_CUDA_ARCHITECTURES,
 /// separated by commas: "75-virtual,90-real", "86", "native". Machine code runs on devices of the same major version
 /// from its own minor version on; virtual code runs on every later device. An entry that is not a number counts as
-/// suitable: the device then reports an error when it is used.
+/// suitable; if it is not, the device reports an error when it is used.
 inline bool has_code_for(std::string_view list, int major, int minor) {
   while (!list.empty()) {
     std::string_view one = list.substr(0, list.find(','));

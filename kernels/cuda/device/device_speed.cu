@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_speed.cu  Measures what a device can do at most: bandwidths of its memories, and its clock under load.
+// device_speed.cu  Measures the limits of a device (GPU): the bandwidths of its memories, and its clock under load.
 #include <algorithm>
 #include <functional>
 
@@ -83,7 +83,7 @@ DeviceSpeed measure_device(int device) {
   const auto blocks = static_cast<unsigned>(4 * properties.multiProcessorCount);
   {
     constexpr int turns = 20;
-    // Both arrays together fill a third of the cache
+    // The two arrays together fill a third of the L2 cache
     const std::size_t words = static_cast<std::size_t>(properties.l2CacheSize) / 6 / sizeof(float4);
     const DeviceArray<float4> a(words), b(words);
     out.cache = 2.0 * turns * static_cast<double>(words * sizeof(float4)) / seconds_of([&] {
@@ -99,7 +99,7 @@ DeviceSpeed measure_device(int device) {
     check_launch("bandwidth", nullptr);
   });
   out.shared = 2.0 * turns * blocks * threads * sizeof(float4) / seconds;
-  // one thread block runs alone, long enough that the launch does not matter
+  // one thread block runs alone, so long that the time of the launch is negligible
   const double alone = seconds_of([&] {
     turn_shared<<<1, threads>>>(20 * turns, sink.data(), ticks.data());
     check_launch("bandwidth", nullptr);

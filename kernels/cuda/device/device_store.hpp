@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_store.hpp  Owns device arrays whose type is not known to the owner.
+/// \file device_store.hpp  Owns arrays on devices (GPUs) whose type the owner does not need to know.
 #pragma once
 
 #include <cstdint>

@@ -22,9 +22,9 @@ inline void check_cuda(cudaError_t status, const char* what) {
   if (status != cudaSuccess) throw RunError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
 }
 
-/// copy_now() copies memory to, from or within a device; clear_now() sets memory to zero. Both wait until this has
-/// finished, but not for other work of the device, because several specimens may share the device. The memory must not
-/// be in use.
+/// copy_now() copies memory to, from or within a device; clear_now() sets memory to zero. Both functions wait until the
+/// copy or reset has finished, but not for other work of the device, because several specimens may share the device. No
+/// kernel may be using the memory.
 inline void copy_now(void* to, const void* from, std::size_t bytes, const char* what) {
   check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, cudaStreamPerThread), what);
   check_cuda(cudaStreamSynchronize(cudaStreamPerThread), what);

@@ -7,13 +7,13 @@
 /// specimen takes one multiprocessor per tile (TileLaunch::lease() calls take()), and gives them back when its steps
 /// have finished (give()). A Share says how many multiprocessors are taken on each device.
 ///
-/// The oldest waiting specimen goes first. While it prepares its next steps on the host, the second oldest one runs. So
-/// these two alternate and finish early, while further specimens are still being prepared. If all specimens took turns,
-/// all would finish at the same time, and the device would be idle until the next specimens are ready.
+/// The oldest waiting specimen goes first. While it prepares its next steps on the host, the second oldest specimen
+/// runs. So these two alternate and finish early, and the next specimens are made ready meanwhile. If all specimens
+/// took turns, all would finish at the same time, and the device would be idle until the next ones are ready.
 ///
 /// When all steps of one specimen are enqueued (is_queued()), the next specimen may already take the device. Its steps
-/// are enqueued behind an event that marks the end of the first specimen's steps. So the device does not pause while
-/// host threads wake each other.
+/// are enqueued behind an event that marks the end of the first specimen's steps. So the device is not idle while the
+/// host thread of the next specimen wakes up.
 ///
 /// A solution in the frequency domain goes before all steps that need multiprocessors of their own, and these steps
 /// wait until it ends. Meanwhile only steps that need no multiprocessors of their own may use its devices. A solution
@@ -52,8 +52,9 @@ class MultiprocessorLease {
     return leases.next_++ + (work == Work::steps ? first_of_steps : 0);
   }
   /// Waits until `wanted` can be taken: no lower number waits for one of its devices, and all of its multiprocessors
-  /// are free, or will be free when an event happens. In the latter case, calls `queue_behind` with that event while
-  /// the lock prevents its owner from destroying it. `of_device`: number of multiprocessors that each device has.
+  /// are free, or will be free when an event happens. In the latter case, calls `queue_behind` with that event. It does
+  /// so while it holds the lock, so that the owner of the event cannot destroy it. `of_device`: number of
+  /// multiprocessors that each device has.
   static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
     MultiprocessorLease& leases = instance();
     std::unique_lock lock(leases.mutex_);
@@ -64,7 +65,7 @@ class MultiprocessorLease {
       return leases.is_first(number) && (leases.is_free(wanted, of_device) || (end = leases.end_before(wanted)));
     });
     leases.waiting_.erase(number);
-    leases.changed_.notify_all();  // the next one in the queue may fit beside this one, or behind it
+    leases.changed_.notify_all();  // the next specimen in the queue may now be able to take multiprocessors
     if (end) queue_behind(end);
     leases.taken_[number] = {wanted, nullptr};
   }
@@ -112,7 +113,7 @@ class MultiprocessorLease {
  private:
   struct Taken {
     Share share;
-    Event end = nullptr;  // behind everything enqueued; null: more will be enqueued
+    Event end = nullptr;  // event behind all enqueued work; null: more will be enqueued
   };
 
   /// Returns whether no lower number waits for one of the same devices.
@@ -126,7 +127,7 @@ class MultiprocessorLease {
     }
     return true;
   }
-  /// Returns whether `wanted` fits beside what others have taken. An unused device always fits.
+  /// Returns whether enough multiprocessors are free for `wanted`. A device that nobody uses always suffices.
   bool is_free(const Share& wanted, const Share& of_device) const {
     for (const auto& [device, number] : wanted) {
       int used = 0;

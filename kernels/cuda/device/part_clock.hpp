@@ -11,7 +11,7 @@
 
 namespace macadam::kernels {
 
-/// Does nothing until start().
+/// Records an event after each part of a step. Does nothing before start() is called.
 class PartClock {
  public:
   PartClock() = default;

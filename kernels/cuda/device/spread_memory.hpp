@@ -33,8 +33,8 @@ using Shares = std::vector<Share>;
                  " MiB: " + why);
 }
 
-/// Returns a function of the CUDA driver, looked up by name. A program linked to the driver would not start on a
-/// machine without one.
+/// Returns a function of the CUDA driver, looked up by name. A program that is linked to the driver would not start on
+/// a machine without the driver.
 template <class Function>
 Function driver_function(const char* name) {
   void* found = nullptr;
@@ -48,7 +48,7 @@ Function driver_function(const char* name) {
   return reinterpret_cast<Function>(found);
 }
 
-/// Memory for the items of `shares`, each of `bytes` bytes. Each page is on the device whose items fill most of the
+/// Memory for the items of `shares`; an item has `bytes` bytes. Each page is on the device whose items fill most of the
 /// page.
 class SpreadMemory {
  public:
@@ -87,7 +87,7 @@ class SpreadMemory {
   }
   ~SpreadMemory() {
     if (size_ == 0) return;
-    try {  // does not fail: the driver that mapped the memory also has these functions
+    try {  // the driver that mapped the memory also has these functions, so look-up cannot fail
       if (mapped_ > 0) driver_function<decltype(&cuMemUnmap)>("cuMemUnmap")(begin_, mapped_);
       driver_function<decltype(&cuMemAddressFree)>("cuMemAddressFree")(begin_, size_);
     } catch (const RunError&) {}
@@ -100,7 +100,7 @@ class SpreadMemory {
     if (status != CUDA_SUCCESS)
       throw RunError("CUDA: " + what + ": error " + std::to_string(status) + " of the driver");
   }
-  /// Maps the next pages, on the device in `place`. The mapping keeps the memory alive.
+  /// Maps the next pages, on the device that `place` names. The memory exists as long as the mapping.
   void map(const CUmemAllocationProp& place, std::size_t bytes) {
     CUmemGenericAllocationHandle pages{};
     const CUresult made = driver_function<decltype(&cuMemCreate)>("cuMemCreate")(&pages, bytes, &place, 0);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tuning.hpp  Holds the numbers that set the speed of the CUDA code, each with the measurement that chose it.
+/// \file tuning.hpp  Holds the numbers on which the speed of the CUDA code depends. Each comment gives the measurement
+/// by which the number was chosen.
 ///
-/// Changing one of them never changes what is computed, except for tile sizes: they change the layout, and the two
-/// kernels sum loads in the order of the layout. The times [µs] are per step of the full specimen (35,760 particles,
-/// some 221,000 contacts) on one H200, unless another device is named. They come from bench/results/tried-gpu-step.csv
-/// ("tried" below). If no measurement of alternatives was kept, the comment says so. Two numbers of the tile path are
-/// in layout/tile_plan.hpp, because the plan is made without CUDA: TilePlan::couple and TilePlan::longest_short_list.
+/// These numbers do not change results, with one exception: tile sizes change the layout, and the executor with two
+/// kernels per step sums loads in the order of the layout. The times [µs] are per step of the full specimen (35,760
+/// particles, some 221,000 contacts) on one H200, unless another device is named. They come from
+/// bench/results/tried-gpu-step.csv ("tried" below). If there is no record of measurements with other values, the
+/// comment says so. Two numbers of the tile path are in layout/tile_plan.hpp, because the plan is made without CUDA:
+/// TilePlan::couple and TilePlan::longest_short_list.
 #pragma once
 
 #include <cstddef>
@@ -21,19 +23,19 @@ namespace macadam::kernels {
 inline constexpr unsigned contact_threads = 128, contact_blocks = 4;
 
 /// Threads per block of the kernels that sum load records (eight threads per body). Double precision: 46.7 µs with
-/// eight threads per body, 49.2 to 50.3 µs with four (tried).
+/// eight threads per body, 49.2 to 50.3 µs with four threads per body (tried).
 inline constexpr unsigned body_threads = 256;
 /// Smallest number of thread blocks of step_bodies per multiprocessor. With more, threads have too few registers to
-/// request all records of a body at once. Double precision: 45.4 µs with four, 47.1 µs with more.
+/// request all records of a body at once. Double precision: 45.4 µs with four blocks, 47.1 µs with more.
 inline constexpr unsigned body_blocks = 4;
 /// Load records that a thread requests before it adds the first. A body has about twelve. Double precision: 63.4 µs
 /// before records were requested in batches, 58.4 µs with batches of eight (tried).
 inline constexpr unsigned records_requested = 8;
 /// A body with more load records than this gets a thread block of its own. A large aggregate has hundreds of records.
-/// No measurement of other values was kept.
+/// There is no record of measurements with other values.
 inline constexpr std::uint32_t long_list = 64;
-/// Steps that ExecCuda records in one graph; a graph of one step takes the remaining steps. No measurement of other
-/// values was kept.
+/// Steps that ExecCuda records in one graph; a graph of one step takes the remaining steps. There is no record of
+/// measurements with other values.
 inline constexpr std::int64_t steps_per_graph = 64;
 
 // ---- tiles in registers and shared memory (cuda/tiles/resident_kernel.hpp) ----
@@ -46,9 +48,9 @@ inline constexpr std::uint32_t resident_threads = 512;
 /// other tiles have arrived, and one that it steps after that. Single precision: 10.2 µs without states in registers,
 /// 9.0 µs with them (tried; both with particle data in global memory).
 inline constexpr std::uint32_t double_packets_in_registers = 2;
-/// Packets per warp whose constants stay in registers, too. They are the last of the packets with states in registers.
-/// `memory`: some law has a memory; the sums of its contacts then leave no registers for constants. Elastic scenes in
-/// single precision: 5.40 µs with one packet, 4.99 µs with two (tried).
+/// Packets per warp that keep their constants in registers, too. They are the last ones among the packets that keep
+/// their states in registers. `memory`: some law has a memory; the sums of its contacts then leave no registers for
+/// constants. Elastic scenes in single precision: 5.40 µs with one packet, 4.99 µs with two (tried).
 #ifdef __CUDACC__
 __host__ __device__
 #endif
@@ -56,11 +58,11 @@ __host__ __device__
     packets_with_constants(bool memory) {
   return memory ? 0 : 2;
 }
-/// Smallest number of contacts per resident tile. Smaller tiles would be mostly halo. No measurement of other values
-/// was kept.
+/// Smallest number of contacts per resident tile. Smaller tiles would consist mostly of halo (particles of other
+/// tiles). There is no record of measurements with other values.
 inline constexpr std::size_t least_resident_contacts = 128;
-/// Expected size of the fullest tile, divided by the mean. After the tiles are balanced the fullest has 68 packets and
-/// the mean is 65 (tried), a ratio of 1.05.
+/// Expected size of the fullest tile, divided by the mean size of the tiles. After the tiles are balanced the fullest
+/// has 68 packets and the mean is 65 (tried), a ratio of 1.05.
 inline constexpr double fullest_tile = 1.06;
 /// Expected number of contacts that are computed, divided by the number of contacts: a contact between two tiles is
 /// computed by both. The full specimen (221,000 contacts) in 132 tiles has 65 packets of 32 contacts per tile (tried),
@@ -69,19 +71,19 @@ inline constexpr double computed_per_contact = 1.3;
 
 // ---- tiles streamed from global memory (cuda/tiles/streamed_kernel.hpp) ----
 
-/// Threads per tile, and tiles per multiprocessor. While one tile waits at a barrier, the other works. No measurement
-/// of other values was kept.
+/// Threads per tile, and tiles per multiprocessor. With two tiles, one works while the other waits at a barrier. There
+/// is no record of measurements with other values.
 inline constexpr int streamed_threads = 256, streamed_blocks = 2;
 /// Contacts per streamed tile: `streamed_contacts`, or fewer if two tiles would not fit in the shared memory of a
 /// multiprocessor. `shared_bytes_per_contact` is about twice the shared memory that a tile needs per contact, its halo
-/// included. No measurement of other values was kept; with tiles of this size a lattice of 1e6 particles takes 514 µs
-/// per step in single precision (bench/results/bench-h200-2026-11-26-chip.csv).
+/// included. There is no record of measurements with other values. With tiles of this size a lattice of 1e6 particles
+/// takes 514 µs per step in single precision (bench/results/bench-h200-2026-11-26-chip.csv).
 inline constexpr std::size_t streamed_contacts = 1500, shared_bytes_per_contact = 115;
 
-// ---- both ----
+// ---- resident and streamed tiles ----
 
 /// Samples that a device takes before the host reads them. After a particle has diverged, at most this many intervals
-/// between samples are computed in vain. No measurement of other values was kept.
+/// between samples are computed in vain. There is no record of measurements with other values.
 inline constexpr std::size_t samples_per_read = 64;
 /// Threads per block of kernels that do little work per thread: the first move of streamed tiles, and body forces.
 inline constexpr unsigned short_kernel_threads = 128;
@@ -90,17 +92,17 @@ inline constexpr unsigned copy_threads = 256;
 
 // ---- frequency domain (cuda/harmonic) ----
 
-/// Threads per block of all kernels of the iterative solver. No measurement of other values was kept.
+/// Threads per block of all kernels of the iterative solver. There is no record of measurements with other values.
 inline constexpr unsigned cocg_threads = 256;
 /// A body with at least this many contacts is computed by all warps of a block. A large aggregate has hundreds of
-/// contacts; one warp would take longer for it than all others take for the rest of the specimen. No measurement of
-/// other values was kept.
+/// contacts; one warp would need more time for it than all other warps for all other bodies. There is no record of
+/// measurements with other values.
 inline constexpr unsigned many_contacts = 64;
-/// Segments (ranges of bodies that one thread block works on) per multiprocessor. They are few enough for one device
-/// and enough for two. No measurement of other values was kept.
+/// Segments (ranges of bodies that one thread block works on) per multiprocessor. This number is small enough for one
+/// device and large enough for two. There is no record of measurements with other values.
 inline constexpr std::size_t segments_per_multiprocessor = 16;
-/// Iterations that the host enqueues before it looks at the residuals of the previous batch. No measurement of other
-/// values was kept.
+/// Iterations that the host enqueues before it looks at the residuals of the previous batch. There is no record of
+/// measurements with other values.
 inline constexpr int iterations_per_batch = 8;
 
 }  // namespace macadam::kernels

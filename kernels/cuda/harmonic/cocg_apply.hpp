@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_apply.hpp  Defines the kernels apply and step of the iteration (cocg_view.hpp). apply computes q = K·p
-/// with one warp per body, step computes α.
+/// \file cocg_apply.hpp  Defines the kernels apply and step of the iteration (cocg_view.hpp). The iteration solves
+/// linear systems of the frequency domain on devices (GPUs). apply computes q = K·p with one warp per body. step
+/// computes the step length α.
 #pragma once
 
 #include <cuda_pipeline.h>
@@ -28,13 +29,14 @@ struct alignas(16) StagedEnds {
   __device__ const ContactEnd& operator[](unsigned i) const { return *reinterpret_cast<const ContactEnd*>(end[i]); }
 };
 
-/// Iterates over the bodies of a warp that have few contacts, taking as many contacts at a time as the warp has slices
-/// (groups of W threads).
+/// Iterates over those bodies of a warp that have few contacts. A warp consists of slices (groups of W threads), each
+/// of which takes one contact at a time.
 struct WarpBodies {
   /// Consecutive contacts of one body of the warp.
   struct Place {
     int body;
-    unsigned begin, left;  ///< first contact, counted from the segment's first, and number of contacts from there on
+    /// First contact, counted from the first contact of the segment, and number of contacts from it on.
+    unsigned begin, left;
   };
   const std::size_t* row_begin;
   Segment segment;
@@ -117,7 +119,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     }
   };
   double product[2] = {0, 0};
-  // Writes component c of q for a body. `held`: Σ of the contact loads on the body, component c.
+  // Writes component c of q for a body. `held`: component c of the sum of the contact loads on the body.
   const auto finish = [&](std::size_t body, int c, double held, bool counts) {
     const double at = __ldg(&from[(6 * body + c) * W + lane]);
     double q = -held;
@@ -139,7 +141,8 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     own = twist(three(static_cast<std::size_t>(bodies.body(now.body))));
   }
   while (bodies.there(now)) {
-    const WarpBodies::Place next = bodies.after(now, slices);  // is being copied while this one is computed
+    // The contacts of `next` are copied while the contacts of `now` are computed
+    const WarpBodies::Place next = bodies.after(now, slices);
     const bool last = !bodies.there(next), ends_body = next.body != now.body;
     if (!last) staged[warp][turn ^ 1].send(ends + next.begin, next.left);
     if (!last && ends_body) next_own = three(static_cast<std::size_t>(bodies.body(next.body)));
@@ -215,7 +218,8 @@ __global__ void __launch_bounds__(cocg_threads, 2)
   });
 }
 
-/// Computes α of every load, by one thread block. `first`: this is the first iteration; α = 1 then gives r = f − K·x.
+/// Computes α of every load, by one thread block. `first`: this call prepares the iteration; then α = 1, so that the
+/// residual becomes r = f − K·x.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_step(CocgView<F> d, bool first) {
   constexpr unsigned W = 2 * F;

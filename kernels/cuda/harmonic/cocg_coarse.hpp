@@ -7,8 +7,8 @@
 
 namespace macadam::kernels {
 
-/// Decides which loads (right-hand sides) are solved, and computes β, which is rᵀz divided by rᵀz of the previous
-/// iteration. The solution of a solved load no longer changes. Called by one thread block.
+/// Decides which loads (right-hand sides) are solved, and computes β = rᵀz / (rᵀz of the previous iteration). The
+/// solution of a solved load no longer changes. Called by one thread block.
 template <int F>
 __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coarse) {
   constexpr int W = 2 * F;
@@ -23,7 +23,7 @@ __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coars
       state.energy = fmax(conjugate_product(sums, f) + conjugate_product(coarse, f), 0.0);
       state.converged = done = state.residual <= s.tolerance[f] && state.energy <= s.energy_limit[f];
       state.iterations += s.iteration > 0;
-      if (!isfinite(state.residual)) done = true;  // this load has failed; the others continue
+      if (!isfinite(state.residual)) done = true;  // this load has failed; the other loads continue
       if (!done) open[f] = state.residual;
       s.done[f] = done;
     }
@@ -44,14 +44,15 @@ __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coars
   ++s.iteration;
 }
 
-/// Number of rows of the coarse matrix per thread block; each warp computes one row. One more thread block adds up the
-/// sums that the kernel advance has stored for each box.
+/// Number of rows of the coarse matrix per thread block; each warp computes one row. One further thread block adds up,
+/// over all boxes, the sums that the kernel advance has stored for each box.
 inline constexpr unsigned coarse_rows = cocg_threads / 32;
 inline unsigned row_blocks(std::size_t boxes) {
   return static_cast<unsigned>((6 * boxes + coarse_rows - 1) / coarse_rows);
 }
 
-/// Multiplies (RᵀKR)⁻¹ by Rᵀr. The last thread block to finish adds up all sums and calls judge().
+/// Multiplies (RᵀKR)⁻¹ by Rᵀr. The last thread block that finishes adds up the sums of all thread blocks and calls
+/// judge().
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
   constexpr unsigned W = 2 * F;

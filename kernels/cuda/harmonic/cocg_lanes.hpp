@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_lanes.hpp  Defines how threads divide the complex numbers of F loads among them.
+/// \file cocg_lanes.hpp  Defines how threads divide the complex numbers of F loads (right-hand sides) among them.
 ///
 /// Every vector holds the real and imaginary parts of F loads side by side: W = 2F lanes. A thread works on one lane:
 /// its thread number modulo W. The partner of a lane holds the other part (real or imaginary) of the same complex
 /// number. Linear operations are computed lane by lane. From memory, a lane and its partner load whole complex numbers:
-/// one of them the components 0, 2 and 4 of a body, the other the components 1, 3 and 5. So no memory line is loaded
+/// the even lane loads components 0, 2 and 4 of a body, the odd lane components 1, 3 and 5. So no memory line is loaded
 /// twice.
 #pragma once
 
@@ -93,8 +93,8 @@ struct SpreadSums {
   int first, count;
 };
 
-/// Returns the sums of v over the threads of a warp that work on the same lane. In each step two threads exchange
-/// numbers: one adds up one half of the numbers for both, the other thread the other half.
+/// Returns the sums of v over the threads of a warp that work on the same lane. In each step two threads exchange half
+/// of their numbers. Each thread then holds the sums of one half of the numbers.
 template <unsigned W>
 __device__ SpreadSums<W> spread_sums(const double (&v)[6]) {
   double held[6];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file cocg_memory.hpp  Allocates the device arrays of a linear system and of an iteration for a team of devices.
 ///
-/// Each device works on consecutive segments (cocg_view.hpp). The sums of each box are written to all devices. So each
-/// device computes the same scalars itself and need not wait for scalars of another device; it only reads the motions
-/// of bodies that are on other devices.
+/// Each device (GPU) works on consecutive segments, which are ranges of bodies (cocg_view.hpp). The sums of each box of
+/// bodies are written to all devices. So each device computes the same scalars itself and need not wait for the scalars
+/// of another device. From other devices it only reads the motions of their bodies.
 #pragma once
 
 #include <algorithm>
@@ -69,8 +69,9 @@ struct SystemMemory {
   }
 
  private:
-  /// Divides the bodies of each box into segments of a multiple of 32 bodies, about as many as the device can run
-  /// thread blocks at the same time. The number of segments does not depend on the number of devices.
+  /// Divides the bodies of each box into segments of a multiple of 32 bodies. The number of segments is about the
+  /// number of thread blocks that a device can run at the same time. The number of segments does not depend on the
+  /// number of devices.
   void make_segments(const LinearSystem& system, const DeviceTeam& team, std::vector<Segment>& runs,
                      std::vector<std::int32_t>& box_segment) const {
     int multiprocessors = 0;

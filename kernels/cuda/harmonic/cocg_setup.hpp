@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_setup.hpp  Defines the kernels that run before and after the iterations. They make preconditioner blocks,
-/// right-hand sides and the start, and write the solution.
+/// \file cocg_setup.hpp  Defines the kernels that run before and after the iterations. They compute the blocks of the
+/// preconditioner, the right-hand sides and the initial vectors, and write the solution.
 #pragma once
 
 #include <cuda_runtime.h>

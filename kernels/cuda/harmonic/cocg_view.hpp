@@ -40,11 +40,11 @@ struct CocgScalars {
   double best;
 };
 
-/// Positions and numbers of the sums of a box. The sums are two parts of rᵀz (straight and crossed, see
-/// plain_product()), rᴴr, the amounts of the free motions in z and, last, Rᵀr.
+/// Positions of the sums of a box, and how many there are. The sums are, in this order: two parts of rᵀz (straight and
+/// crossed, see plain_product()), rᴴr, the amounts of the free motions in z, and Rᵀr.
 inline constexpr int sums_rr = 2, sums_drop = 3, fine_sums = 3 + most_free_motions, box_sums = fine_sums + 6;
-/// Number of sums of the coarse correction: straight and crossed part of its product with Rᵀr, and one for each free
-/// motion.
+/// Number of sums of the coarse correction: the straight and the crossed part of its product with Rᵀr, and the amount
+/// of each free motion.
 inline constexpr int coarse_sums = 2 + most_free_motions;
 
 /// Size of a packed K_ii⁻¹ of a body: its lower triangle, by rows, and one unused number.
@@ -76,10 +76,10 @@ struct CocgView {
   const Lever* lever;
   const double *coarse, *weight;
   double *x, *r, *p, *q, *z;  ///< [6·bodies][lanes]
-  CocgBoxes boxes_here;       ///< on the device of the launch
+  CocgBoxes boxes_here;       ///< sums on the device of the launch
   const CocgBoxes* all;       ///< [device]
-  /// own: scratch of the launch's device. common: scratch of the first device, used for boxes that several devices work
-  /// on.
+  /// own: scratch memory of the device of the launch. common: scratch memory of the first device, for boxes whose
+  /// bodies are on several devices.
   CocgScratch own, common;
   double* fine;         ///< sums over all boxes, [fine_sums][lanes]
   double* boxes_move;   ///< [6·boxes][lanes]
@@ -95,7 +95,7 @@ struct CocgView {
 __device__ inline double2 plain_product(const double* straight, const double* crossed, int f) {
   return {straight[2 * f] - straight[2 * f + 1], crossed[2 * f] + crossed[2 * f + 1]};
 }
-/// Returns the product aᴴb of load f, which must be real, from the straight sums.
+/// Returns the product aᴴb of load f from the straight sums. The product must be real.
 __device__ inline double conjugate_product(const double* straight, int f) {
   return straight[2 * f] + straight[2 * f + 1];
 }

@@ -50,8 +50,8 @@ class Solver : public DeviceSolver {
   }
 
  private:
-  /// Inverts the diagonal blocks of all bodies. Returns the first body that can move by itself although it should not,
-  /// or −1.
+  /// Inverts the diagonal blocks of all bodies. Returns the first body that has more free motions of its own than the
+  /// system says, or −1.
   std::int64_t invert(const LinearSystem& system) {
     constexpr unsigned long long none = std::numeric_limits<unsigned long long>::max();
     DeviceArray<unsigned long long> singular_body(1);
@@ -119,7 +119,7 @@ class Solver : public DeviceSolver {
     {
       const MultiprocessorLease::ForSolution lease(devices_, team_.behind());
       end = iterate(v, look);
-      start.most_iterations = 0;  // no iteration, only the residual
+      start.most_iterations = 0;  // compute only the residual
       start_from_right_sides(start);
       judged = judge(v);
     }
@@ -201,8 +201,8 @@ class Solver : public DeviceSolver {
     return v.members[0].scalars.download().front();
   }
 
-  /// Runs batches of iterations until all loads are solved. One batch is always enqueued ahead of the one whose result
-  /// is examined; once all loads are solved, kernels do nothing.
+  /// Runs batches of iterations until all loads are solved. The next batch is always enqueued before the result of a
+  /// batch is examined. If all loads are already solved, the kernels of that batch do nothing.
   template <int F>
   CocgScalars<F> iterate(Vectors<F>& v, const std::function<void()>& look) {
     const auto queue_batch = [&] {
@@ -229,7 +229,8 @@ class Solver : public DeviceSolver {
     }
   }
 
-  static constexpr std::size_t worth_pinning = std::size_t{32} << 20;  ///< bytes; pinning memory takes milliseconds
+  /// Bytes from which on a solution is copied through pinned memory. Pinning memory takes milliseconds.
+  static constexpr std::size_t worth_pinning = std::size_t{32} << 20;
 
   DeviceList devices_;
   DeviceTeam team_;

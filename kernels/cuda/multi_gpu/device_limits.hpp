@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_limits.hpp  Determines the limits of the devices, and whether a kernel of the tile path fits them.
+/// \file device_limits.hpp  Determines the limits of the devices (GPUs), and whether a kernel of the tile path can run
+/// within them.
 ///
-/// fit_tiles() (tiles/tile_fit.hpp) decides by these limits, never by a device's name, whether tiles stay on the chip
-/// (resident) or are streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made.
+/// By these limits, never by a device's name, fit_tiles() (tiles/tile_fit.hpp) decides whether tiles stay in registers
+/// and shared memory (resident) or are read in every step (streamed). By the same limits ExecCudaTiles chooses the size
+/// of the tiles, before the layout is made.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +18,7 @@ struct DeviceLimits {
   /// Multiprocessors that may be used; shared memory that a thread block may request [byte].
   int multiprocessors = 0, shared = 0;
   bool cooperative = false;  ///< thread blocks of one launch may wait for one another
-  /// Words of 16 bytes are written and read by one instruction (compute capability 7.0 or later).
+  /// One instruction writes or reads a word of 16 bytes (compute capability 7.0 or later).
   bool whole_words = false;
 
   /// Returns the limits of the current device. `multiprocessors`: as in StepperOptions. `shares`: number of equal parts
@@ -54,7 +56,8 @@ struct DeviceLimits {
 };
 
 /// Allows launches of a kernel to use all shared memory that the device offers to a thread block. The limit applies to
-/// the whole process: if it were set to the need of one specimen, another specimen that needs more could not launch.
+/// the whole process: if it were set to what one specimen needs, the kernel could not be launched for another specimen
+/// that needs more.
 template <class... Parameters>
 void allow_all_shared_memory(const DeviceLimits& limits, void (*kernel)(Parameters...)) {
   cudaFuncAttributes attributes{};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_team.hpp  Defines the team of devices that step one specimen together.
+/// \file device_team.hpp  Defines the team of devices (GPUs) that step one specimen together.
 ///
-/// The tiles of the layout are cut into one consecutive part per device (TeamCuts), and every launch of
-/// a step is made once per device for its part. With several devices of one process, an array has one range of
-/// addresses. Its pages lie on the device that works on them, and all other devices can access them. So a contact
-/// between particles of two devices is stepped by the same code, from the same numbers, as any other, and results do
-/// not depend on the number of devices.
+/// The tiles of the layout (ranges of neighbouring particles) are divided into one range per device (TeamCuts). Every
+/// kernel of a step is launched once per device, for the tiles of that device. With several devices of one process, an
+/// array has one range of addresses. Its pages lie on the device that works on them, and all other devices can access
+/// them. So a contact between particles of two devices is stepped by the same code, from the same numbers, as any
+/// other, and results do not depend on the number of devices.
 ///
-/// With several processes (ranks), the tiles are cut in the same way, one part per rank. An array is then complete on
-/// every device, and changes made by other ranks arrive by message (rank_exchange.hpp).
+/// With several processes (ranks), the tiles are cut in the same way, one part per rank. Every device then has whole
+/// arrays, and receives the changes that other ranks make by messages (rank_exchange.hpp).
 ///
 /// Words: a member is one device of the team with its stream; its number m counts over all processes. A share is a
 /// member's part of an array (spread_memory.hpp).
@@ -28,7 +28,7 @@ namespace macadam::kernels {
 /// Which kernels run first if kernels of several streams are ready.
 enum class KernelOrder {
   usual,
-  first,  ///< before usual ones, because each of many short kernels would otherwise wait for a long one
+  first,  ///< before other kernels: many short kernels would otherwise each wait for a long one
 };
 
 /// Streams of the devices that step a specimen. A device that is named twice counts as two members. With several ranks
@@ -69,7 +69,7 @@ class DeviceTeam {
 
   /// The ranks of the team; null with one process.
   Ranks* ranks() const { return ranks_; }
-  /// Number of members of all processes.
+  /// Number of members, over all processes.
   std::size_t size() const { return ranks_ ? static_cast<std::size_t>(ranks_->count()) : member_.size(); }
   /// Number of the first member of this process.
   std::size_t first() const { return ranks_ ? static_cast<std::size_t>(ranks_->number()) : 0; }
@@ -82,7 +82,8 @@ class DeviceTeam {
     return static_cast<int>(
         std::count_if(member_.begin(), member_.end(), [&](const Member& other) { return other.device == device(m); }));
   }
-  /// Makes the device of member m current for the calling thread. Errors are ignored: the device has answered before.
+  /// Makes the device of member m current for the calling thread. Ignores errors, because the device has been used
+  /// before.
   void use(std::size_t m) const { cudaSetDevice(device(m)); }
   void use() const { use(first()); }
 
@@ -162,7 +163,7 @@ class DeviceTeam {
       std::this_thread::yield();
     }
   }
-  /// Returns whether a device that has not failed is still working.
+  /// Returns whether any device that has not failed is still computing.
   bool works() const noexcept {
     bool out = false;
     each([&](std::size_t m) { out = out || cudaStreamQuery(stream(m)) == cudaErrorNotReady; });

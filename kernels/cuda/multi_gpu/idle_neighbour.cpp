@@ -32,7 +32,7 @@ class Management {
     const auto find = function<int (*)(const char*, void**)>("nvmlDeviceGetHandleByPciBusId_v2");
     const auto processes = function<int (*)(void*, unsigned*, void*)>("nvmlDeviceGetComputeRunningProcesses_v3");
     void* device = nullptr;
-    unsigned number = 0;  // no array is passed, so any running process is an error
+    unsigned number = 0;  // no array is passed for the processes, so any running process gives an error
     return find && processes && find(bus_address, &device) == 0 && processes(device, &number, nullptr) == 0 &&
            number == 0;
   }

@@ -20,7 +20,7 @@ class PinnedCopies {
   }
   PinnedCopies(const PinnedCopies&) = delete;
   ~PinnedCopies() {
-    team_.wait_for_the_last();  // a copy may be in progress, and kernels before it on other members
+    team_.wait_for_the_last();  // a copy may be in progress, or kernels of other members that it waits for
     cudaFreeHost(host_);
     for (cudaEvent_t e : copied_) cudaEventDestroy(e);
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file rank_exchange.hpp  Sends messages between the devices of several processes (ranks) between the parts of a
-/// step.
+/// \file rank_exchange.hpp  Sends messages between the GPUs of several processes (ranks), after each part of a step.
 ///
 /// An array is complete on every device, with each item at the same index. The rank that computes an item sends it to
 /// the ranks that read it. RankItems lists these items; a RankExchange sends the items of some arrays together, one
@@ -19,7 +18,7 @@
 namespace macadam::kernels {
 
 /// Items of an array that ranks send each other. All ranks build the same list; each keeps only the items that it sends
-/// or receives. So the two ranks of a message have its items in the same order.
+/// or receives. So sender and receiver of a message have its items in the same order.
 class RankItems {
  public:
   explicit RankItems(const DeviceTeam& team) : own_(team.first()), send_(team.size()), receive_(team.size()) {}
@@ -157,8 +156,8 @@ class RankExchange {
   Way sent_, received_;
 };
 
-/// Completes an array on every device: with items of `words` numbers, rank m has the items first(m) … first(m + 1) − 1
-/// and sends them to all others. Does nothing with one process.
+/// Completes an array on every device: rank m has the items first(m) … first(m + 1) − 1 and sends them to all other
+/// ranks. An item has `words` numbers. Does nothing with one process.
 template <class T, class First>
 void queue_whole(const DeviceTeam& team, T* array, std::size_t words, First&& first) {
   if (!team.ranks() || !array) return;

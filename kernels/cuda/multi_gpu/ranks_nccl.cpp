@@ -27,10 +27,10 @@ class NcclRanks final : public Ranks {
  public:
   NcclRanks() {
     int begun = 0, given = 0;
-    MPI_Initialized(&begun);  // another library, such as mpi4py, may have started MPI; it then also ends MPI
+    MPI_Initialized(&begun);  // a library that has started MPI, such as mpi4py, also ends it
     began_ = !begun;
     if (began_) check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given), "start");
-    // A communicator separate from the program's other messages
+    // A communicator of its own separates these messages from other messages of the program
     check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "ranks");
     MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN);
     MPI_Comm on_host = MPI_COMM_NULL;
@@ -110,7 +110,7 @@ class NcclRanks final : public Ranks {
 
 /// Joins the processes; always returns the same object.
 Ranks* join() {
-  // Never deleted: a communicator must not be destroyed after the driver
+  // Never deleted, because at the end of the program the CUDA driver may end before the NCCL communicator
   static NcclRanks* const joined = new NcclRanks;
   return joined;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_positions.hpp  Maps the contacts of the layout's groups to their positions in the tiles.
+/// \file contact_positions.hpp  Maps the contacts of the layout's groups to their positions in the tiles (a tile is the
+/// part of the specimen that one thread block steps).
 ///
 /// A contact has one slot in its group (layout.hpp), and one or two positions in TilePlan::contact: a contact between
 /// particles of two tiles is in both. TileData fills the map in add_contacts() and uploads it in start(). The
@@ -44,8 +45,8 @@ class TilePositions {
   void for_each_slot(const TeamCuts& cuts, F&& f) const {
     each_slot(*this, cuts, f);
   }
-  /// Orders the two positions of each slot so that the first belongs to the slot's own member, because settling reads
-  /// the first one. `owner`: position → member.
+  /// Orders the two positions of each slot so that the first belongs to the slot's own member, because the update
+  /// between two blocks of steps reads the first one. `owner`: position → member.
   template <class Owner>
   void own_first(const TeamCuts& cuts, Owner&& owner) {
     each_slot(*this, cuts, [&](std::size_t m, uint2& position) {
@@ -81,7 +82,8 @@ class TilePositions {
     return out;
   }
 
-  /// Returns δf of the contacts of a group, [slot][6], from the tiles' states. `count`: size of `state`.
+  /// Returns δf of the contacts of a group, [slot][6], from the tiles' states. δf is the change of the force density
+  /// since the block of steps began. `count`: size of `state`.
   std::vector<float> changes(std::size_t group, const float4* state, std::size_t count) const {
     std::vector<float4> all(count);
     copy_now(all.data(), state, count * sizeof(float4), "states");

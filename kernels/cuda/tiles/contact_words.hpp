@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_words.hpp  Defines the packed words of a tile's contact. Only this file knows what each word holds.
-/// docs/gpu-step.md follows a contact through them.
+/// \file contact_words.hpp  Defines the 16-byte words in which a tile on the GPU stores a contact. Only this file knows
+/// what each word holds. docs/gpu-step.md shows how these words are used.
 ///
 /// A contact of a tile has two arrays of 16-byte words, both in the order [packet][word][lane]: constants, which a step
 /// only reads, and states, which it reads and writes. TileContactWords::pack() writes the constants before the first
@@ -47,8 +47,9 @@ struct GroupAndWallContact {
 template <bool carried, bool memory>
 struct ContactInBlock;
 
-/// The words of a contact: packs, updates and reads them. Arguments `carried`: the contact frame is updated during the
-/// run, so the tangent is stored too; `memory`: some law has a memory.
+/// The words of a contact: packs, updates and reads them. Its functions have two arguments: `carried`, whether the
+/// contact frame is updated during the run (then the tangent is stored, too), and `memory`, whether some law has a
+/// memory.
 class TileContactWords {
   enum Constant {
     normal,    ///< normal n, lever arm of end A
@@ -66,8 +67,8 @@ class TileContactWords {
  public:
   /// Returns the number of words of constants per contact.
   __host__ __device__ static constexpr int constants(bool carried) { return carried ? tangent + 1 : tangent; }
-  /// Returns the number of these words that a step reads, which are the first ones. With fixed geometry and without a
-  /// law with a memory, a step does not read drift_a.
+  /// Returns how many of the words of constants a step reads; they are the first ones. With fixed geometry and without
+  /// a law with a memory, a step does not read drift_a.
   __host__ __device__ static constexpr int constants_read(bool carried, bool memory) {
     return memory || carried ? constants(carried) : drift_a;
   }
@@ -96,7 +97,7 @@ class TileContactWords {
     out[drift_b * 32] = {0, 0, bits(EndPair::of(c.cell_a, c.cell_b).word),
                          bits(GroupAndWallContact::of(c.group, c.wall_contact).word)};
   }
-  /// Packs an inert contact: its loads go to no cell and no wall contact number.
+  /// Packs an inert contact: its loads are not stored in any cell or under any wall contact number.
   static void pack_inert(float4* out) {
     out[drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndWallContact::of(0, GroupAndWallContact::no_wall).word)};
   }
@@ -216,7 +217,7 @@ struct ContactInBlock {
     drift[0] = c3.x, drift[1] = c3.y, drift[2] = c3.z, drift[3] = c3.w, drift[4] = c4.x, drift[5] = c4.y;
   }
 
-  /// Returns the change of the contact's loads for the change `change` of its f.
+  /// Returns the change of the contact's loads that belongs to the change `change` of its force density f.
   __device__ __forceinline__ ContactLoad<float> load(const float (&change)[6], float alpha) const {
     const float4 c1 = word[W::moment_a], c2 = word[W::moment_b];
     const float moments[6] = {c1.y, c1.z, c1.w, c2.x, c2.y, c2.z};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file halo_exchange.hpp  Exchanges velocities between tiles during a launch of the resident kernel.
+/// \file halo_exchange.hpp  Exchanges velocities between tiles (parts of the specimen, one per thread block) during a
+/// launch of the resident kernel.
 ///
 /// Velocities travel through global memory in words of 16 bytes: three floats and a tag, the number of the step. A word
 /// is written and read by one 128-bit instruction, so a reader that sees the expected tag also sees the numbers that
@@ -60,9 +61,9 @@ __device__ __forceinline__ float4 numbers_of(const ulonglong2& word) {
           __uint_as_float(static_cast<std::uint32_t>(word.y)), 0};
 }
 
-/// Waits for the words at from(h), h < count, until they carry `tag`, and calls take(h, numbers) for each. The threads
-/// of a block divide the words among them. A read from the L2 cache takes long, so a thread requests two words at once.
-/// All threads of a warp must call this together.
+/// Waits until the words at from(h), h < count, carry `tag`, and calls take(h, numbers) for each. The threads of a
+/// block divide the words among them. A read from the L2 cache takes long, so a thread requests two words at once. All
+/// threads of a warp must call this together.
 template <class From, class Take>
 __device__ __forceinline__ void wait_for_words(std::uint32_t count, std::uint32_t tag, From&& from, Take&& take) {
   const std::uint32_t stride = blockDim.x;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file rank_messages.hpp  Sends the messages between tiles of several processes (ranks).
 ///
-/// With ranks every device has whole arrays, and each rank computes its own tiles. TileLaunch sends velocities of halo
-/// particles in every step, and between two blocks of steps the displacements, load records and constants that the next
-/// kernels read (RankExchange in rank_exchange.hpp). One process sends nothing, because its devices read
-/// each other's memory. docs/gpu-step.md explains the whole path.
+/// With ranks every GPU has whole arrays, and each rank computes its own tiles (ranges of neighbouring particles). In
+/// every step TileLaunch sends the velocities of halo particles, which are particles that contacts of another tile
+/// touch. Between two blocks of steps it sends the displacements, load records and constants that the next kernels read
+/// (RankExchange in rank_exchange.hpp). One process sends nothing, because its devices read each other's memory.
+/// docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <vector>
@@ -92,7 +93,7 @@ class TileMessages {
   void velocities(const DeviceTeam& team, std::uint32_t k) const { (k & 1 ? odd_ : even_).queue(team); }
   /// Sends the current displacements of bodies whose contacts another rank updates.
   void before_settling(const DeviceTeam& team) const { now_.queue(team); }
-  /// Sends the load records and the constants that the update wrote.
+  /// Sends the load records and the constants of contacts that settle_contacts has written.
   void after_settling(const DeviceTeam& team) const { settled_.queue(team); }
   /// Sends the displacements at the beginning of the new block.
   void after_base(const DeviceTeam& team) const { before_.queue(team); }

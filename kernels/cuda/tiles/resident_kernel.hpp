@@ -18,7 +18,8 @@
 
 namespace macadam::kernels {
 
-/// Takes `steps` steps; the first has the tag `first_tag`. The states of a warp's first packets stay in registers.
+/// Takes `steps` steps. The velocities of the first step have the tag `first_tag`. The states of the first packets of
+/// each warp stay in registers.
 template <class P, int Threads, bool carried, bool memory, BodyStorage storage>
 __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileArrays<P> s, std::uint32_t steps, std::uint32_t first_tag) {
@@ -63,7 +64,7 @@ __global__ void __launch_bounds__(Threads, 1)
   for (std::uint32_t k = 0; k < steps; ++k) {
     const std::uint32_t tag = first_tag + k;
     Vec3<float> of_wall;
-    if (drives_wall) of_wall = wall_velocity(s, wall, k);  // requested early: it arrives while loads are summed
+    if (drives_wall) of_wall = wall_velocity(s, wall, k);  // requested early, so that it arrives while loads are summed
     if (k == 0)
       tile.move_by_memory(tag);
     else

@@ -15,9 +15,9 @@
 namespace macadam::kernels {
 
 /// One tile, and the parts of a step that its threads compute. All data of a body is read before any of it is written.
-/// Otherwise the compiler would let each read wait for the write before it, because both might have the same address.
-/// `memory`: some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in
-/// shared memory.
+/// Otherwise each read would wait for the write before it, because the compiler must assume that both may have the same
+/// address. `memory`: some law has a memory. Without memory a contact has fewer constants and no sums, so more
+/// constants fit in shared memory.
 template <class P, int Threads, bool carried, bool memory, BodyStorage storage>
 class ResidentTile {
  public:
@@ -25,7 +25,7 @@ class ResidentTile {
   static constexpr unsigned warps = Threads / 32;
   using Constants = ContactConstants<carried, memory>;
   using Contact = ContactInBlock<carried, memory>;
-  /// Number of constant words per contact: in memory, and of those that a step reads and the cache holds.
+  /// Number of constant words per contact. words: in memory; words_read: words that a step reads and the cache holds.
   static constexpr std::uint32_t words = TileContactWords::constants(carried), words_read = Constants::words;
 
   __device__ __forceinline__ ResidentTile(const TileArrays<P>& scene, const Tile& own_tile, unsigned char* shared,
@@ -87,7 +87,7 @@ class ResidentTile {
   __device__ __forceinline__ static std::uint32_t place_in_cache(std::uint32_t j) {
     return j * warps + threadIdx.x / 32;
   }
-  /// Position of constants that are in global memory.
+  /// Value of a position in the cache that means: the constants are in global memory.
   static constexpr std::uint32_t in_memory = UINT32_MAX;
   /// Among the packets of a warp whose states are in registers: the first one whose constants are in registers, too.
   static constexpr std::uint32_t first_in_registers =
@@ -143,7 +143,7 @@ class ResidentTile {
       move(r, force, tag);
     }
   }
-  /// Moves all particles by the loads that the contacts of the last step left in cells, plus the base loads.
+  /// Moves all particles by the base loads plus the loads that the contacts have stored in cells in the last step.
   __device__ __forceinline__ void move_by_sums(std::uint32_t tag) const {
     sum_lists(tile, list, diagonal, cells, [&](std::uint32_t r, const float(&extra)[6]) {
       Six<R> force = base[r];
@@ -213,7 +213,7 @@ class ResidentTile {
   }
 
  private:
-  // decided at compile time, so that the compiler knows which data is in shared memory
+  // the branch is decided at compile time, so that the compiler knows which data is in shared memory
   __device__ __forceinline__ unsigned char* body_data_place(unsigned char* shared, const ResidentMemory<P>& m) const {
     if constexpr (storage == BodyStorage::shared)
       return shared + m.body_data;

@@ -21,8 +21,8 @@
 
 namespace macadam::kernels {
 
-/// Passed instead of the number of steps of the block that ends if no step has been taken yet. The constants then get
-/// their values for the undeformed contact.
+/// If no step has been taken yet, this value is passed instead of the number of steps of the block that ends. The
+/// constants then get their values for the undeformed contact.
 inline constexpr int settling_starts = -1;
 
 /// Settles the contacts of one group; one thread per contact.
@@ -70,8 +70,8 @@ struct SettleContact {
   }
 };
 
-/// Functor types that settle a law: one for each number of Kelvin units that has its own code; none for a law without
-/// blocks.
+/// Functor types that settle a law: one for each number of Kelvin units that has its own code. There is none for a law
+/// that cannot be stepped in blocks.
 template <class P, class L, Geometry geometry>
 auto settle_functors() {
   if constexpr (!has_blocks<L>)
@@ -167,8 +167,8 @@ __global__ void __launch_bounds__(body_threads)
   if (list_end - list <= long_list) keep(body, sum_words<R>(records, list, list_end, 1, w));
 }
 
-/// Writes the load on each wall: its base load plus the sum of the loads of its contacts in `wall_load`, added in fixed
-/// order. One thread block per wall; all arguments except `wall_load` are arrays of the walls alone.
+/// Writes the load on each wall: its base load plus the sum of the loads of its contacts, which are in `wall_load`.
+/// Adds them in fixed order. One thread block per wall; all arguments except `wall_load` are arrays of the walls alone.
 template <class R>
 __global__ void __launch_bounds__(body_threads)
     add_wall_loads(const float* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {

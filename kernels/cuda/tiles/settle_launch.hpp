@@ -51,7 +51,7 @@ class Settling {
         groups->group[number].functor.put(SettleContact<P, typename L::Block, units(), geometry>{{view, block}});
       });
     };
-    filled_ended_ = filled_steps_ = 0;  // forces run() to compute coefficients for the new law and time step
+    filled_ended_ = filled_steps_ = 0;  // so that run() computes coefficients for the new law and time step
     launch_ = [this, groups](int ended, const SettledArrays<P>& a) {
       groups->position = a.position;
       team_.each([&](std::size_t m) {

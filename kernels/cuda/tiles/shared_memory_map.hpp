@@ -3,9 +3,10 @@
 /// kernel (resident_kernel.hpp).
 ///
 /// ResidentMemory computes the position of each array in a tile's shared memory. The host (fit_tiles()) uses it to
-/// decide whether tiles fit, and the kernel uses it to find the arrays. The remaining shared memory holds constants of
-/// packets (the cache). expected_resident_bytes() estimates the need before the tiles exist, so that ExecCudaTiles can
-/// choose their size. docs/gpu-step.md explains the whole path.
+/// decide whether a tile fits in shared memory, and the kernel uses it to find the arrays. The remaining shared memory
+/// holds constants of packets (the cache). expected_resident_bytes() estimates the size of shared memory that a tile
+/// needs, before the tiles exist, so that ExecCudaTiles can choose their size. docs/gpu-step.md explains the whole
+/// path.
 #pragma once
 
 #include <cmath>
@@ -32,7 +33,7 @@ struct alignas(2 * sizeof(R)) Two {
   R linear, angular;
 };
 
-/// Positions of the arrays in the shared memory of a tile [byte]. `total` is the size of all of them. The last array,
+/// Positions of the arrays in the shared memory of a tile [byte]. `total` is the size of all arrays. The last array,
 /// the cache, holds the constants of all packets that fit.
 template <class P>
 struct ResidentMemory {
@@ -83,7 +84,7 @@ struct ResidentMemory {
 template <class P>
 std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t tiles) {
   std::vector<std::uint32_t> of_end_a(network.row_begin.size() - 1, 0);
-  std::size_t cells = 0;  // load cells of couples and of ends B
+  std::size_t cells = 0;  // number of load cells: one per couple and one per end B
   for (const Contact& c : network.contacts) {
     cells += (of_end_a[static_cast<std::size_t>(c.a)]++ % TilePlan::couple == 0) + (c.b >= 0);
   }

@@ -2,12 +2,12 @@
 /// \file streamed_kernel.hpp  Defines the streamed kernel, which takes one step per launch, for any number of
 /// tiles.
 ///
-/// TileLaunch uses it if the tiles do not fit on the chip, and with several ranks. Two tiles share a multiprocessor;
-/// the constants and states of contacts are read from global memory in every step. begin_streamed moves the bodies
-/// before the first step of a sequence. Then each launch of run_streamed reads the velocities of its step, steps all
-/// contacts of each tile, sums the loads, and moves the particles. The new velocities go to the other one of two arrays
-/// (even and odd steps). The last launch of a sequence writes the loads instead of moving the particles.
-/// docs/gpu-step.md explains the whole path.
+/// TileLaunch uses this kernel if the tiles do not fit in registers and shared memory, and with several ranks. Two
+/// tiles share a multiprocessor; the constants and states of contacts are read from global memory in every step.
+/// begin_streamed moves the bodies before the first step of a sequence. Then each launch of run_streamed reads the
+/// velocities of its step, steps all contacts of each tile, sums the loads, and moves the particles. There are two
+/// arrays of velocities, for even and for odd steps; a launch reads one of them and writes the other. The last launch
+/// of a sequence writes the loads instead of moving the particles. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include "kernels/cuda/tiles/tile_step.hpp"
@@ -41,7 +41,7 @@ __device__ __forceinline__ void move_body(const TileArrays<P>& s, std::size_t i,
 }
 
 /// Moves the particles at places first … end − 1 and the walls into step k, by the loads in memory: the beginning of a
-/// sequence of steps. Axes of walls at rest get velocity zero in both arrays.
+/// sequence of steps. Axes of walls at rest get velocity zero in the arrays of even and of odd steps.
 template <class P>
 __global__ void begin_streamed(const __grid_constant__ TileArrays<P> s, std::uint32_t k, std::uint32_t first,
                                std::uint32_t end) {
@@ -84,7 +84,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   constexpr std::uint32_t words = TileContactWords::constants(carried);
   const Tile tile = s.tile[s.own_tile()];
   const float4* from = velocities_of(s, k);
-  // the last threads of the first tile move the walls; with several ranks, each rank does so
+  // the last threads of the first tile move the walls; with several ranks, each rank moves its copy of the walls
   const int axis = !last && s.moves_walls && blockIdx.x == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
   WallAxisMotion<P> wall(s, axis, k + 1);
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)

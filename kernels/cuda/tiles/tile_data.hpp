@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_data.hpp  Owns the plan and the device arrays of the tiles: uploads them, resets them for a start, and
-/// copies them for checkpoints.
+/// \file tile_data.hpp  Owns the plan of the tiles (parts of the specimen, one per thread block) and their arrays on
+/// the devices: uploads them, resets them for a start, and copies them for checkpoints.
 ///
 /// ExecCudaTiles owns one TileData and calls it in the order of executor.hpp: add_contacts() for each group (first
 /// start only), set_law() for each group, and start(). TileLaunch and TileBlocks read and change the arrays through
-/// arrays() and settled(). docs/gpu-step.md explains the words.
+/// arrays() and settled(). docs/gpu-step.md explains the terms.
 #pragma once
 
 #include <memory>
@@ -168,7 +168,7 @@ class TileData {
     messages_.wall_loads(team_);
   }
 
-  /// Adds the arrays that belong to a block in progress, in addition to the chains, to the states of a checkpoint.
+  /// Adds to the states of a checkpoint the arrays that a block in progress needs in addition to the chains.
   void add_states(StateList& states) {
     const auto words = [](auto* data) { return reinterpret_cast<float*>(data); };
     const std::size_t loads = (bodies_ + walls) * velocity_words;
@@ -179,13 +179,13 @@ class TileData {
     add_device_state(states, "tile_states", "Pa m", words(arrays_.state), 4 * state_count_,
                      [this] { return positions_.order(TileContactWords::states, TileContactWords::state_fields()); });
     add_device_state(states, "base_loads", "N, N m", base_, loads, by_body);
-    // The loads on walls are left out: forces() sums them
+    // The loads on walls are left out, because forces() computes them again
     add_device_state(states, "forces", "N, N m", arrays_.force, bodies_ * velocity_words,
                      [this] { return body_order(layout_, velocity_words, false); });
     add_device_state(states, "wall_loads", "N, N m", words(arrays_.wall_load), 4 * wall_load_count_);
     if (carried_) add_device_state(states, "displacement_at_block", "m, rad", before_, loads, by_body);
   }
-  /// Returns the change of f since the beginning of the block, [slot][6] of group `number`.
+  /// Returns the change of the force density f since the beginning of the block of steps, [slot][6] of group `number`.
   std::vector<float> changes(std::size_t number) const {
     return positions_.changes(number, arrays_.state, state_count_);
   }
@@ -217,7 +217,8 @@ class TileData {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
       if (plan_.contact[i].group_slot == UINT32_MAX) TileContactWords::pack_inert(constant_of(i));
     }
-    team_.each([&](std::size_t m) {  // each thread block reads these first, so every device has its own copy
+    // Each thread block reads the following arrays at its beginning, so every device has its own copy
+    team_.each([&](std::size_t m) {
       tables_[m].tile = store_.keep(plan_.tile);
       tables_[m].body = store_.keep(plan_.body);
       tables_[m].list = reinterpret_cast<const uint2*>(store_.keep(plan_.list));

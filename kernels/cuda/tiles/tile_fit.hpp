@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_fit.hpp  Decides by the limits of the devices whether planned tiles run resident, streamed or not at all.
+/// \file tile_fit.hpp  Decides by the limits of the devices whether the planned tiles run resident (in registers and
+/// shared memory), streamed (read from memory in every step) or not at all.
 ///
-/// ExecCudaTiles asks fit_tiles() before it allocates anything on a device. docs/gpu-step.md explains both ways.
+/// ExecCudaTiles asks fit_tiles() before it allocates anything on a device. docs/gpu-step.md explains resident and
+/// streamed tiles.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +42,7 @@ StreamedKernel<P> streamed_kernel(bool carried, bool memory) {
                 : run_streamed<P, streamed_threads, streamed_blocks, false, false>;
 }
 
-/// How the tiles of a plan run.
+/// Says by which kernel the tiles of a plan are stepped.
 struct TileFit {
   enum class Way { none, resident, streamed };
   Way way = Way::none;                        ///< none: no kernel fits these devices
@@ -48,8 +50,8 @@ struct TileFit {
   std::uint32_t shared = 0;                   ///< shared memory of a thread block [byte]
 };
 
-/// Returns the fit of resident tiles. Chooses the storage of bodies with the most data in shared memory among those
-/// whose tiles fit there.
+/// Returns how resident tiles fit. Among the storages of bodies with which the tiles fit in shared memory, chooses the
+/// one with the most data in shared memory.
 template <class P>
 TileFit fit_resident(const TilePlan& plan, const DeviceTeam& team, const TeamCuts& cuts, const DeviceLimits& limits,
                      bool carried) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_launch.hpp  Launches steps over tiles, resident or streamed, behind one function.
+/// \file tile_launch.hpp  Launches the steps of tiles by one function, whether the tiles are resident (in registers and
+/// shared memory) or streamed (read from memory in every step).
 ///
 /// take_steps() makes one launch of the resident kernel for all steps, or one launch of the streamed kernel per step.
-/// Resident tiles occupy multiprocessors: lease() takes them before the first step, and mark_end() and give_back() pass
-/// them on (multiprocessor_lease.hpp). The tag is the number of the next step, which marks the velocities that resident
-/// tiles exchange (halo_exchange.hpp). docs/gpu-step.md says when each kernel is chosen.
+/// Resident tiles occupy multiprocessors: lease() reserves these multiprocessors before the first step; mark_end() and
+/// give_back() release them for the next specimen (multiprocessor_lease.hpp). The tag is the number of the next step,
+/// which marks the velocities that resident tiles exchange (halo_exchange.hpp). docs/gpu-step.md says when each kernel
+/// is chosen.
 #pragma once
 
 #include <chrono>
@@ -53,7 +55,7 @@ class TileLaunch {
     return kernel_use(name(), streamed_kernel<P>(data_.carried(), memory_), streamed_threads, fit_.shared);
   }
 
-  /// Sets whether some law has a memory or the geometry is updated, for the steps to come.
+  /// Sets, for the next steps, whether some law has a memory or the geometry is updated.
   void set_memory(bool memory) { memory_ = memory; }
   bool has_memory() const { return memory_; }
   /// Prepares for a new start. After a failure, clears the words of the exchange, which hold the release tag. Otherwise
@@ -93,21 +95,21 @@ class TileLaunch {
   }
 
   /// After an error of one device, ends the kernels of the other devices: their tiles would wait forever for the tiles
-  /// of the failed one. Writes the release tag into all words of the exchange.
+  /// of the failed one. To end them, writes the release tag into all words of the exchange.
   void release() noexcept {
     if (team_.size() == 1 || !is_resident() || !data_.is_uploaded()) return;
     released_ = true;
     try {
       const auto tag = static_cast<unsigned long long>(release_of(tag_)) << 32;
       const std::vector<ulonglong2> words(data_.exchange_words(), {0, tag});
-      // repeatedly, because tiles that still run overwrite the words with their own
+      // repeatedly, because tiles that still run overwrite these words with their velocities
       while (team_.works() && write_on_any(words)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } catch (const std::exception&) {  // the first error is the one to report
+    } catch (const std::exception&) {  // ignored: the error of the failed device is reported instead
     }
   }
 
-  /// Returns the bytes of contacts and particles that a step must move at least: states read and written, constants and
-  /// base loads read.
+  /// Returns the least number of bytes of contacts and particles that a step must move: it reads and writes states, and
+  /// reads constants and base loads.
   std::int64_t traffic() const {
     const int words =
         TileContactWords::constants_read(data_.carried(), memory_) + 2 * TileContactWords::states_moved(memory_);

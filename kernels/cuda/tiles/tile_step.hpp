@@ -7,14 +7,14 @@
 /// a table in shared memory (TileVelocities); steps its contacts with step_in_block() and stores their loads in cells
 /// (LoadCells); adds the cells of each particle with sum_lists(); and moves the particles.
 ///
-/// Steps are taken in blocks of up to longest_block steps (see block_settling.hpp and model (6.8)). A contact
-/// carries within a block only the change δf since the beginning of the block and, if some law has a memory, a sum over
-/// the steps. The loads of the f at the beginning of the block are part of the particles' `base` loads. The state of a
-/// contact is therefore in three places. The chain (ContactView::chain) holds the viscoelastic state at the beginning
-/// of the block, in full precision (without a chain, f follows from the displacements); settle_kernels.hpp updates
-/// it after the block. The words of states in memory (contact_words.hpp) hold δf and the sum; they are valid between
-/// launches. During a launch of the resident kernel, registers hold δf and the sum of most contacts. docs/gpu-step.md
-/// explains the whole path.
+/// Steps are taken in blocks of up to longest_block steps (see block_settling.hpp and model (6.8)). Within a block a
+/// contact stores only the change δf of its force density f since the beginning of the block and, if some law has a
+/// memory, a sum of δf over the steps. The loads that belong to f at the beginning of the block are part of the
+/// particles' `base` loads. The state of a contact is therefore in three places. The chain (ContactView::chain) holds
+/// the viscoelastic state at the beginning of the block, in full precision (without a chain, f follows from the
+/// displacements); settle_kernels.hpp updates it after the block. The words of states in memory (contact_words.hpp)
+/// hold δf and the sum; they are valid between launches. During a launch of the resident kernel, registers hold δf and
+/// the sum of most contacts. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <type_traits>
@@ -128,7 +128,7 @@ struct TileVelocities : SixTable {
     first[i] = {y[0], y[1], y[2], y[3]};
     second[i] = {y[4], y[5]};
   }
-  /// Sets one of the two words of an exchange: the velocity or the spin.
+  /// Sets the velocity or the spin of local number i from a word of the exchange between tiles.
   __device__ __forceinline__ void set_half(std::uint32_t i, bool spin, const float4& y) const {
     if (spin) {
       first[i].w = y.x;
@@ -179,9 +179,9 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
 
 /// The load cells of a tile in shared memory. A cell holds a force and a moment.
 struct LoadCells : SixTable {
-  /// Stores a load; does nothing if `cell` is no_cell or more_of_couple. A barrier separates these stores from the
-  /// threads that read cells, so they need not stay in order with other accesses to shared memory. The compiler would
-  /// keep stores through a pointer in order; therefore the store is written in assembly.
+  /// Stores a load; does nothing if `cell` is no_cell or more_of_couple. Threads read the cells only after a barrier.
+  /// So these stores may be reordered with other accesses to shared memory. The compiler would not reorder stores
+  /// through a pointer; therefore the store is written in assembly.
   __device__ __forceinline__ void put(std::uint32_t cell, const Vec3<float>& force, const Vec3<float>& moment) const {
     static_assert(TilePlan::more_of_couple < TilePlan::no_cell);
     asm volatile(
@@ -199,7 +199,8 @@ struct LoadCells : SixTable {
     const float2 b = second[cell];
     f[0] += a.x, f[1] += a.y, f[2] += a.z, f[3] += a.w, f[4] += b.x, f[5] += b.y;
   }
-  /// Adds the first `count` of four cells (all four if count ≥ 4). All are loaded before the first is added.
+  /// Adds the loads in the first `count` of four cells (in all four if count ≥ 4) to f. All are read before the first
+  /// is added.
   __device__ __forceinline__ void add(const std::uint32_t (&cell)[4], std::uint32_t count, float (&f)[6]) const {
     float4 a[4];
     float2 b[4];

@@ -21,7 +21,8 @@ inline std::int64_t packets_in_registers(const Tile& tile) {
   return couple * doubles + std::min(ones, couple * (most - doubles));
 }
 
-/// Returns the bytes through shared memory: velocities of both ends (end A once per couple), and the loads.
+/// Returns the bytes that a step moves through shared memory: the velocities of both ends of each contact (of end A
+/// once per couple), and the loads.
 inline std::int64_t shared_traffic(const Tile& tile) {
   constexpr std::int64_t of_velocity = SixTable::bytes(1), of_cell = 2 * SixTable::bytes(1);
   const std::int64_t contacts = 32 * std::int64_t{tile.packets};

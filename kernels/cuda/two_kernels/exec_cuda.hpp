@@ -27,8 +27,8 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   static constexpr bool five_units_in_registers = true;
 
   using Plan = LayoutPlan;
-  /// The size of the tiles (1024 contacts) does not depend on the device, because it determines the layout, and sums
-  /// are in the order of the layout.
+  /// The size of the tiles (1024 contacts) does not depend on the device, because it determines the layout, and loads
+  /// are summed in the order of the layout.
   static std::optional<Plan> plan(const Specimen& specimen, const ContactNetwork& network, const StepperOptions&) {
     return Plan{make_layout(specimen, network, Base::lanes, {1024})};
   }
@@ -182,7 +182,8 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   std::vector<ContactLaunches<P, AnyLaw>> contacts_;  // [member]
   std::uint32_t slots_ = 0;                           // number of slots of the groups set so far
   bool crosses_ = false;
-  RankExchange moved_, loads_;  // with several ranks: sent after the bodies, and after the contacts
+  // With several ranks: moved_ is sent after the bodies have moved, loads_ after the contacts were stepped
+  RankExchange moved_, loads_;
 };
 
 }  // namespace macadam::kernels

@@ -43,8 +43,8 @@ struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
   }
 };
 
-/// Counts the steps on the device, and copies the row of the walls' table for the current step to a fixed address where
-/// step_bodies reads it. One warp does this.
+/// Counts the steps on the device. One warp copies the row of the walls' table for the current step to a fixed address,
+/// where step_bodies reads it.
 template <class R>
 struct WallClock {
   std::int64_t* step = nullptr;  ///< number of rows copied so far; null: no driven walls
@@ -70,8 +70,8 @@ __global__ void start_clock(const WallClock<R> clock) {
   clock.tick();
 }
 
-/// Steps every contact of a launch and writes its loads. If there is a clock, the first thread block advances the clock
-/// and steps no contact.
+/// Steps every contact of a launch and writes its loads. If walls are driven, the first thread block advances the step
+/// counter of the walls (WallClock) and steps no contact.
 template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
 __global__ void __launch_bounds__(contact_threads, contact_blocks)
     step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units> groups,
@@ -100,7 +100,7 @@ class ContactLaunches {
   template <class LawStep, int Units, ContactForm form, Geometry geometry>
   void add(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t first_slot,
            std::uint32_t begin, std::uint32_t end) {
-    constexpr int units = LawStep::memoryless ? 3 : Units;  // so that most scenes have one launch
+    constexpr int units = LawStep::memoryless ? 3 : Units;  // so that one launch suffices for most scenes
     using Groups = ContactGroups<P, AnyLaw, form, geometry, units>;
     const auto kernel = step_contacts<P, AnyLaw, form, geometry, units>;
     Launch& to = launches_[units];
