@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// multi_sphere_test.cpp  Tests specimens of clusters in limiting cases, in which they equal single spheres, mastic or
-// rigid clusters. Checks their equilibrium with the equations of the reference implementation.
+// multi_sphere_test.cpp  Tests specimens of clusters (aggregates of several spheres) in limiting cases, in which they
+// equal single spheres, mastic or rigid clusters. Checks their equilibrium with the equations of the reference
+// implementation.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -41,9 +42,9 @@ Specimen all_mastic(Specimen specimen) {
   return specimen;
 }
 
-// The number of a sphere's aggregate only decides which law a contact has. With the law A–A for inner contacts,
-// clusters therefore equal single spheres. Only the order of sums may differ. The tolerance is the rounding of about a
-// hundred terms per row times the condition number of 1e5 that harmonic_test allows for.
+// The number of a sphere's aggregate only decides which law a contact has. If inner contacts have the law of A–A
+// contacts, clusters therefore equal single spheres; only the order of sums may differ. The tolerance is the rounding
+// of about a hundred terms per row times the condition number of 1e5 that harmonic_test allows for.
 TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres) {
   const Specimen clusters = generate_specimen(cluster_recipe(test_seed(), {0.012, 0.012, 0.016})).specimen;
   for (Laws laws : {am1_laws(), am2_laws()}) {
@@ -59,7 +60,7 @@ TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres)
   }
 }
 
-/// If all pairs have one law, clusters in mastic are mastic.
+/// If all pair types have the same law, clusters in mastic behave as mastic.
 TEST(MultiSphere, OfOneLawEverywhereItIsMastic) {
   const Specimen clusters = few_clusters(test_seed());
   Laws laws = am1_laws();
@@ -71,8 +72,8 @@ TEST(MultiSphere, OfOneLawEverywhereItIsMastic) {
   EXPECT_LT(difference(solve(ms, 10).top, solve(mastic, 10).top), 1e-9);
 }
 
-// The motion of the harmonic solver satisfies the equations of the reference implementation, contact point by contact
-// point, and gives the same modulus.
+// The harmonic solver's motion satisfies the equations of the reference implementation, which are computed at every
+// contact point, and gives the same modulus.
 TEST(MultiSphere, IsInEquilibriumByTheReference) {
   const TestScene scene = make_scene(generate_specimen(cluster_recipe(test_seed(), {0.012, 0.012, 0.016})).specimen);
   for (const Laws& laws : {am1_laws(), am2_laws()}) {
@@ -92,9 +93,9 @@ TEST(MultiSphere, IsInEquilibriumByTheReference) {
 
 constexpr double length = 1e-3;  // reference length: rotations times it are comparable with displacements
 
-/// Returns the motions of all spheres as a matrix times the motions of rigid particles: a mastic sphere moves alone,
-/// the spheres of an aggregate move as one rigid cluster. A rotation is measured by the displacement at distance
-/// `length`.
+/// Returns the matrix that gives the motions of all spheres from the motions of rigid particles. A mastic sphere is one
+/// rigid particle; the spheres of an aggregate form one rigid particle together. A rotation is measured by the
+/// displacement at distance `length`.
 Eigen::MatrixXd rigid_bodies(const Specimen& s) {
   std::vector<std::int32_t> number(s.size());
   std::map<std::int32_t, std::int32_t> of_body;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fields_run_test.cpp  Tests fields of specimens, stepped runs and steady states: which files are written and which
-// frames they have, also after resuming.
+// fields_run_test.cpp  Tests the field files of specimens, stepped runs and steady states: which files are written and
+// which frames they have, also after a run was resumed.
 #include <sstream>
 #include <gtest/gtest.h>
 
