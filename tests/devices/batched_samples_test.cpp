@@ -63,7 +63,7 @@ TEST_F(BatchedSamples, FramesOfFieldsAreThoseOfTheirSteps) {
   expect_same_files({"response.csv"});
 }
 
-/// A run on the device that is interrupted six times and resumed writes every sample exactly once.
+/// A run on the device is interrupted six times and resumed. It must write every sample exactly once.
 TEST_F(BatchedSamples, NoneIsLostOrDoubledByInterruptions) {
   const std::string loading = "kind = \"cyclic\"\nfrequencies = [5.0, 20.0]\ncycles = 1\n",
                     solver = "density_scaling = 1e5\n";

@@ -97,8 +97,8 @@ TEST(DeviceShares, MovesToNoFullAndNoForbiddenDevice) {
   EXPECT_EQ(named.device_for_next_frequency(1, 100, 4), 7);
 }
 
-// Simulates six scenes with four frequencies of equal work each; the work differs between scenes. Each device steps its
-// scenes in turn, one frequency at a time.
+// Simulates six scenes with four frequencies each. All frequencies of a scene take the same work, but the scenes
+// differ. Each device steps its scenes in turn, one frequency at a time.
 TEST(DeviceShares, DevicesEndTogether) {
   const std::vector<double> work{40, 52, 38, 60, 45, 58};
   Scenes scenes(work.size(), {0, 1}, 4);

@@ -74,7 +74,7 @@ TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
   EXPECT_EQ(choose_devices(1'000'000, {}, {}, decision), DeviceList{});
 }
 
-/// Steppers for a user's own laws follow the same rules for backend and precision as Macadam's.
+/// Steppers for laws of a user choose backend and precision by the same rules as steppers for Macadam's laws.
 TEST(OwnLaws, AreResolvedAsMacadamsAre) {
   const TestScene scene = make_scene(random_specimen(1, 2, 2, 2));
   StepperOptions options = shaking_options(scene);

@@ -328,7 +328,7 @@ TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   expect_same("two");
 }
 
-/// The forecast of the size of cracks.csv follows from the number of contacts that can break.
+/// The forecast computes the size of cracks.csv from the number of contacts that can break.
 TEST_F(CracksOfATest, TheForecastOfTheListFollowsFromTheContacts) {
   const Scene asked = bonded();
   const auto bytes = [](const Scene& scene) {

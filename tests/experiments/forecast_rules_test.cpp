@@ -177,8 +177,8 @@ TEST_F(ForecastRules, FilesOfAMadeSpecimen) {
   }
 }
 
-// Soft contacts beside stiff ones slow the iterative solver down, until the direct solver replaces it, which needs more
-// memory.
+// Soft contacts beside stiff ones slow the iterative solver down. If they are soft enough, the forecast expects the
+// direct solver instead, which needs more memory.
 TEST_F(ForecastRules, SoftScenesTakeLonger) {
   const auto of = [&](const char* frequency, const char* linear = "auto") {
     return forecast(scene(fmt::format("kind = \"cyclic\"\nfrequencies = [{}]\n", frequency),

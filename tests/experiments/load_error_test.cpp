@@ -177,8 +177,8 @@ TEST_F(LoadError, NamesItsCause) {
   EXPECT_HAS(warning(all[6]), "in place of an instantaneous load");
 }
 
-// The stated error does not include the effect of the ramp: E(t) after a ramp differs from E(t) after a step. This
-// effect is stated separately.
+// The stated error does not include the effect of the ramp, which is that E(t) after a ramp differs from E(t) after a
+// step. The result states this effect as a separate number.
 TEST_F(LoadError, TheRampIsANumberOfItsOwn) {
   const Case c = cases()[4];
   const RunResult result = run(scene(c), out("out"));

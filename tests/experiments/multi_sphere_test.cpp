@@ -130,10 +130,10 @@ Eigen::MatrixXd free_motions(const Specimen& s) {
   return out;
 }
 
-// Inner contacts s times as stiff as those of [1] make the clusters rigid as s grows. With u = T·q the rigid network is
-// Tᵀ·K·T·q = Tᵀ·p, where K has no inner contacts. The remaining forces g = p − K·T·q act within the clusters and reduce
-// the modulus by gᵀ·K_inner⁻¹·g / s. The modulus is convex in 1/s, so it lies between the rigid one and the rigid one
-// minus this reduction.
+// As the inner contacts become s times as stiff as those of [1], the clusters become rigid. Rigid clusters move as u =
+// T·q and satisfy Tᵀ·K·T·q = Tᵀ·p, where K is the stiffness without inner contacts. The remaining forces g = p − K·T·q
+// act within the clusters and reduce the modulus by gᵀ·K_inner⁻¹·g / s. The modulus is convex in 1/s, so it is below
+// the modulus of rigid clusters by at most this reduction.
 TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
   const Specimen clusters = few_clusters(test_seed());
   Laws laws;
@@ -177,8 +177,8 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
     const double rounding = 1e-10 * s * rigid / yields;
     EXPECT_LT(yielded, 1 + rounding) << s;
     EXPECT_GT(yielded, 0) << s;
-    // The error of this estimate is of second order in 1/s, so it falls to a tenth for ten times stiffer clusters, from
-    // the second s on.
+    // The relative error of the estimate `yields / s` is of first order in 1/s. So from the second s on it is a tenth
+    // of the error before, when the inner contacts were a tenth as stiff.
     if (s > 10) { EXPECT_NEAR((1 - yielded) / before, 0.1, 0.02) << s; }
     fmt::print("inner contacts {:g} times as stiff: {:.3e} of the modulus below rigid, {:.6f} of first order\n", s,
                rigid / solve(stiff, 1).top.e_star_pa - 1, yielded);

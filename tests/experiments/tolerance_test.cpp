@@ -150,8 +150,8 @@ bool says(const RunResult& result, const std::string& what) {
                      [&](const std::string& d) { return d.find(what) != std::string::npos; });
 }
 
-// Local damping is not linear, so the run starts with a ramp from rest although the scene asks for a steady start, and
-// says so.
+// Local damping is not linear, so the run starts with a ramp from rest although the scene asks for a steady start. The
+// result says so.
 TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -167,8 +167,8 @@ TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   EXPECT_TRUE(says(result, "from rest, although the scene asks for a steady start"));
 }
 
-// With one point per facet and fewer contacts, two particles can rotate freely. There is no harmonic solution, but
-// stepping finds a steady state, so the run only has an estimate of its error.
+// With one point per facet and fewer contacts, two particles can rotate freely. There is no harmonic solution, but time
+// stepping reaches a steady state, so the run can only estimate its error.
 TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};

@@ -208,8 +208,8 @@ TEST(HarmonicFields, AmplitudeAndPhaseAreThoseOfThePartsForAWallThatMovesAsACosi
   EXPECT_EQ(floats(arrays, "rotation_imag"), (std::vector<float>{0, 0, 2}));
 }
 
-// Every contact, including those at the walls, gets the force of a uniform stress on its facet. Every cell must then
-// have this stress, whatever its shape.
+// Every contact, including those at the walls, gets the force that a uniform stress exerts on its facet. Every cell
+// must then have this stress, whatever the shape of the cell.
 TEST(SteppedFields, AUniformStressIsThatOfEveryCell) {
   NetworkSpec spec;
   spec.lateral_walls = true;

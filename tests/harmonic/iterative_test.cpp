@@ -267,7 +267,7 @@ TEST(CoarseSpace, SavesIterationsAndChangesNoSolution) {
   for (const auto* task : {&none, &few}) { EXPECT_NEAR(std::abs(modulus(*task) / modulus(usual) - 1.0), 0, 1e-9); }
 }
 
-/// Compares the kernels that work on rows with the operator that checks solutions.
+/// Compares the kernels of the solver, which work on rows of the matrix, with the operator that checks solutions.
 template <int F>
 void expect_same_rows() {
   const TestScene scene = make_scene(random_specimen(test_seed()));

@@ -153,7 +153,7 @@ TEST(Series, RangesAreEvenInTheLogarithm) {
 }
 
 /// Compares the spectrum of a network with numerical Laplace inversions of solutions of the whole network. The two
-/// computations have only the solver in common.
+/// computations share only the solver.
 TEST(Spectrum, OfANetworkIsTheInversionOfItsSolutions) {
   for (const TestScene& scene : {make_scene(random_specimen(3)), make_scene(random_specimen(4), {}, am2_laws())}) {
     SpectrumOptions options;

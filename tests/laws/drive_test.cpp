@@ -169,7 +169,7 @@ TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
 }
 
 // Laboratories usually apply pulses with rests between them. The motion is so slow that a step rotates normals by at
-// most about 5e-7; stepper and reference differ by the square of this angle.
+// most about 5e-7 rad. The stepper and the reference stepper differ by the square of this angle.
 TEST_P(DrivenWalls, UnderHaversinePulses) {
   const TestScene of = scene(test_seed() + 4);
   StepperOptions options = shaking_options(of);
@@ -179,7 +179,7 @@ TEST_P(DrivenWalls, UnderHaversinePulses) {
   const double area = of.specimen.box.size.x * of.specimen.box.size.y, size = of.specimen.box.size.x;
   options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Haversine>(-1e5 * area, options.dt, 60, 30), mass);
   options.boundary.move(wall_x_lo, 0, std::make_shared<drives::Haversine>(5e-6 * size, options.dt, 80, 20, 1));
-  // the end is within the second pulse of the platen, and after the only pulse of the side wall
+  // the run ends within the second pulse of the platen, and after the only pulse of the side wall
   compare(of, options, 120);
 }
 

@@ -179,8 +179,8 @@ double creep(const GeneralisedKelvin& law, double t) {
   return x;
 }
 
-/// Returns the displacement after `steps` steps under a unit force. In each step, dx is chosen so that f stays
-/// constant, by Eq. 13 with f(t+Δt) = f(t).
+/// Returns the displacement after `steps` steps under a unit force. Each step chooses dx so that the force f stays
+/// constant; dx follows from Eq. 13 of [1] with f(t+Δt) = f(t).
 double computed_creep(const GeneralisedKelvin& law, double dt, int steps) {
   Element element(law, dt, 1.0);
   double x = 1 / law.E_m;

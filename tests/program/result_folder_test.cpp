@@ -111,8 +111,10 @@ TEST_F(Folder, OneCommandAtATimeAndTheLockDiesWithIt) {
         const ResultFolder held(out);
         for (;;) pause();
       } catch (const Error&) {
+        // The parent checks whether the folder is locked. Meanwhile it may hold the folder, and it removes the empty
+        // folder.
         usleep(500);
-      }  // while checking, the parent may briefly hold the folder and remove it as empty
+      }
     }
   }
   const auto held = [&] { return message_of([&] { const ResultFolder second(out); }); };

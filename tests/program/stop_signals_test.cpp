@@ -144,8 +144,8 @@ TEST_F(StopSignals, StopACommandOfSeveralScenes) {
   EXPECT_FALSE(fs::exists(folder_ / "out/second/response.csv"));
 }
 
-// Tests the functions themselves in a process that raises the signal repeatedly until it dies. Only the lower limit of
-// two seconds is checked, because a slow machine makes it die later, never earlier.
+// Tests the signal handler without a run: a child process raises the signal repeatedly until it dies. Only the lower
+// limit of two seconds is checked, because on a slow machine the process dies later, but never earlier.
 TEST(StopSignal, AfterTwoSecondsItEndsTheProgram) {
   std::fflush(stdout);
   const auto begin = std::chrono::steady_clock::now();

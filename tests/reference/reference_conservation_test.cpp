@@ -23,9 +23,9 @@ using test::options_of;
 using test::PairShape;
 using test::spring;
 
-// A pair is opened, sheared, bent and twisted, then rotated rigidly by 2 rad about an oblique axis. The loads must
-// rotate with it. Velocities are evaluated in the contact frame at the middle of the step, in which the chord of B's
-// path around A is tangential.
+// A pair is opened, sheared, bent and twisted. Then it is rotated rigidly by 2 rad about an oblique axis, and the loads
+// must rotate with it. The stepper evaluates velocities in the contact frame at the middle of the step. In this frame
+// the chord of B's path around A is tangential.
 TEST(Reference, RigidRotationCreatesNoForce) {
   const HandMade made = test::two_sphere_network(heavy({2.0 / 7, 3.0 / 7, 6.0 / 7}));
   const Contact& c = made.network.contacts[0];

@@ -41,8 +41,8 @@ class SmallMotion : public testing::TestWithParam<Geometry> {
     stepper->advance(10);
     return stepper->particles();
   }
-  /// Expects these forces and moments on both particles. In updated geometry the normal rotates by amount/distance =
-  /// 6e-7, which is the tolerance.
+  /// Expects the given forces and moments on A and B. In updated geometry the normal rotates by amount/distance = 6e-7;
+  /// the tolerance is 2e-6.
   void expect_loads(const ParticleState& p, const Vec3d& force_a, const Vec3d& moment_a, const Vec3d& moment_b) {
     const double error = GetParam() == Geometry::fixed ? 1e-13 : 2e-6;
     const double force = E * contact.area / contact.distance * amount;
@@ -198,7 +198,7 @@ TEST(Reference, TheTopWallFollowsItsLoading) {
   }
 }
 
-// Eq. 5: when the centres move apart, each lever arm grows by half of the opening.
+// By Eq. 5 of [1], each lever arm grows by half of the opening when the centres move apart.
 TEST(Reference, LeverArmsShareTheOpening) {
   const HandMade made = test::two_sphere_network(heavy());
   const Contact& c = made.network.contacts[0];

@@ -13,8 +13,8 @@
 namespace macadam::test {
 namespace {
 
-/// Returns the AC 14 of [1]: the mass between its sieves, summed up; one density of rock; an assumed density of the
-/// binder.
+/// Returns the AC 14 mix of [1]. The gradation adds up the masses between the sieves of [1]; all sizes have one density
+/// of rock; the density of the binder is an assumption.
 MixDesign ac14() {
   MixDesign d;
   d.gradation = {{0.019, 1},     {0.0125, 0.837},   {0.0095, 0.712},   {0.00475, 0.478},
