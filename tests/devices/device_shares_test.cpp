@@ -15,7 +15,7 @@ class Scenes : public DeviceShares {
  public:
   Scenes(std::size_t number, DeviceList devices, int most)
       : DeviceShares(number), devices_(std::move(devices)), most_(most) {}
-  /// Returns the device of the next scene; −1 if all are full.
+  /// Returns the device of the next scene, or −1 if all devices are full.
   int next() {
     const std::optional<int> device = choose(devices_, most_);
     if (!device) return -1;

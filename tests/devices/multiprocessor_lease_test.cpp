@@ -97,7 +97,7 @@ TEST(MultiprocessorLease, GivesTurnsByTheSpecimensNumbers) {
   until_it_waits(2);
   std::thread late([&] { take(3, small, 's'); });  // this specimen would fit beside the first; it must wait its turn
   until_it_waits(3);
-  take(1, other, 'o');  // another device is free
+  take(1, other, 'o');  // this request is for another device, which is free
   MultiprocessorLease::give(first);
   for (std::thread* t : {&young, &large, &late}) t->join();
   EXPECT_EQ(order, (std::vector<char>{'o', 'L', 's', 'y'}));

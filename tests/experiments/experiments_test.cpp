@@ -251,7 +251,7 @@ TEST_F(Experiments, HeldSidesAreSaid) {
   EXPECT_EQ(result.at("sides"), "held");
   EXPECT_EQ(summary("out").at("warnings").size(), 2u);
   EXPECT_TRUE(contains(text("out/prony.csv"), "confined modulus"));
-  // these programs would take a confined modulus for a uniaxial one
+  // a finite-element program would take a confined modulus for a uniaxial one
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_abaqus.inp"));
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_ansys.txt"));
 

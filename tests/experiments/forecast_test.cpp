@@ -86,7 +86,7 @@ TEST_F(Check, StepsOfACreepTestAreThoseOfItsCriticalStep) {
   EXPECT_NEAR(foretold.dt_s / expected, 1, 0.5);
 }
 
-// For a specimen from a file, the smallest spheres are those in the file.
+// If the specimen comes from a file, the forecast uses the smallest spheres in the file.
 TEST_F(Check, StepsOfASpecimenFromAFileAreThoseOfTheMixtureThatItWasMadeOf) {
   Scene scene = example("stepped_creep");
   const StepForecast of_mixture = forecast(scene).steps.front();

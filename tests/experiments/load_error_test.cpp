@@ -74,7 +74,7 @@ class LoadError : public TestFolder {
     return out;
   }
 
-  /// Returns E(t) from harmonic solutions with a hundredth of the tolerance of a run.
+  /// Returns E(t) from harmonic solutions whose tolerance is a hundredth of the tolerance of a run.
   static PronySeries exact_relaxation(const Scene& scene) {
     const Preparation prepared = prepare(scene);
     return spectrum_of(prepared.specimen, prepared.network, scene.laws, {1e-4, 1, 1e-8}).relaxation;

@@ -255,9 +255,10 @@ TEST_F(SteppedLoad, WhatDoesNotFitStepsIsRefused) {
   EXPECT_HAS(refusal(spectral), "fields in [output]");
 }
 
-// All laws are elastic, so the stored energy follows from the forces. Leapfrog with central damping satisfies both
-// balances exactly. Momentum: Σ γm(v⁺ − v⁻) = Δt·(P + reaction − β·Σ γm·v̄). Energy: the work P·Δu is the change of
-// ½γmv² − ½u(k+1)·F(k), plus β·γm·v̄²·Δt.
+// All laws are elastic, so the stored energy follows from the forces. Leapfrog with central damping satisfies the
+// balances of momentum and energy exactly. Momentum: Σ γm(v⁺ − v⁻) = Δt·(P + reaction − β·Σ γm·v̄). Energy: the work
+// P·Δu is the change of ½γmv² − ½u(k+1)·F(k), plus β·γm·v̄²·Δt. (P: load of the platen, γ: density scaling, β: viscous
+// damping, v̄: mean of v⁻ and v⁺.)
 TEST(PlatenBalance, OfMomentumAndEnergy) {
   Laws laws = am1_laws();
   for (auto& law : laws) law = laws::Elastic{std::visit([](const auto& l) { return l.instantaneous(); }, *law), 0.2};

@@ -42,8 +42,8 @@ class Iterative : public BackendTest<std::tuple<Backend>> {
 };
 INSTANTIATE_TEST_SUITE_P(Backends, Iterative, testing::Combine(all_backends()), name_of_case<Backend>);
 
-/// Expects the same E* from both solvers. The error of E* is the square of the residual of 1e-11 times a condition
-/// number of about 1e5. This is far below rounding, so the tolerance is the rounding of the sums.
+/// Expects the same E* from the iterative and the direct solver. The error of E* is the square of the residual of 1e-11
+/// times a condition number of about 1e5. This is far below rounding, so the tolerance is the rounding of the sums.
 void Iterative::expect_same(const TestScene& scene, const std::vector<HarmonicLoad>& loads, const std::string& what,
                             double tolerance) const {
   const auto found = solve(scene, LinearMethod::iterative, loads), expected = solve(scene, LinearMethod::direct, loads);

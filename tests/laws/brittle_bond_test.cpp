@@ -65,8 +65,8 @@ struct HeldParticle {
   }
 };
 
-/// Expects that all points of the contact with the top wall are broken as `how` says, and that the other contact is
-/// intact.
+/// Expects that all points of the contact with the top wall are broken as `how` says, and that the contact with the
+/// bottom wall is intact.
 void expect_broken(const Stepper& stepper, const ContactNetwork& network, Break how) {
   const std::vector<Break> breaks = stepper.point_breaks(network);
   ASSERT_EQ(breaks.size(), network.point_area.size());

@@ -18,7 +18,7 @@ class ContactStates : public BackendTest<StepperCase> {
   }
 };
 
-/// Expects that the forces and moments of all contacts add up to those of every particle and wall.
+/// Expects that the forces and moments of all contacts add up to the forces and moments on every particle and wall.
 void expect_sums(const TestScene& scene, const Stepper& stepper, double tolerance) {
   const ContactState contacts = stepper.contacts(scene.network);
   const ParticleState particles = stepper.particles();

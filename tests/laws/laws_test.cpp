@@ -72,7 +72,7 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-// The slowest relaxation time of these chains is below (ΣC_l + C_m)/min E_l.
+// The slowest relaxation time of a chain (springs and dashpots in series) is below (ΣC_l + C_m)/min E_l.
 std::vector<Case> cases() {
   GeneralisedKelvin no_flow = test::mastic_am1();
   no_flow.C_m = infinity;

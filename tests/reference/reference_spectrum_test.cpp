@@ -35,7 +35,7 @@ PairShape equal_spheres(double side) {
   return shape;
 }
 
-/// Returns the largest angular frequency of such a pair in closed form.
+/// Returns in closed form the largest angular frequency of a pair from equal_spheres().
 double largest_of_equal_spheres(const PairShape& shape, double alpha) {
   const double d = shape.distance, m = shape.mass_a, inertia = 0.4 * m * shape.radius_a * shape.radius_a;
   const double k = E * shape.side * shape.side / d;

@@ -45,7 +45,7 @@ class SceneRecipe : public testing::Test {
   }
   ~SceneRecipe() override { fs::remove_all(folder_); }
 
-  /// Reads the scene with these edits; `materials` is appended to its lines.
+  /// Reads the scene `good` with the given edits; `materials` is appended to its lines.
   Scene scene(const Edits& edits = {}, const std::string& materials = "") const {
     std::vector<std::string> lines = good;
     for (const auto& [line, text] : edits) lines.at(static_cast<std::size_t>(line - 1)) = text;

@@ -26,8 +26,7 @@ void report(BackendReport& out) {
 }
 #ifdef FAKE_DEVICE
 std::string refusal(int) { return ""; }
-/// The processor's stepper, but with up to seven samples (recorded time steps) returned at a time, as by a device
-/// (GPU).
+/// Wraps the processor's stepper. Like a device (GPU), it returns up to seven samples (recorded time steps) at a time.
 class InBatches : public Stepper {
  public:
   InBatches(std::unique_ptr<Stepper> on, int device) : on_(std::move(on)), device_(device) {}
