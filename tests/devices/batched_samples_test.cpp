@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// batched_samples_test.cpp  A device takes several samples per batch, but the processor takes one after the other. The
-// results must be equal bit by bit. This can be compared because the fake device computes on the processor
-// (fake_plugin.cpp).
+// batched_samples_test.cpp  Tests stepped runs on a device (GPU), which computes several samples (recorded time steps)
+// per call; the processor computes one. The results must be equal bit by bit. This is possible because the device here
+// is a fake, which computes on the processor (fake_plugin.cpp).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 class BatchedSamples : public FakeDevices {
  protected:
-  /// Reads a scene of t8. `loading`, `solver` and `output` are the lines of their tables.
+  /// Reads a scene with the specimen t8. `loading`, `solver` and `output` are the lines of the tables with these names.
   Scene scene(const std::string& loading, const std::string& solver, Backend backend,
               const std::string& output = "") const {
     Scene out = read_scene(write_t8(loading, solver, output));
@@ -47,7 +47,7 @@ TEST_F(BatchedSamples, AreThoseOfTheProcessor) {
   EXPECT_GT(shares.size(), 900u) << "each sample is told";
 }
 
-/// Frames of fields that are written between samples equal the CPU's frames, file by file.
+/// Some frames of fields are due between two samples. Each of the device's field files equals the CPU's file.
 TEST_F(BatchedSamples, FramesOfFieldsAreThoseOfTheirSteps) {
   const std::string output = "fields = [\"particles\", \"contacts\"]\nevery = 45\nformat = \"vtp\"\n";
   for (const Backend backend : {Backend::cpu, Backend::cuda})
@@ -63,7 +63,7 @@ TEST_F(BatchedSamples, FramesOfFieldsAreThoseOfTheirSteps) {
   expect_same_files({"response.csv"});
 }
 
-/// A run on the device that is interrupted six times and resumed writes every sample exactly once.
+/// A run on the device is interrupted six times and resumed. It must write every sample exactly once.
 TEST_F(BatchedSamples, NoneIsLostOrDoubledByInterruptions) {
   const std::string loading = "kind = \"cyclic\"\nfrequencies = [5.0, 20.0]\ncycles = 1\n",
                     solver = "density_scaling = 1e5\n";
@@ -76,13 +76,14 @@ TEST_F(BatchedSamples, NoneIsLostOrDoubledByInterruptions) {
   expect_same_files({"response.csv"});
 }
 
-/// The points of a monotonic test are recorded at the steps at which they are due, although the device computes ahead.
+/// The points of a monotonic test are recorded at the steps at which they are due, although the device computes several
+/// samples ahead.
 TEST_F(BatchedSamples, PointsOfALoadKnowTheStepperOfTheirStep) {
   const std::string loading = "kind = \"monotonic\"\nrate = 0.01\nstrain = 4e-5\npoints = 40\n";
   for (const Backend backend : {Backend::cpu, Backend::cuda}) {
     Scene asked = scene(loading, "method = \"explicit\"\n", backend);
     asked.solver.linear =
-        LinearMethod::direct;  // the errors are measured by the processor: the fake device solves nothing
+        LinearMethod::direct;  // the processor measures the errors, because the fake device has no harmonic solver
     run(asked, out(backend == Backend::cpu ? "processor" : "device"));
   }
   expect_same_files({"monotonic.csv"});
@@ -101,8 +102,8 @@ TEST_F(BatchedSamples, TheFirstThatDivergesIsNamed) {
   EXPECT_HAS(said[0], "at t = ");
 }
 
-/// Stands in for the callback of the watcher that names devices. Each call returns the next list in `named` and records
-/// the number of steps that are left.
+/// Replaces the callback by which a run asks on which devices to continue. Each call returns the next list in `named`,
+/// and records the number of steps that are left.
 struct Asked {
   std::vector<DeviceList> named;
   std::vector<std::int64_t> steps;
@@ -116,8 +117,8 @@ struct Asked {
   }
 };
 
-/// Each frequency runs on the device that the watcher names; an empty list keeps the present device. The devices in the
-/// log are those at the start, then 0, then 1.
+/// Each frequency runs on the device that the callback names; an empty list keeps the present device. The log must name
+/// the device of the start (1), then device 0, then device 1.
 TEST_F(BatchedSamples, AFrequencyIsSteppedWhereItIsAskedFor) {
   const Environment log("FAKE_DEVICE_LOG", folder_ / "devices");
   Asked asked{{{}, {0}, {}, {1}}, {}}, never{{}, {}};
@@ -133,8 +134,8 @@ TEST_F(BatchedSamples, AFrequencyIsSteppedWhereItIsAskedFor) {
   }
 }
 
-/// If the new device is full, the run continues on its old device with the same results. A run that may only use the
-/// full device fails.
+/// If the new device has no free memory, the run continues on its old device with the same results. A run that may use
+/// only the full device fails.
 TEST_F(BatchedSamples, ADeviceThatIsFullIsNoReasonToEnd) {
   const Environment log("FAKE_DEVICE_LOG", folder_ / "devices"), full("FAKE_DEVICE_FULL", "0");
   Asked asked{{{}, {0}}, {}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_ranks_test.cpp  One specimen on several ranks gives the same bits as on one. Here the ranks are threads that
-// use one device; tests/ranks/run uses processes, MPI and NCCL.
+// device_ranks_test.cpp  One specimen on several ranks (processes that share the work) gives the same bits as on one
+// rank. Here the ranks are threads that use one device (GPU); tests/ranks/run uses processes, MPI and NCCL.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -19,7 +19,7 @@ struct Case {
   Precision precision;
   ContactForm form;
   Geometry geometry;
-  bool pushed;  // loads act on a wall and on the particles, instead of a prescribed motion
+  bool pushed;  // loads act on a wall and on the particles; otherwise the motion of a wall is prescribed
   const char* path;
 };
 
@@ -57,7 +57,8 @@ std::vector<Vec3d> list(const std::array<Vec3d, n>& of) {
   return {of.begin(), of.end()};
 }
 
-/// Several ranks take the same steps as one: walls, state, forces of particles and contacts are equal bit by bit.
+/// Several ranks take the same steps as one rank: walls, states, and forces on particles and contacts are equal bit by
+/// bit.
 TEST_P(RanksOf, TakeTheStepsOfOne) {
   const auto alone = make();
   EXPECT_HAS(alone->description(), GetParam().path);
@@ -108,7 +109,7 @@ TEST_P(RanksOf, GoOnFromACheckpointOfAnotherNumber) {
   });
 }
 
-// Makes a new stepper from a used one, as a cyclic test does for its next frequency.
+// Makes a new stepper from one that has taken steps, as a cyclic test does for its next frequency.
 TEST_P(RanksOf, BeginAnew) {
   const auto alone = make();
   alone->advance(100);
@@ -125,7 +126,7 @@ TEST_P(RanksOf, BeginAnew) {
   });
 }
 
-// Starts from the steady state of the harmonic solution, as a cyclic test does if a tolerance is given.
+// Starts from the steady state of the harmonic solution, as a cyclic test with a tolerance does.
 TEST(Ranks, BeginInTheSteadyState) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   const TestScene scene = make_scene(random_specimen(3, 16, 16, 20));
@@ -156,8 +157,8 @@ TEST(Ranks, BeginInTheSteadyState) {
   for_ranks(3, [&](Ranks& rank) { expect_same(stepped(&rank), alone); });
 }
 
-/// Expects that two ranks are refused with the message `why`. Each rank makes a stepper with options that `change`
-/// makes different, then takes 10 + more(rank) steps.
+/// Expects that two ranks are refused with the message `why`. Each rank makes a stepper, after `change` has altered the
+/// options for this rank, and takes 10 + more(rank) steps.
 void expect_refused(const std::string& why, const std::function<void(int rank, StepperOptions& options)>& change,
                     const std::function<std::int64_t(int rank)>& more) {
   const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
@@ -174,7 +175,8 @@ void expect_refused(const std::string& why, const std::function<void(int rank, S
   });
 }
 
-// Ranks that differ would wait for each other forever, or step two different specimens.
+// Ranks with different options or numbers of steps would wait for each other forever or step different specimens, so
+// they are refused.
 TEST(Ranks, ThatDifferAreRefused) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   const auto as_it_is = [](int, StepperOptions&) {};
@@ -192,7 +194,7 @@ TEST(Ranks, ThatDifferAreRefused) {
       none);
 }
 
-/// If particles of different ranks can diverge, all ranks name the same one.
+/// If particles of several ranks diverge in the same run, all ranks name the same particle.
 TEST(Ranks, NameTheFirstParticleThatDiverges) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));

@@ -15,7 +15,7 @@ class Scenes : public DeviceShares {
  public:
   Scenes(std::size_t number, DeviceList devices, int most)
       : DeviceShares(number), devices_(std::move(devices)), most_(most) {}
-  /// Returns the device of the next scene; −1 if all are full.
+  /// Returns the device of the next scene, or −1 if all devices are full.
   int next() {
     const std::optional<int> device = choose(devices_, most_);
     if (!device) return -1;
@@ -33,7 +33,7 @@ class Scenes : public DeviceShares {
 TEST(DeviceShares, GivesEachDeviceAsMany) {
   Scenes scenes(10, {0, 1, 2}, 2);
   for (const int device : {0, 1, 2, 0, 1, 2, -1}) EXPECT_EQ(scenes.next(), device);
-  scenes.end(4);  // a scene of device 1
+  scenes.end(4);  // scene 4 was on device 1
   EXPECT_EQ(scenes.next(), 1);
   EXPECT_EQ(scenes.next(), -1);
 }
@@ -44,7 +44,8 @@ TEST(DeviceShares, AnIdleDeviceComesFirstAndABusyOneLast) {
   scenes.end(0), scenes.end(2);
   EXPECT_EQ(scenes.next(), 0) << "it is idle, though it got more";
   EXPECT_EQ(scenes.next(), 1);
-  scenes.end(3);  // a scene of device 0. Device 0 got two more and now runs none; device 1 got two and runs two
+  // Scene 3 was on device 0. Device 0 has now had three scenes and runs none; device 1 has had two and runs both.
+  scenes.end(3);
   EXPECT_EQ(scenes.next(), 0);
   scenes.end(5);
   EXPECT_EQ(scenes.next(), 0);
@@ -60,7 +61,7 @@ TEST(DeviceShares, MovesNoneWhileOthersAreToCome) {
   EXPECT_EQ(scenes.go_on_with(0, 10), 1) << "no other is to come";
 }
 
-/// A scene moves to the device on which less work is left.
+/// A scene moves to the device that has less work left.
 TEST(DeviceShares, MovesToWhereLessIsLeft) {
   Scenes scenes(3, {0, 1}, 4);
   scenes.next(), scenes.next(), scenes.next();  // scenes 0 and 2 are on device 0, scene 1 on device 1
@@ -82,7 +83,7 @@ TEST(DeviceShares, MovesForNoSmallGain) {
   EXPECT_EQ(scenes.go_on_with(2, 100), 1);
 }
 
-/// A scene does not move to a device that is full or not in its list.
+/// A scene does not move to a device that is full, or to one that is not in the scene's list of devices.
 TEST(DeviceShares, MovesToNoFullAndNoForbiddenDevice) {
   Scenes full(5, {0, 1}, 2);
   for (int k = 0; k < 4; ++k) full.next();
@@ -96,8 +97,8 @@ TEST(DeviceShares, MovesToNoFullAndNoForbiddenDevice) {
   EXPECT_EQ(named.device_for_next_frequency(1, 100, 4), 7);
 }
 
-// Simulates six scenes with four frequencies of equal work each; the work differs between scenes. Each device steps its
-// scenes in turn, one frequency at a time.
+// Simulates six scenes with four frequencies each. All frequencies of a scene take the same work, but the scenes
+// differ. Each device steps its scenes in turn, one frequency at a time.
 TEST(DeviceShares, DevicesEndTogether) {
   const std::vector<double> work{40, 52, 38, 60, 45, 58};
   Scenes scenes(work.size(), {0, 1}, 4);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_team_test.cpp  One specimen on several devices gives the same bits as on one. A device that is named several
-// times takes several parts, so most of these tests need only one device.
+// device_team_test.cpp  One specimen on a team (several devices, each of which steps a part of it) gives the same bits
+// as on one device. A device that is named several times takes several parts, so most of these tests need only one
+// device.
 #include <gtest/gtest.h>
 
 #include <mutex>
@@ -13,7 +14,7 @@
 namespace macadam::test {
 namespace {
 
-/// Returns teams of 1 to 8 parts on the first device, and one of all devices.
+/// Returns teams of 1 to 8 parts on the first device, and a team of all devices.
 std::vector<DeviceList> teams() {
   std::vector<DeviceList> out;
   for (const std::size_t shares : {1u, 2u, 3u, 5u, 8u}) out.emplace_back(shares, 0);
@@ -26,7 +27,7 @@ struct Case {
   Precision precision;
   ContactForm form;
   Geometry geometry;
-  int multiprocessors;  // 0 means all; if few, the specimen does not fit into registers and shared memory
+  int multiprocessors;  // 0 means all; with a small number the specimen does not fit into registers and shared memory
   const char* path;
   bool elastic = false;
 };
@@ -61,7 +62,7 @@ TEST_P(Team, TakesTheStepsOfOneDevice) {
   for (const DeviceList& devices : teams()) {
     SCOPED_TRACE(to_string(devices));
     const auto team = make(devices);
-    // A specimen that one device streams may fit into the multiprocessors of several.
+    // If one device cannot hold the specimen in registers and shared memory, several devices together may be able to.
     const std::string path = GetParam().path;
     if (path != "tiles streamed") { EXPECT_HAS(team->description(), path); }
     if (devices.size() > 1) { EXPECT_HAS(team->description(), "devices " + to_string(devices)); }
@@ -78,7 +79,7 @@ TEST_P(Team, TakesTheStepsOfOneDevice) {
   }
 }
 
-/// A state saved by one team can be continued by another.
+/// A state saved by one team can be continued by another team.
 TEST_P(Team, GoesOnFromTheCheckpointOfAnother) {
   const auto alone = make({0});
   alone->advance(150);
@@ -94,8 +95,8 @@ TEST_P(Team, GoesOnFromTheCheckpointOfAnother) {
   expect_same(five->state(), whole);
 }
 
-// The specimens have different sizes, so that each needs another amount of shared memory. They take turns with the
-// whole device.
+// Several specimens share one device and take turns with all of its multiprocessors. Their sizes differ, so each needs
+// a different amount of shared memory.
 TEST(SideBySide, SpecimensOfOneDeviceTakeTheirOwnSteps) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   constexpr std::size_t specimens = 3;
@@ -128,7 +129,7 @@ TEST(SideBySide, SpecimensOfOneDeviceTakeTheirOwnSteps) {
   for (std::size_t k = 0; k < specimens; ++k) expect_same(together[k], alone[k]);
 }
 
-/// The harmonic solver on a team gives the same motion and number of iterations as on one device.
+/// The harmonic solver on a team finds the same motion in the same number of iterations as on one device.
 TEST(TeamHarmonic, FindsTheMotionOfOneDevice) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   for (const Specimen& specimen : {random_specimen(3, 16, 16, 20), boulders(3)}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_test.cpp  Tests the choice of the CUDA device, and for which devices a build has code.
+// device_test.cpp  Tests how the CUDA device (GPU) is chosen, and for which devices a build contains code.
 #include <gtest/gtest.h>
 
 #ifdef MACADAM_CUDA
@@ -15,7 +15,7 @@
 namespace macadam::test {
 namespace {
 
-/// Machine code serves its own generation of devices; virtual code (PTX) serves all later ones.
+/// Machine code runs on devices of its own generation; virtual code (PTX) runs on all later generations.
 TEST(DeviceCode, MachineCodeServesItsGenerationAndVirtualCodeAllLater) {
   struct Case {
     const char* list;
@@ -45,7 +45,7 @@ TEST(DeviceCode, MachineCodeServesItsGenerationAndVirtualCodeAllLater) {
   }
 }
 
-/// From 300,000 contacts on, idle devices are used in addition, if the number of contacts pays for them.
+/// A specimen of 300,000 contacts or more also uses idle devices, if it has enough contacts to gain from them.
 TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
   const std::vector<DeviceInfo> devices{{1, "A", 90, 0, 132}, {2, "A", 90, 0, 132}, {4, "A", 90, 0, 132}};
   std::vector<int> asked;
@@ -74,7 +74,7 @@ TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
   EXPECT_EQ(choose_devices(1'000'000, {}, {}, decision), DeviceList{});
 }
 
-/// Steppers for a user's own laws follow the same rules for backend and precision as Macadam's.
+/// Steppers for laws of a user choose backend and precision by the same rules as steppers for Macadam's laws.
 TEST(OwnLaws, AreResolvedAsMacadamsAre) {
   const TestScene scene = make_scene(random_specimen(1, 2, 2, 2));
   StepperOptions options = shaking_options(scene);
@@ -83,7 +83,7 @@ TEST(OwnLaws, AreResolvedAsMacadamsAre) {
                                                                              scene.laws, scene.inertia, options);
   };
   for (const Backend backend : {Backend::cpu, Backend::automatic}) {
-    // no kernels are compiled for devices, whether there is one or not
+    // no CUDA kernels are compiled for these laws, so the stepper runs on the CPU even if there is a device
     EXPECT_HAS(make(backend)->description(), "cpu");
     EXPECT_HAS(make(backend)->description(), "double");
   }
@@ -101,7 +101,7 @@ TEST(OwnLaws, AreResolvedAsMacadamsAre) {
 
 class Motion : public BackendTest<std::tuple<Backend, Precision>> {};
 
-// The arrays on a device equal what particles() returns, for each particle. A processor has no device arrays.
+// The device arrays equal what particles() returns, for each particle. A stepper on the processor has no device arrays.
 TEST_P(Motion, OnTheDeviceIsThatOfTheParticles) {
   const TestScene scene = make_scene(random_specimen(4));
   StepperOptions options = shaking_options(scene);
@@ -208,7 +208,7 @@ TEST(DeviceChoice, EveryCudaDeviceTakesTheSameSteps) {
   }
   for (std::size_t i = 0; i < steppers.size(); ++i) {
     EXPECT_EQ(steppers[i]->observe().step, 300);
-    if (report.devices[i].name != report.devices[0].name) continue;  // another type of device may have other tiles
+    if (report.devices[i].name != report.devices[0].name) continue;  // another type may divide the work otherwise
     EXPECT_EQ(steppers[i]->observe().top_force(), steppers[0]->observe().top_force());
   }
 }

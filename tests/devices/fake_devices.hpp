@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fake_devices.hpp  A fixture with two fake devices that compute on the processor (fake_plugin.cpp). They stay
-/// for the whole process, because the program looks for a backend only once.
+/// \file fake_devices.hpp  A fixture with two fake devices (GPUs), which compute on the processor (fake_plugin.cpp).
+/// The fake devices stay for the whole process, because the program looks for a backend only once.
 #pragma once
 
 #include <gtest/gtest.h>

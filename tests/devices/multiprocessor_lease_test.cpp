@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // multiprocessor_lease_test.cpp  Tests the order in which steppers and harmonic solutions get the multiprocessors of a
-// device. Events are plain addresses here, so no device is needed.
+// device (GPU). Plain addresses take the place of CUDA events here, so no device is needed.
 #include "kernels/cuda/device/multiprocessor_lease.hpp"
 
 #include <gtest/gtest.h>
@@ -19,12 +19,12 @@ using namespace std::chrono_literals;
 using Share = MultiprocessorLease::Share;
 using Event = MultiprocessorLease::Event;
 
-/// A specimen that needs the number of multiprocessors in `share` on each device; every device has 100.
+/// A specimen that requests, on each device, the number of multiprocessors in `share`; every device has 100.
 class Specimen {
  public:
   explicit Specimen(Share share) : share_(std::move(share)) {}
-  /// Requests the multiprocessors in a new thread. The result is the event on the device behind which the steps are
-  /// queued, or null if the steps wait for nothing.
+  /// Requests the multiprocessors in a new thread. The result is the event that must occur on the device before the
+  /// specimen's steps begin, or null if the steps wait for nothing.
   std::future<Event> takes() {
     return std::async(std::launch::async, [this] {
       Share all;
@@ -47,8 +47,8 @@ class Specimen {
 void nowhere(Event) {}
 bool waits(std::future<Event>& taken) { return taken.wait_for(50ms) == std::future_status::timeout; }
 
-/// While the first specimen still queues steps, the second waits. Afterwards the steps of the second are queued behind
-/// the end of those steps. Only one specimen at a time may be queued behind another.
+/// While the first specimen still queues steps, the second one waits. When the first has queued all, the steps of the
+/// second are queued behind them. Only one specimen at a time may be queued behind another.
 TEST(MultiprocessorLease, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
   Specimen a(Share{{0, 90}}), b(Share{{0, 90}}), c(Share{{0, 90}});
   EXPECT_EQ(a.takes().get(), nullptr);
@@ -95,16 +95,16 @@ TEST(MultiprocessorLease, GivesTurnsByTheSpecimensNumbers) {
   until_it_waits(4);
   std::thread large([&] { take(2, whole, 'L'); });
   until_it_waits(2);
-  std::thread late([&] { take(3, small, 's'); });  // it would fit beside the first, but it is not its turn
+  std::thread late([&] { take(3, small, 's'); });  // this specimen would fit beside the first; it must wait its turn
   until_it_waits(3);
-  take(1, other, 'o');  // another device is free
+  take(1, other, 'o');  // this request is for another device, which is free
   MultiprocessorLease::give(first);
   for (std::thread* t : {&young, &large, &late}) t->join();
   EXPECT_EQ(order, (std::vector<char>{'o', 'L', 's', 'y'}));
 }
 
-/// Specimens that fit on the device together run side by side. A third would have to wait for both, so it waits on the
-/// host.
+/// Specimens that fit on the device together run side by side. A third one would have to be queued behind both of them,
+/// so its thread waits on the host until one has finished.
 TEST(MultiprocessorLease, SmallSpecimensAreSideBySide) {
   Specimen a(Share{{2, 40}}), b(Share{{2, 40}}), c(Share{{2, 40}});
   EXPECT_EQ(a.takes().get(), nullptr);
@@ -136,8 +136,8 @@ TEST(MultiprocessorLease, SpecimensOnSeveralDevicesWaitForAllOfThem) {
   b.gives();
 }
 
-/// A harmonic solution in a new thread, which lasts until ends() is called. The result of begins() is the event behind
-/// which it is queued.
+/// A harmonic solution in a new thread, which lasts until ends() is called. begins() returns the event that the
+/// solution waits for.
 class Solution {
  public:
   explicit Solution(DeviceList devices)
@@ -162,7 +162,7 @@ class Solution {
   std::thread thread_;  // declared last, because the thread uses the other members
 };
 
-/// A solution is served before a stepper that is waiting.
+/// A harmonic solution gets the device before a stepper that is waiting.
 TEST(MultiprocessorLease, ASolutionGoesBeforeStepsThatWait) {
   Specimen a(Share{{5, 90}}), b(Share{{5, 90}});
   a.takes().get();
@@ -178,7 +178,7 @@ TEST(MultiprocessorLease, ASolutionGoesBeforeStepsThatWait) {
   b.gives();
 }
 
-/// A solution uses all multiprocessors of its devices; steppers on these devices wait.
+/// A harmonic solution uses all multiprocessors of its devices; steppers on these devices wait.
 TEST(MultiprocessorLease, ASolutionHasItsDevicesToItself) {
   Specimen small(Share{{6, 1}}), other(Share{{7, 1}}), elsewhere(Share{{8, 1}});
   Solution both({6, 7});
@@ -198,7 +198,7 @@ TEST(MultiprocessorLease, ASolutionHasItsDevicesToItself) {
 }
 
 /// A specimen cannot release its multiprocessors while another specimen is being queued behind its event. Otherwise the
-/// event could be destroyed meanwhile.
+/// event could be destroyed before the other specimen has used it.
 TEST(MultiprocessorLease, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
   Specimen a(Share{{9, 90}});
   a.takes().get();
@@ -211,7 +211,7 @@ TEST(MultiprocessorLease, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
   given.get();
 }
 
-/// If queueing behind an event fails, the solution does not keep the device.
+/// If a harmonic solution cannot be queued behind an event, it does not keep the device.
 TEST(MultiprocessorLease, WhoCannotBeQueuedHasNoRoom) {
   Specimen a(Share{{10, 90}}), b(Share{{10, 90}});
   a.takes().get();

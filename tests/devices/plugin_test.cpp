@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plugin_test.cpp  The CUDA plugin is loaded at run time if it has the right version; otherwise the program says why
-// not.
+// plugin_test.cpp  The CUDA plugin is loaded at run time if it has the right version; otherwise the program states the
+// reason.
 #include "tests/support/program.hpp"
 
 namespace macadam::test {
@@ -35,7 +35,7 @@ TEST_F(Plugin, OfThisVersionIsUsed) {
   EXPECT_TRUE(contains(run.err, "backend cuda was asked for but cannot run: paper device")) << run.err;
 }
 
-/// The plugin is found in the folder of the library, as after installation, if no variable names its folder.
+/// If no variable names the plugin's folder, the plugin is found in the folder of the library, as after installation.
 TEST_F(Plugin, BesideTheLibraryIsFound) {
   fs::create_symlink(MACADAM_LIBRARY, folder_ / fs::path(MACADAM_LIBRARY).filename());
   setenv("LD_LIBRARY_PATH", folder_.c_str(), 1);  // the dynamic linker finds the library in this folder

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ranks_program_test.cpp  Tests the program when mpirun starts it several times: which rank writes files, and that all
-// ranks end together. The device of each rank is a fake that computes on the processor and steps the whole specimen.
-// device_ranks_test.cpp and tests/ranks/run test devices that divide a specimen.
+// ranks_program_test.cpp  Tests the program when mpirun starts it as several ranks (processes that share the work):
+// which rank writes files, and that all ranks end together. The device of each rank is a fake, which computes on the
+// processor and steps the whole specimen. device_ranks_test.cpp and tests/ranks/run test devices that divide a
+// specimen.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -31,7 +32,8 @@ class RanksProgram : public Program {
     fs::create_symlink(cuda, plugins_ / "libmacadam_cuda.so");
   }
 
-  /// Returns the shell command that runs two processes. It stops them after ten minutes, which only a fault takes.
+  /// Returns the shell command that runs two processes. It stops them after ten minutes, because without a fault they
+  /// end much earlier.
   std::string command(const std::string& arguments) const {
     return fmt::format(
         "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMPI_ALLOW_RUN_AS_ROOT=1 "
@@ -81,7 +83,7 @@ TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
   std::atomic<bool> ended = false;
   std::thread told([&] {  // interrupts one of the two ranks
     const fs::path response = folder_ / "two" / "response.csv";
-    constexpr std::uintmax_t some_samples = 2000;  // bytes
+    constexpr std::uintmax_t some_samples = 2000;  // size of the file in bytes
     std::error_code error;
     const auto steps = [&] {
       const std::uintmax_t bytes = fs::file_size(response, error);
@@ -107,7 +109,7 @@ TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
   EXPECT_EQ(read(folder_ / "two" / "response.csv"), read(folder_ / "alone" / "response.csv"));
 }
 
-// An error that all ranks have is printed once.
+// An error that occurs on all ranks is printed once.
 TEST_F(RanksProgram, FailsAsOne) {
   const Outcome missing = together(fmt::format("run {} --ranks --out {}", path("none.toml"), path("two")));
   EXPECT_EQ(missing.code, 2) << missing.err;

@@ -16,9 +16,9 @@ namespace {
 
 using SharedCores = FakeDevices;
 
-// One of eight cores serves the device. The first two specimens get three each of the other seven. When the cells of
-// one of them are made, it keeps two threads. The third specimen starts with two threads: the released one and the
-// seventh.
+// The process has eight cores, and one of them serves the device. The first two specimens get three cores each. When
+// the cells of one specimen are made, this specimen keeps two cores and releases one. The third specimen starts on two
+// cores: the released one and the one that was left over.
 TEST_F(SharedCores, ASceneGivesHalfOnceItsCellsAreMade) {
   std::vector<SceneJob> jobs;
   for (std::uint64_t seed : {1, 2, 3, 4}) {
@@ -32,7 +32,8 @@ TEST_F(SharedCores, ASceneGivesHalfOnceItsCellsAreMade) {
     jobs.push_back({scene, folder_ / std::to_string(seed)});
   }
   std::array<int, 4> relaxing{}, contacts{};
-  std::vector<std::size_t> begun, made;  // jobs in the order in which they relax, and in which their cells are made
+  std::vector<std::size_t> begun,
+      made;  // jobs in the order in which they begin to relax, and in the order in which their cells are made
   std::atomic<bool> all_made = false;
   ManyOptions options;
   options.progress = [&](std::size_t job, const std::string& stage, double) {

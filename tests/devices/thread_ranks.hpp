@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file thread_ranks.hpp  Ranks that are threads of one process and use one device. Tests can run any number of them
-/// without MPI.
+/// \file thread_ranks.hpp  Ranks (usually processes that share the work) that are threads of one process and use one
+/// device. Tests can run any number of them without MPI.
 #pragma once
 
 #include <cuda_runtime.h>

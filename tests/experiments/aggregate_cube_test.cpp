@@ -14,8 +14,8 @@
 namespace macadam::test {
 namespace {
 
-// A cubic lattice consists of independent columns of springs. The gauge modulus (middle of the height) is E for any
-// wall modulus. The modulus between the walls also contains the two wall contacts.
+// A cubic lattice consists of independent columns of springs. The gauge modulus, from the strain in the middle of the
+// height, is E for any wall modulus. The modulus between the walls also contains the two wall contacts.
 TEST(AggregateCube, GaugeOfALatticeIsExact) {
   constexpr double E = 2e10, side = 2e-3;
   Specimen s;
@@ -27,7 +27,7 @@ TEST(AggregateCube, GaugeOfALatticeIsExact) {
   s.body.assign(s.centre.size(), 0);
   for (const double wall : {1.0, 3.0}) {
     const CubeModulus m = cube_modulus(s, {E, inner_alpha}, wall * E);
-    // The wall contacts span half a side at each wall, together a tenth of the height.
+    // Each wall contact spans half a cell of the lattice; both together span a tenth of the height.
     EXPECT_NEAR(m.walls / E, 1 / (0.9 + 0.1 / wall), 1e-9);
     EXPECT_NEAR(m.gauge / E, 1, 1e-9);
     EXPECT_NEAR(m.poisson, 0, 1e-9);
@@ -39,9 +39,10 @@ struct Case {
   CubeFilling filling;
   double gauge, walls;  ///< recorded means over twenty seeds [Pa]
   double deviation;     ///< the larger of the standard deviations of gauge and walls among the seeds [Pa]
-  unsigned seeds;  ///< number of seeds used here; a cube of coarse spheres costs a tenth of a fine one and scatters
-                   ///< three times as much
-  double contact_modulus;  ///< contact modulus with which the aggregate has 60 GPa; the one of [1] if it does so [Pa]
+  unsigned seeds;  ///< number of seeds used here; a coarse cube takes a tenth of the time of a fine one, and its moduli
+                   ///< scatter three times as much
+  double contact_modulus;  ///< contact modulus that gives the cube the rock's 60 GPa; the modulus of [1] if that one
+                           ///< does [Pa]
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.spheres->name << ", " << to_string(c.filling); }
@@ -71,19 +72,21 @@ INSTANTIATE_TEST_SUITE_P(All, CubeOfSpheres, testing::ValuesIn(cases()), [](cons
   return std::string(info.param.spheres->name) + "_" + to_string(info.param.filling);
 });
 
-// With the contact moduli of [1] the cube must have the 60 GPa of the rock. Under uniform strain, with facets in all
-// directions equally often, a large specimen of these contacts has 59.7 GPa (fine) or 59.2 GPa (coarse); relaxation
-// lowers this by a few per cent. Tolerance: 3 %, and four standard deviations of the mean over the seeds.
+// With the contact moduli of [1] the cube must have Young's modulus of the rock, 60 GPa. If the strain were uniform and
+// facets had all directions equally often, a large cube would have 59.7 GPa (fine spheres) or 59.2 GPa (coarse). The
+// particles move away from uniform strain until they are in equilibrium, which lowers the modulus by a few per cent.
+// Tolerance: 3 % plus four standard deviations of the mean over the seeds.
 TEST_P(CubeOfSpheres, HasTheRocksModulusAndUniformStrainsPoissonRatio) {
   const Case& c = GetParam();
   const CubeModulus mean = mean_modulus(c, c.spheres->contact_modulus, test_seed(), c.seeds);
   const double scatter = 4 * c.deviation / std::sqrt(c.seeds);
   EXPECT_NEAR(mean.gauge, aggregate_modulus, 0.03 * aggregate_modulus + scatter);
   EXPECT_LT(mean.gauge, uniform_strain_modulus(inner_alpha) * c.spheres->contact_modulus + 0.03 * mean.gauge + scatter);
-  // The layers of contacts at the walls are stiffer: a wall contact has the modulus of its spring, not that of the
-  // packing.
+  // The layers of contacts at the walls are stiffer than the rest of the cube: a wall contact has the modulus of its
+  // spring, which is larger than the modulus of the packing.
   EXPECT_GT(mean.walls, mean.gauge);
-  // Uniform strain gives (1 − α)/(4 + α) = 0.235. Relaxation lowers the shear modulus and so raises this ratio.
+  // Uniform strain gives (1 − α)/(4 + α) = 0.235. In equilibrium the shear modulus is lower, so Poisson's ratio is
+  // higher.
   EXPECT_NEAR(mean.poisson, (1 - inner_alpha) / (4 + inner_alpha), 0.04);
 
   // Regression: compares with the recorded means of twenty cubes in docs/aggregate-cube.md. The bound is four standard
@@ -95,8 +98,9 @@ TEST_P(CubeOfSpheres, HasTheRocksModulusAndUniformStrainsPoissonRatio) {
   EXPECT_NEAR(mean.poisson, 0.25, 0.02);  // recorded: 0.245 to 0.260, ± 0.006 among seeds
 }
 
-/// Returns the stress over the strain between the walls for the affine field u = (a·x, b·y, c + d·z) of least energy.
-/// This is an upper bound for the modulus of any elastic network. It uses the matrices of the reference implementation.
+/// Returns the stress over the strain between the walls for the affine field u = (a·x, b·y, c + d·z) with the least
+/// energy. This stress over strain is an upper bound for the modulus of any elastic network. The function uses the
+/// matrices of the reference implementation.
 double affine_modulus(const TestScene& scene) {
   const Specimen& s = scene.specimen;
   const reference::Stiffness stiffness = reference::assemble_stiffness(scene.network, scene.laws, s.size());
@@ -123,19 +127,20 @@ TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
   laws[static_cast<std::size_t>(PairType::aw)] = laws::Elastic{paper_wall_modulus, 0};
   const TestScene scene = make_scene(cube, {}, laws);
   const double found = cube_modulus(cube, inner).walls;
-  // Residuals are 1e-11 (harmonic) and 1e-12 (reference); the conditioning of the system enlarges them.
+  // The residuals are 1e-11 (harmonic) and 1e-12 (reference). The error of the modulus may be larger by the condition
+  // number of the system.
   EXPECT_NEAR(found / reference_static_modulus(cube, scene.network, laws), 1, 1e-9);
   const double affine = affine_modulus(scene);
   fmt::print("{} spheres: {:.4f} of the modulus of uniform strain, which is {:.4f} of the inner modulus\n", cube.size(),
              found / affine, affine / inner.E);
   EXPECT_LT(found, affine);
-  // Regression: relaxation lowers the modulus of the recorded cubes by 4 to 10 %, most in cubes with layers of flat
-  // facets along the walls.
+  // Regression: in equilibrium the modulus of the recorded cubes is 4 to 10 % below that of affine strain. The
+  // difference is largest in cubes with layers of flat facets along the walls.
   EXPECT_GT(found, 0.85 * affine);
 }
 
-// Regression with fixed seeds: the contact modulus `c.contact_modulus` gives the rock's 60 GPa. It is the modulus of
-// [1], except for coarse cubes filled as shapes, for which we determined our own.
+// Regression with fixed seeds: the contact modulus `c.contact_modulus` gives the cube the rock's 60 GPa. It is the
+// modulus of [1], except for coarse cubes filled as shapes, for which we determined another value.
 TEST_P(CubeOfSpheres, HasTheModulusOfTheAggregate) {
   if (!long_tests) GTEST_SKIP() << "the same code as above, for other numbers";
   const Case& c = GetParam();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoint_test.cpp  A run in pieces gives the same bits as a run in one. A run does not resume from the checkpoint
-// of another run.
+// checkpoint_test.cpp  A run that is interrupted and resumed gives the same bits as an uninterrupted run. A run does
+// not resume from the checkpoint of another run.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -25,7 +25,8 @@ namespace {
 constexpr const char* steady = "frequencies = [10.0, 20.0]\nstart = \"steady\"\nsamples_per_cycle = 40\n";
 constexpr const char* rest = "frequencies = [20.0]\ncycles = 3\nramp_cycles = 1\nsamples_per_cycle = 40\n";
 
-/// File size limit [bytes] under which all files of a run fit except its checkpoint, which is ten times larger.
+/// Limit of the size of a file [bytes]. The checkpoint of a run is larger than this limit; all its other files are
+/// smaller.
 constexpr rlim_t enough_for_the_rest = 40'000;
 
 class CheckpointedRun : public TestFolder {
@@ -69,7 +70,7 @@ class CheckpointedRun : public TestFolder {
   }
 };
 
-/// Parameters: the lines of loading, solver and output of a scene.
+/// Parameters: the lines of [loading], [solver] and [output] of a scene.
 struct InPieces : CheckpointedRun, testing::WithParamInterface<std::tuple<const char*, const char*, const char*>> {
   static std::string name_of(const testing::TestParamInfo<ParamType>& info) {
     const auto& [loading, solver, output] = info.param;
@@ -78,8 +79,8 @@ struct InPieces : CheckpointedRun, testing::WithParamInterface<std::tuple<const 
   }
 };
 
-/// The run is interrupted six times at different places and resumed. Its files must equal those of an uninterrupted
-/// run.
+/// The run is interrupted six times, each time at a different place, and resumed. Its files must equal those of an
+/// uninterrupted run.
 TEST_P(InPieces, GivesTheBitsOfOne) {
   const auto [loading, solver, output] = GetParam();
   const Scene scene = this->scene(loading, solver, output);
@@ -104,8 +105,8 @@ INSTANTIATE_TEST_SUITE_P(CheckpointedRun, InPieces,
                                           testing::Values("", "response = false\n")),
                          InPieces::name_of);
 
-// Checkpoints are written at time intervals. A copy of the folder made during the run equals the state after a kill at
-// that moment, and can be resumed.
+// Checkpoints are written at time intervals. A copy of the folder that is made during the run equals the folder after a
+// kill at that moment. The run can be resumed from this copy.
 TEST_F(CheckpointedRun, KeepsCheckpointsByTheClock) {
   const Scene scene = this->scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
   int copies = 0;
@@ -128,8 +129,8 @@ TEST_F(CheckpointedRun, KeepsCheckpointsByTheClock) {
   run(seldom, out("none"), watcher);
 }
 
-/// Every difference between the scene and the checkpoint, or a missing checkpoint, is refused with a message that names
-/// it; the files stay unchanged.
+/// If the scene differs from the checkpoint in anything, or the checkpoint is missing, the run is refused. The message
+/// names the difference, and the files stay unchanged.
 TEST_F(CheckpointedRun, AnythingElseIsRefusedAndNamed) {
   const Scene scene = this->scene(steady);
   EXPECT_HAS(refusal(scene, "nowhere"), "no such file");
@@ -236,15 +237,15 @@ TEST_F(CheckpointedRun, WhereTheNewestIsDamagedTheOneBeforeIsGoneOnWith) {
     EXPECT_TRUE(read(out("out") / "response.csv") == read(out("one") / "response.csv"));
     for (const fs::path& gone : {file("out"), previous}) EXPECT_FALSE(fs::exists(gone)) << gone;
   }
-  // If both are damaged, the message names the newest.
+  // If both checkpoints are damaged, the message names the newest.
   ASSERT_TRUE(run_until(scene, "out", 20, false));
   write(file("out"), "nonsense");
   write(previous, "nonsense");
   EXPECT_HAS(refusal(scene, "out"), "checkpoint.h5: checkpoint: found another kind of file");
 }
 
-/// A correct checksum does not make the content of an HDF5 file valid: wrong counts, and links to other files, are
-/// refused.
+/// A correct checksum does not make the content of an HDF5 file valid. A checkpoint with wrong counts, or with links to
+/// other files, is refused.
 TEST_F(CheckpointedRun, ForgedCountsAndLinksAreRefused) {
   const auto refused = [&](const std::function<void(const H5::Group&, const H5::Group&)>& forge, const char* word) {
     const fs::path file = folder_ / "forged.h5";
@@ -293,8 +294,8 @@ TEST_F(CheckpointedRun, AKillWhileWritingLeavesTheOldOrTheNewOne) {
   EXPECT_HAS(message_of([&] { write_checkpoint(folder_ / "no" / "checkpoint.h5", checkpoint); }), "cannot be written");
 }
 
-/// If the disk is full, a run warns, goes on without checkpoints and leaves the old one intact. Later it can be
-/// resumed.
+/// If the disk is full, a run gives a warning and goes on without writing checkpoints. It keeps the old checkpoint,
+/// from which it can be resumed later.
 TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
   const Scene scene = this->scene(steady);
   ASSERT_TRUE(run_until(scene, "out", 20, false));
@@ -335,7 +336,7 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
   expect_same("out", "one");
 }
 
-/// Warnings are kept in the checkpoint, so a resumed run reports them again.
+/// Warnings are kept in the checkpoint, so that a resumed run reports them again.
 TEST_F(CheckpointedRun, KeepsItsWarningsWhereItGoesOn) {
   const Scene often = scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
   std::optional<FileLimit> limit(std::in_place, enough_for_the_rest);
@@ -376,8 +377,8 @@ TEST_F(CheckpointedRun, AFinishedRunRemovesItsOwnCheckpointOnly) {
   EXPECT_TRUE(read(file("out")) == kept);
 }
 
-// A device that steps in another way has other state arrays; here one array is renamed. Such a checkpoint is refused
-// before any result file changes.
+// A device that steps in another way stores other state arrays in its checkpoint. The test imitates this by renaming
+// one array. Such a checkpoint is refused before any result file changes.
 TEST_F(CheckpointedRun, AnotherMachinesCheckpointIsRefusedBeforeAnythingIsTouched) {
   const Scene scene = this->scene(steady);
   run(scene, out("out"));
@@ -393,7 +394,8 @@ TEST_F(CheckpointedRun, AnotherMachinesCheckpointIsRefusedBeforeAnythingIsTouche
   EXPECT_TRUE(read(out("out") / "summary.json") == all);
 }
 
-// The HDF5 part starts behind a user block, at another base address. HDF5's own library still reads it.
+// In a checkpoint, the HDF5 data start after a user block, so their base address is not 0. HDF5's own library must
+// still read the file.
 TEST_F(CheckpointedRun, IsAnHdf5FileForAnyReader) {
   write_checkpoint(folder_ / "checkpoint.h5", {{{"text", "words"}}, {{"numbers", "m", std::vector<double>{1, 2}}}});
   const H5::H5File in((folder_ / "checkpoint.h5").string(), H5F_ACC_RDONLY);
@@ -402,7 +404,8 @@ TEST_F(CheckpointedRun, IsAnHdf5FileForAnyReader) {
   EXPECT_EQ(values[1], 2);
 }
 
-/// `checkpoint` in the scene sets the interval; the reference backend cannot write checkpoints and refuses.
+/// The key `checkpoint` in the scene sets the time between checkpoints. The reference backend cannot write checkpoints,
+/// so it refuses the key.
 TEST_F(CheckpointedRun, SceneSaysHowOftenAndTheReferenceRefuses) {
   EXPECT_FALSE(scene(rest).output.checkpoint);
   EXPECT_EQ(scene(rest, "", "checkpoint = \"10 min\"\n").output.checkpoint, 600.0);
@@ -447,7 +450,8 @@ TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
   const std::uintmax_t whole = size_of("one");
   bool resume = false;
   for (const int signal : {SIGTERM, SIGINT}) {
-    const std::uintmax_t wanted = size_of("out") + whole / 6;  // more than a resumed run rewrites before its first step
+    const std::uintmax_t wanted =
+        size_of("out") + whole / 6;  // bytes; this is more than a resumed run rewrites before its first step
     const pid_t child = start("out", resume);
     while (size_of("out") < wanted && waitpid(child, nullptr, WNOHANG) == 0) usleep(1000);
     ASSERT_EQ(kill(child, signal), 0) << "it was done before it could be interrupted";

@@ -23,7 +23,7 @@ using experiments::SteppedResponse;
 /// Strength and modulus of the bonds [Pa]; contacts with walls have the same modulus.
 constexpr double strength = 1e5, modulus = 1e9;
 
-/// Returns the fields of the lines of a CSV file after the line `head`.
+/// Returns the lines of a CSV file that follow the line `head`, each as a list of its fields.
 std::vector<std::vector<std::string>> rows_of(const std::string& text, const std::string& head) {
   std::vector<std::vector<std::string>> out;
   std::istringstream in(text);
@@ -57,7 +57,7 @@ class CracksOfATest : public TestFolder {
                     0.01 * spheres, loading, more));
     return read_scene(folder_ / "column.toml");
   }
-  /// Returns the loading of a test at a constant rate until the specimen breaks.
+  /// Returns the loading of a tensile test at a constant rate that ends when the specimen breaks.
   static std::string pulled(int points) {
     return fmt::format("kind = \"monotonic\"\nrate = 0.1\nstrain = 2e-3\npoints = {}\n", points);
   }
@@ -97,8 +97,8 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
   const auto& found = std::get<SteppedResponse>(result.found);
   ASSERT_TRUE(found.rupture);
   ASSERT_LT(found.points.size(), 200u) << "the test ends where the column is in two";
-  // Damping adds 0.1 to 0.3 % of the strength to the stress at the top wall. The peak is determined between the points,
-  // which are 0.75 % apart.
+  // Damping adds 0.1 to 0.3 % of the strength to the stress at the top wall. The peak of the stress is determined
+  // between two points, which are 0.75 % apart.
   ASSERT_TRUE(found.peak);
   EXPECT_NEAR(found.peak->stress_pa / strength, 1, 3e-3);
   EXPECT_NEAR(found.peak->strain / (strength / modulus), 1, 3e-3);
@@ -157,9 +157,10 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
   EXPECT_EQ(frames, 4);
 }
 
-// The wall pulls in the second half of a cycle with 1.5 times the strain at which the bonds break. It reaches this
-// strain at sin(2πft) = −2/3, which is at 0.6161 of the first cycle. Waves of the abrupt start change the strain of the
-// bonds by up to 2πfAH/c = 8 % of the amplitude at the higher frequency.
+// In the second half of a cycle the wall pulls with an amplitude of 1.5 times the strain at which the bonds break. It
+// reaches this strain at sin(2πft) = −2/3, which is at 0.6161 of the first cycle. The abrupt start causes waves, which
+// change the strain of the bonds by up to 2πfAH/c = 8 % of the amplitude A at the higher frequency (H: height, c: wave
+// speed).
 TEST_F(CracksOfATest, ACyclicTestThatBreaksTheSpecimenEndsTheFrequency) {
   const RunResult result =
       run(column(4, "kind = \"cyclic\"\nfrequencies = [100.0, 200.0]\nstrain_amplitude = 1.5e-4\n"), out("out"));
@@ -167,7 +168,7 @@ TEST_F(CracksOfATest, ACyclicTestThatBreaksTheSpecimenEndsTheFrequency) {
   const nlohmann::json all = summary("out");
   const auto events = rows_of(read(out("out") / "cracks.csv"), std::string("frequency_hz,") + crack_head);
   ASSERT_EQ(events.size(), 10u);
-  // the first says that the law has no complex stiffness
+  // the first warning says that the law has no complex stiffness
   ASSERT_EQ(all.at("warnings").size(), 3u) << all.at("warnings");
   for (std::size_t i = 0; i < 2; ++i) {
     const experiments::SteppedFrequency& f = result.stepped().frequencies[i];
@@ -201,7 +202,7 @@ TEST_F(CracksOfATest, ACyclicTestThatBreaksTheSpecimenEndsTheFrequency) {
 }
 
 /// A cyclic test below the strength breaks nothing and measures the modulus of the bonds. The inertia of the column
-/// changes it by less than (2πfH/c)² = 0.13 %.
+/// changes this modulus by less than (2πfH/c)² = 0.13 % (H: height, c: wave speed).
 TEST_F(CracksOfATest, ACyclicTestBelowTheStrengthBreaksNoBond) {
   const RunResult result =
       run(column(4, "kind = \"cyclic\"\nfrequencies = [100.0]\nstrain_amplitude = 5e-5\n"), out("out"));
@@ -282,8 +283,8 @@ TEST_F(CracksOfATest, ALaterSceneWithoutBondsLeavesNoCracks) {
   EXPECT_EQ(read(out("out") / "monotonic.csv").find("broken_points"), std::string::npos);
 }
 
-// In a specimen that breaks gradually, all backends count the same numbers of broken points. The backends differ in
-// stress by about 1e-13, so a point could break at another sample only if its stress came that close to the strength.
+// In a specimen that breaks gradually, all backends count the same numbers of broken points. Their stresses differ by a
+// fraction of about 1e-13. So a point could break at another sample only if its stress came that close to the strength.
 TEST_F(CracksOfATest, EveryBackendCountsTheSame) {
   Scene asked = bonded();
   const auto found = [&](Backend backend) {
@@ -309,7 +310,7 @@ TEST_F(CracksOfATest, EveryBackendCountsTheSame) {
   }
 }
 
-/// The number of threads and interruptions do not change the files, bit by bit.
+/// The bytes of the files depend neither on the number of threads nor on interruptions.
 TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   const Scene asked = bonded("threads = 1\n", 200);
   run(asked, out("one"));
@@ -327,7 +328,7 @@ TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   expect_same("two");
 }
 
-/// The forecast of the size of cracks.csv follows from the number of contacts that can break.
+/// The forecast computes the size of cracks.csv from the number of contacts that can break.
 TEST_F(CracksOfATest, TheForecastOfTheListFollowsFromTheContacts) {
   const Scene asked = bonded();
   const auto bytes = [](const Scene& scene) {
@@ -337,7 +338,7 @@ TEST_F(CracksOfATest, TheForecastOfTheListFollowsFromTheContacts) {
   };
   run(asked, out("out"));
   EXPECT_NEAR(std::log(bytes(asked) / static_cast<double>(fs::file_size(out("out") / "cracks.csv"))), 0, std::log(2));
-  // the column has 4 spheres, t8 has 175
+  // the column has 4 spheres, t8 has 175 particles
   const Scene small = column(4, "kind = \"monotonic\"\nrate = 0.002\nstrain = 1.5e-4\npoints = 200\n");
   EXPECT_LT(bytes(small), 0.05 * bytes(asked));
 }

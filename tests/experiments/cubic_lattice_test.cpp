@@ -31,8 +31,8 @@ Specimen lattice(int nx, int ny, int nz, double radius) {
   return out;
 }
 
-// The lattice consists of columns of springs: E·A/side between spheres and E·A/(side/2) at the walls. Their series
-// gives E over the whole height. Sizes are not powers of two, so that coordinates round.
+// The lattice consists of columns of springs: E·A/side between spheres and E·A/(side/2) at the walls. In series they
+// give the modulus E over the whole height. Sizes are not powers of two, so that coordinates are rounded.
 TEST(CubicLattice, StaticModulusIsE) {
   for (const auto& [nx, ny, nz] : {std::tuple{1, 1, 1}, {1, 1, 7}, {3, 3, 5}, {6, 5, 7}, {10, 10, 11}}) {
     for (const double radius : {0.4 * side, 0.5 * side, 0.6 * side}) {  // spheres apart, touching, overlapping

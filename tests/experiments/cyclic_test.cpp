@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cyclic_test.cpp  Tests the evaluation of cyclic tests with signals of known |E*| and φ. Then tests the loading of
-// cyclic tests.
+// cyclic_test.cpp  Tests how cyclic tests are evaluated, with signals of known |E*| and φ. Then tests the prescribed
+// motion of cyclic tests.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ TEST(EvaluateCyclic, SinusoidsAreReadToRounding) {
   }
 }
 
-// Large strains add a second harmonic to the stress. It is not orthogonal to the linear trend: unless both are fitted
+// Large strains add a second harmonic to the stress. It is not orthogonal to the linear trend. Unless both are fitted
 // together, a second harmonic of amplitude h changes the fundamental by −0.78·h over one cycle.
 TEST(EvaluateCyclic, ASecondHarmonicDoesNotLeak) {
   for (const int cycles : {1, 2, 4}) {
@@ -71,8 +71,8 @@ TEST(EvaluateCyclic, ASecondHarmonicDoesNotLeak) {
   }
 }
 
-// The product t·f has a rounding error of ε·t·f. After 1e5 cycles this is a phase error of 2π·1e-11, in strain and
-// stress.
+// The product t·f has a rounding error of ε·t·f. After 1e5 cycles this is a phase error of 2π·1e-11, both in strain and
+// in stress.
 TEST(EvaluateCyclic, LateCyclesAreAsGood) {
   Signal signal;
   signal.first_cycle = 1e5;
@@ -99,7 +99,7 @@ TEST(EvaluateCyclic, NoiseMovesTheFitByItsShare) {
   const double samples = 2.0 * signal.per_cycle, deviation = 0.05 * std::sqrt(2 / samples);
   expect_stiffness(found.fit, signal.phase_deg, 5 * deviation, 5 * deviation);
   EXPECT_NEAR(found.fit_rms, 0.05, 5 * 0.05 / std::sqrt(2 * samples));
-  // peaks are more sensitive to noise, which is why the fit is used
+  // peaks are more sensitive to noise, so results come from the fit
   EXPECT_GT(std::abs(found.peaks.e_star_pa / modulus - 1), 5 * deviation);
 }
 
@@ -149,7 +149,8 @@ TEST(EvaluateCyclic, PeaksAtTheEndOfACycleAreAsGood) {
   }
 }
 
-// Without the last half cycle, the signal ends at a crest of stress, three quarters of a cycle after that of strain.
+// Without its last half cycle, the signal ends at a crest of stress, three quarters of a cycle after the crest of
+// strain.
 TEST(EvaluateCyclic, PeaksOfCrestsOfTwoCyclesAreAsGood) {
   for (const int per_cycle : {50, 500}) {
     for (const double phase : {89.9, 90.0}) expect_peaks_good_to_the_sampling(phase, per_cycle, per_cycle / 2);
@@ -211,7 +212,7 @@ TEST(EvaluateCyclic, TooLittleIsAnError) {
   EXPECT_NE(refused(all, NAN, 1), "accepted");
 }
 
-// The loading of a cyclic test.
+// Tests of the prescribed motion of a cyclic test.
 
 drives::Cyclic loading_of(std::int64_t steps_per_period, std::int64_t ramp_steps) {
   drives::Cyclic out;
@@ -234,8 +235,9 @@ TEST(CyclicLoading, VelocityIsTheMeanRateOfDisplacement) {
   }
 }
 
-// During the smooth start the rate of the product r·sin is computed from its factors at the middle of the step. The
-// error is Δt³ per step, hence Δt² at the end of the start, and constant afterwards.
+// During the smooth start the displacement is a growing factor r(t) times a sine. The velocity is computed from r and
+// the sine at the middle of the step. Each step adds an error of order Δt³, so the displacement has an error of order
+// Δt² at the end of the start, which stays constant afterwards.
 TEST(CyclicLoading, VelocityDuringTheSmoothStartIsOfSecondOrder) {
   std::vector<double> errors;
   for (const std::int64_t n : {100, 200, 400}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // experiments_test.cpp  Runs relaxation, creep, constant rates and sweeps as a user does. Compares the results with
-// numerical inversions of full solutions and with the harmonic solver, and checks the files.
+// numerical Laplace inversions of solutions of the whole network and with the harmonic solver, and checks the files.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 class Experiments : public Program {
  protected:
-  /// Runs an experiment on the 175 particles and returns the text of its file.
+  /// Runs an experiment on the 175 particles of t8 and returns the text of its file.
   std::string run_t8(const std::string& loading, const std::string& file, const std::string& solver = "") const {
     const fs::path scene = write_scene_of(loading, solver);
     const Outcome outcome = run_quick("out");
@@ -52,7 +52,7 @@ std::vector<std::map<std::string, double>> rows_of(const std::string& text) {
   return out;
 }
 
-/// Computes E*(s) of the 175 particles with the harmonic solver, a full solution for each s.
+/// Computes E*(s) of the 175 particles of t8 with the harmonic solver. Every s takes a solution of the whole network.
 class FullSolutions {
  public:
   explicit FullSolutions(const fs::path& scene) : scene_(read_scene(scene)), prepared_(prepare(scene_)) {}
@@ -90,7 +90,8 @@ TEST_F(Experiments, RelaxationIsTheInversionOfFullSolutions) {
   EXPECT_EQ(summary("out").at("solver").at("method"), "harmonic");
 }
 
-/// The strain of creep and recovery is the inversion of 1/(s·E*(s)), superposed for load and release.
+/// The strain of creep is the inverse Laplace transform of 1/(s·E*(s)). For recovery the strains of load and release
+/// are added.
 TEST_F(Experiments, CreepGrowsAndRecovers) {
   const std::string loading =
       "kind = \"creep\"\nstress = \"-0.1 MPa\"\nrelease = \"1 s\"\ntimes = [1e-3, 0.9, 1.01, 10]\n";
@@ -115,7 +116,7 @@ TEST_F(Experiments, RampsTakeTheirTime) {
   const double expected[] = {0.5e5, 1e5, 1e5, 0.5e5, 0};
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(rows[i].at("stress_pa"), expected[i], 1e-10);
   const FullSolutions modulus(folder_ / "scene.toml");
-  // strain per stress; the stress has the transform 1/(s²·ramp), minus the same function from the end of the ramp on
+  // strain per stress; the stress of a ramp has the transform 1/(s²·ramp), less the same function delayed by the ramp
   const auto ramp = [&](double t) {
     const auto grows = [&](double since) {
       return since <= 0 ? 0 : talbot([&](Complex s) { return 1.0 / (0.5 * s * s * modulus(s)); }, since, 18);
@@ -129,7 +130,7 @@ TEST_F(Experiments, RampsTakeTheirTime) {
   }
 }
 
-/// The stress under a constant rate is the inversion of E*(s)/s².
+/// The stress under a constant rate is the inverse Laplace transform of E*(s)/s².
 TEST_F(Experiments, ConstantRatesIntegrateTheRelaxation) {
   const auto rows =
       rows_of(run_t8("kind = \"monotonic\"\nrate = \"-1e-5 1/s\"\ntimes = [1e-3, 0.1, 10]\n", "monotonic.csv"));
@@ -184,7 +185,7 @@ TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
   EXPECT_NEAR(shares, 1, 1e-12);
   const auto kelvin = rows_of(text("out/kelvin.csv"));
 
-  // Fractions and relaxation times of both finite-element tables, in their order.
+  // Fractions and relaxation times in the tables for Abaqus and for Ansys, in their order.
   std::vector<double> abaqus, ansys;
   double instantaneous = 0;
   const auto abaqus_lines = lines_of(text("out/prony_abaqus.inp"));
@@ -217,7 +218,7 @@ TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
   ASSERT_EQ(abaqus.size(), 2 * (prony.size() - 1));
   double sum = 0;
   for (std::size_t i = 0; i < abaqus.size(); i += 2) sum += abaqus[i];
-  EXPECT_LT(sum, 1);  // the programs refuse a sum of 1
+  EXPECT_LT(sum, 1);  // the finite-element programs refuse fractions that add up to 1
 
   for (const auto& row : rows) {
     const double t = row.at("time_s"), expected = row.at("modulus_pa");
@@ -225,7 +226,7 @@ TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
     for (const auto& unit : prony) series += unit.at("modulus_pa") * std::exp(-t / unit.at("time_s"));
     for (std::size_t i = 0; i < abaqus.size(); i += 2) elements -= abaqus[i] * -std::expm1(-t / abaqus[i + 1]);
     EXPECT_NEAR(series / expected, 1, 1.01 * asked) << t;
-    // The table has ten digits, and the sum is 1e-8 below 1.
+    // The table has ten digits, and its fractions add up to 1 − 1e-8.
     EXPECT_NEAR(instantaneous * elements, expected, 1.01 * asked * expected + 2e-8 * instantaneous) << t;
     for (const auto& unit : kelvin) {
       const bool maxwell = std::isnan(unit.at("time_s"));
@@ -250,7 +251,7 @@ TEST_F(Experiments, HeldSidesAreSaid) {
   EXPECT_EQ(result.at("sides"), "held");
   EXPECT_EQ(summary("out").at("warnings").size(), 2u);
   EXPECT_TRUE(contains(text("out/prony.csv"), "confined modulus"));
-  // these programs would take a confined modulus for a uniaxial one
+  // a finite-element program would take a confined modulus for a uniaxial one
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_abaqus.inp"));
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_ansys.txt"));
 
@@ -265,7 +266,8 @@ TEST_F(Experiments, HeldSidesAreSaid) {
   }
 }
 
-// stepped_load_test checks the numbers. Here the command is run, and its files and messages are checked.
+// stepped_load_test checks the numbers of stepped tests. Here the command is run, and its files and messages are
+// checked.
 TEST_F(Experiments, AreSteppedWhereTheSceneAsksForIt) {
   const std::string steps = "method = \"explicit\"\ndensity_scaling = 25\n";
   for (const auto& [kind, load, columns, shown] :

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_rules_test.cpp  Compares the cycles and steps of the forecast with the plan of the run, and the forecast's
-// list of files with the files that runs of every kind and method write.
+// forecast_rules_test.cpp  Compares the cycles and steps in the forecast of `macadam check` with the plan of the run.
+// Compares the forecast's list of files with the files that runs of every kind and method write.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +16,10 @@
 namespace macadam::test {
 namespace {
 
-/// Logarithm of the largest factor between forecast and plan if the time step is estimated. The estimate uses the
-/// smallest sphere and the stiffest contact beside it. For t8, whose spheres the walls cut, it is 2.07 times too small.
-/// A bound of 2 would need the areas of the contacts, which a forecast does not have because it makes no cells.
+/// Logarithm of the largest allowed factor between the numbers of steps in forecast and plan, if the forecast estimates
+/// the time step. The estimate uses the smallest sphere and the stiffest contact beside it. In t8 the walls cut
+/// spheres, and the estimated step is 2.07 times too small. A bound of 2 would need the areas of the contacts, which a
+/// forecast does not have because it makes no cells.
 const double estimated_step = std::log(2.5);
 
 class ForecastRules : public TestFolder {
@@ -29,8 +30,8 @@ class ForecastRules : public TestFolder {
 };
 
 // A forecast has no contacts, so it estimates the critical step, a part of the density scaling and the modulus of the
-// slowest wave. Numbers of steps that depend on these are within a factor of two; with a given time step they are
-// exact.
+// slowest wave. Numbers of steps that depend on these estimates are within a factor of 2.5 of the plan; with a given
+// time step they are exact.
 TEST_F(ForecastRules, CyclesAndStepsOfACyclicTestAreThoseOfItsPlan) {
   const std::string twenty = "kind = \"cyclic\"\nfrequencies = [20.0, 2.0]\n";
   struct Case {
@@ -71,7 +72,7 @@ TEST_F(ForecastRules, CyclesAndStepsOfACyclicTestAreThoseOfItsPlan) {
   }
 }
 
-/// Compares the forecast's number of steps with the plan in the same way for relaxation, creep and constant rates.
+/// For relaxation, creep and constant rates the forecast's number of steps agrees with the plan in the same way.
 TEST_F(ForecastRules, StepsOfALoadAreThoseOfItsPlan) {
   const std::string times = "times = [1e-2, 5e-2]\n", method = "method = \"explicit\"\n";
   for (const std::string& loading :
@@ -176,8 +177,8 @@ TEST_F(ForecastRules, FilesOfAMadeSpecimen) {
   }
 }
 
-// Soft contacts beside stiff ones slow the iterative solver down, until the direct solver replaces it, which needs more
-// memory.
+// Soft contacts beside stiff ones slow the iterative solver down. If they are soft enough, the forecast expects the
+// direct solver instead, which needs more memory.
 TEST_F(ForecastRules, SoftScenesTakeLonger) {
   const auto of = [&](const char* frequency, const char* linear = "auto") {
     return forecast(scene(fmt::format("kind = \"cyclic\"\nfrequencies = [{}]\n", frequency),
@@ -189,8 +190,8 @@ TEST_F(ForecastRules, SoftScenesTakeLonger) {
   EXPECT_EQ(of("10.0", "direct").host_bytes, of("1e-9").host_bytes);
 }
 
-// Heat softens the viscoelastic contacts, which slows the iterative solver down. A temperature of [loading] does the
-// same as the same temperature of [materials].
+// Heat softens the viscoelastic contacts, which slows the iterative solver down. The same temperature gives the same
+// forecast in [loading] as in [materials].
 TEST_F(ForecastRules, SolutionsAreThoseOfTheirTemperature) {
   const auto seconds = [&](const std::string& materials, const std::string& temperatures) {
     const fs::path file = write_t8("kind = \"cyclic\"\nfrequencies = [10.0]\n" + temperatures,

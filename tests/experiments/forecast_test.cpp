@@ -19,8 +19,8 @@ struct Check : Program {
   Scene example(const std::string& name) const { return read_scene(fs::path(MACADAM_EXAMPLES) / name / "scene.toml"); }
 };
 
-// Particles are counted by sampling sizes as the run does, so the number is exact except with shapes. The number of
-// contacts is estimated from the mean number of facets per cell, which varies by some per cent.
+// The forecast counts particles by sampling sizes as the run does, so their number is exact except with shapes. It
+// estimates the number of contacts from the mean number of facets per cell, which varies by some per cent.
 TEST_F(Check, CountsWhatIsMade) {
   for (const char* name : {"demo", "mastic", "stepped_creep", "aggregate_cube", "study"}) {
     Scene scene = example(name);
@@ -86,7 +86,7 @@ TEST_F(Check, StepsOfACreepTestAreThoseOfItsCriticalStep) {
   EXPECT_NEAR(foretold.dt_s / expected, 1, 0.5);
 }
 
-// For a specimen from a file, the smallest spheres are those in the file.
+// If the specimen comes from a file, the forecast uses the smallest spheres in the file.
 TEST_F(Check, StepsOfASpecimenFromAFileAreThoseOfTheMixtureThatItWasMadeOf) {
   Scene scene = example("stepped_creep");
   const StepForecast of_mixture = forecast(scene).steps.front();
@@ -118,8 +118,9 @@ TEST_F(Check, AContactOfASmallSpecimenTakesLessTime) {
   }
 }
 
-// Costs relative to a step with three units, compared with measurements. The prediction scales the whole step with the
-// number of units, including the part that does not depend on it; with few units it is a fifth too large.
+// Compares the cost of a step, relative to the cost with three Kelvin units, with measurements. The prediction scales
+// the cost of the whole step with the number of units, although a part of the step does not depend on it. With few
+// units the predicted cost is therefore a fifth too large.
 TEST_F(Check, KelvinUnitsCostWhatWasMeasured) {
   const auto rows = measured("kelvin-units-cpu.csv");
   ASSERT_EQ(rows.size(), 8u);
@@ -161,8 +162,8 @@ TEST_F(Check, AStepOfElasticContactsTakesLessTimeThanOneOfChains) {
   EXPECT_LT(of_a_step(), 0.8 * with_chains);
 }
 
-// A fitted law has many Kelvin units, and each has a state. The predicted memory of these states is within 10 % of the
-// memory that a stepper takes for them.
+// A fitted law has many Kelvin units, and each unit has a state. The predicted memory of these states is within 10 % of
+// the memory that a stepper takes for them.
 TEST_F(Check, KelvinUnitsTakeTheMemoryThatAStepperTakes) {
   Scene scene = example("demo");
   scene.solver.backend = Backend::cpu;
@@ -228,8 +229,8 @@ TEST_F(Check, SaysWhatARunWouldDoAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "summary.json"));
 }
 
-// The check warns if the file of the specimen is in metres and the box in millimetres. It warns of the reverse case too
-// if such a scene can run at all.
+// The check gives a warning if the file of the specimen is in metres and the box in millimetres. In the reverse case it
+// gives a warning too, if such a scene can run at all.
 TEST_F(Check, WarnsOfABoxThatIsAlmostEmpty) {
   const fs::path scene = write_scene("method = \"harmonic\"\n");
   const std::string usual = read(scene), box = "box = [0.008, 0.008, 0.011]";

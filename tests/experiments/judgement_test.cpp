@@ -63,7 +63,7 @@ TEST(Judgement, WhatIsNoPositiveFiniteModulusIsAnError) {
   }
 }
 
-/// If nothing verifies the tolerance, it does not count as kept.
+/// If no calculation has verified that the tolerance is kept, the result does not say that it is.
 TEST(Judgement, AToleranceThatNothingVerifiesIsNotCalledKept) {
   experiments::SteppedFrequency f = good_result();
   f.kept.reset();
@@ -83,7 +83,8 @@ TEST(Judgement, AToleranceThatNothingVerifiesIsNotCalledKept) {
   EXPECT_HAS(warnings.back(), "was not met");
 }
 
-// 0.05 degrees are 0.9e-3 rad and within the tolerance of 1e-3; 0.1 degrees are 1.7e-3.
+// Phases are compared in radians: 0.05 degrees are 0.9e-3 rad, which is within the tolerance of 1e-3; 0.1 degrees are
+// 1.7e-3.
 TEST(Judgement, PhasesOfTheLastCyclesAreComparedInRadians) {
   experiments::SteppedFrequency f = good_result();
   f.kept.reset();
@@ -130,8 +131,8 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
 }
 
-// If a particle has no contacts, no harmonic solution can check the run. The specimens here are so heavy that they are
-// driven far above their resonance, so their results cannot be right.
+// If a particle has no contacts, there is no harmonic solution with which a run can be checked. The specimens here are
+// so heavy that they are driven far above their resonance, so their results cannot be right.
 TEST_F(WithoutReference, ARunWithAToleranceFailsWhereItsResultCannotBeRight) {
   const std::string loose = "[network]\ngap_max = -0.2\n";
   for (const char* scaling : {"1e6", "1e7", "1e9"}) {

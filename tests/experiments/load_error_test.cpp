@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error_test.cpp  Compares the error that a stepped test of relaxation, creep or constant rate states for each row
-// with the true difference from the solution for the requested load.
+// load_error_test.cpp  A stepped test of relaxation, creep or constant rate states an error for each row. These tests
+// compare it with the true difference from the solution for the requested load.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,7 +74,7 @@ class LoadError : public TestFolder {
     return out;
   }
 
-  /// Returns E(t) from harmonic solutions with a hundredth of the tolerance of a run.
+  /// Returns E(t) from harmonic solutions whose tolerance is a hundredth of the tolerance of a run.
   static PronySeries exact_relaxation(const Scene& scene) {
     const Preparation prepared = prepare(scene);
     return spectrum_of(prepared.specimen, prepared.network, scene.laws, {1e-4, 1, 1e-8}).relaxation;
@@ -87,7 +87,7 @@ class LoadError : public TestFolder {
     for (const SteppedPoint& p : found.points) {
       const double t = p.time_s;
       if (found.kind == "creep") {
-        // The release acts at the nearest step. A load that is released at once acts up to this step.
+        // The release acts at the nearest step. If the load is released at once, it acts up to this step.
         const double gone = c.release ? std::round(*c.release / found.dt_s) * found.dt_s : INFINITY;
         const double held = j.after_ramp(t, c.ramp);
         const double expected = t > gone * (1 + 1e-9) ? held - j.after_ramp(t - gone, c.ramp) : held;
@@ -104,8 +104,8 @@ class LoadError : public TestFolder {
   }
 };
 
-// The solution without steps is accurate to 1e-5, which `error` includes. In a column the normals of updated geometry
-// do not rotate, so `error` must equal the true difference.
+// The solution without time steps is accurate to 1e-5, which `error` includes. In a column, updated geometry does not
+// rotate the normals, so `error` must equal the true difference.
 TEST_F(LoadError, IsTheTrueDifference) {
   const PronySeries e = exact_relaxation(scene(cases().front()));
   int large = 0;
@@ -125,13 +125,14 @@ TEST_F(LoadError, IsTheTrueDifference) {
 }
 
 /// Returns the largest error that the estimate may state for a row whose true difference is `truth`. The estimate adds
-/// up the largest values of the waves and of the drag, because it does not know their phases.
-///   - Constant rate: the drag makes up nearly all of the difference, and the estimate contains it. Measured: at most
-///     1.36 of the truth.
+/// up the largest values of the waves and of the drag, because it does not know their phases. There are three cases:
+///   - Constant rate: nearly all of the difference is drag, which the estimate contains. Measured: at most 1.36 times
+///     the truth.
 ///   - A wave that is as large as the load itself: the estimate is about 1 (up to 1.51 if the load acts at once), even
 ///     if only a small part of the wave is left.
-///   - Later rows of a specimen whose waves die out quickly: the wave has gone, and so must the estimate. Measured: at
-///     most 4.8 of the truth after a load at once, and 4.7e-4 after a ramp that hardly makes a wave.
+///   - Later rows of a specimen whose waves die out quickly: the wave has gone, so the estimate must be small.
+///     Measured: at most 4.8 times the truth after a load at once, and at most 4.7e-4 (not a multiple of the truth)
+///     after a ramp that hardly makes a wave.
 double largest_estimate(const Case& c, std::size_t row, double truth) {
   const std::string name = c.name;
   if (name.starts_with("rate")) return 1.5 * truth;
@@ -140,9 +141,9 @@ double largest_estimate(const Case& c, std::size_t row, double truth) {
   return 1.55 + 0.15 * truth;
 }
 
-// If a law is not linear, there is no solution without steps, so the error is estimated. Here bonds at the walls could
-// break but do not, so the true difference is known. The estimate must not be below the true difference, and not far
-// above it.
+// If a law is not linear, there is no solution without time steps, so the run estimates the error. Here bonds at the
+// walls could break but do not, so the true difference is known. The estimate must not be below the true difference,
+// and not far above it.
 TEST_F(LoadError, IsEstimatedWhereALawIsNotLinear) {
   const PronySeries e = exact_relaxation(scene(cases().front()));
   const std::string unbroken = "law = \"brittle_bond\"\nE = 1e10\nalpha = 0.1\ntensile_strength = 1e30\n";
@@ -176,8 +177,8 @@ TEST_F(LoadError, NamesItsCause) {
   EXPECT_HAS(warning(all[6]), "in place of an instantaneous load");
 }
 
-// The stated error does not include the effect of the ramp: E(t) after a ramp differs from E(t) after a step. This
-// effect is stated separately.
+// The stated error does not include the effect of the ramp, which is that E(t) after a ramp differs from E(t) after a
+// step. The result states this effect as a separate number.
 TEST_F(LoadError, TheRampIsANumberOfItsOwn) {
   const Case c = cases()[4];
   const RunResult result = run(scene(c), out("out"));
@@ -192,7 +193,7 @@ TEST_F(LoadError, TheRampIsANumberOfItsOwn) {
   EXPECT_TRUE(said) << effect;
 }
 
-// A large strain rotates contacts, which the solution without steps does not contain, so the errors of the rows are
+// A large strain rotates contacts. The solution without time steps does not contain this, so the errors of the rows are
 // estimated.
 TEST_F(LoadError, OfALargeStrainIsEstimated) {
   const std::string loading = "kind = \"relaxation\"\nstrain = 0.02\nramp = \"0.2 ms\"\ntimes = [\"1 ms\", \"2 ms\"]\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// multi_sphere_test.cpp  Tests specimens of clusters in limiting cases, in which they equal single spheres, mastic or
-// rigid clusters. Checks their equilibrium with the equations of the reference implementation.
+// multi_sphere_test.cpp  Tests specimens of clusters (aggregates of several spheres) in limiting cases, in which they
+// equal single spheres, mastic or rigid clusters. Checks their equilibrium with the equations of the reference
+// implementation.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -41,9 +42,9 @@ Specimen all_mastic(Specimen specimen) {
   return specimen;
 }
 
-// The number of a sphere's aggregate only decides which law a contact has. With the law A–A for inner contacts,
-// clusters therefore equal single spheres. Only the order of sums may differ. The tolerance is the rounding of about a
-// hundred terms per row times the condition number of 1e5 that harmonic_test allows for.
+// The number of a sphere's aggregate only decides which law a contact has. If inner contacts have the law of A–A
+// contacts, clusters therefore equal single spheres; only the order of sums may differ. The tolerance is the rounding
+// of about a hundred terms per row times the condition number of 1e5 that harmonic_test allows for.
 TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres) {
   const Specimen clusters = generate_specimen(cluster_recipe(test_seed(), {0.012, 0.012, 0.016})).specimen;
   for (Laws laws : {am1_laws(), am2_laws()}) {
@@ -59,7 +60,7 @@ TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres)
   }
 }
 
-/// If all pairs have one law, clusters in mastic are mastic.
+/// If all pair types have the same law, clusters in mastic behave as mastic.
 TEST(MultiSphere, OfOneLawEverywhereItIsMastic) {
   const Specimen clusters = few_clusters(test_seed());
   Laws laws = am1_laws();
@@ -71,8 +72,8 @@ TEST(MultiSphere, OfOneLawEverywhereItIsMastic) {
   EXPECT_LT(difference(solve(ms, 10).top, solve(mastic, 10).top), 1e-9);
 }
 
-// The motion of the harmonic solver satisfies the equations of the reference implementation, contact point by contact
-// point, and gives the same modulus.
+// The harmonic solver's motion satisfies the equations of the reference implementation, which are computed at every
+// contact point, and gives the same modulus.
 TEST(MultiSphere, IsInEquilibriumByTheReference) {
   const TestScene scene = make_scene(generate_specimen(cluster_recipe(test_seed(), {0.012, 0.012, 0.016})).specimen);
   for (const Laws& laws : {am1_laws(), am2_laws()}) {
@@ -92,9 +93,9 @@ TEST(MultiSphere, IsInEquilibriumByTheReference) {
 
 constexpr double length = 1e-3;  // reference length: rotations times it are comparable with displacements
 
-/// Returns the motions of all spheres as a matrix times the motions of rigid particles: a mastic sphere moves alone,
-/// the spheres of an aggregate move as one rigid cluster. A rotation is measured by the displacement at distance
-/// `length`.
+/// Returns the matrix that gives the motions of all spheres from the motions of rigid particles. A mastic sphere is one
+/// rigid particle; the spheres of an aggregate form one rigid particle together. A rotation is measured by the
+/// displacement at distance `length`.
 Eigen::MatrixXd rigid_bodies(const Specimen& s) {
   std::vector<std::int32_t> number(s.size());
   std::map<std::int32_t, std::int32_t> of_body;
@@ -129,10 +130,10 @@ Eigen::MatrixXd free_motions(const Specimen& s) {
   return out;
 }
 
-// Inner contacts s times as stiff as those of [1] make the clusters rigid as s grows. With u = T·q the rigid network is
-// Tᵀ·K·T·q = Tᵀ·p, where K has no inner contacts. The remaining forces g = p − K·T·q act within the clusters and reduce
-// the modulus by gᵀ·K_inner⁻¹·g / s. The modulus is convex in 1/s, so it lies between the rigid one and the rigid one
-// minus this reduction.
+// As the inner contacts become s times as stiff as those of [1], the clusters become rigid. Rigid clusters move as u =
+// T·q and satisfy Tᵀ·K·T·q = Tᵀ·p, where K is the stiffness without inner contacts. The remaining forces g = p − K·T·q
+// act within the clusters and reduce the modulus by gᵀ·K_inner⁻¹·g / s. The modulus is convex in 1/s, so it is below
+// the modulus of rigid clusters by at most this reduction.
 TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
   const Specimen clusters = few_clusters(test_seed());
   Laws laws;
@@ -176,8 +177,8 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
     const double rounding = 1e-10 * s * rigid / yields;
     EXPECT_LT(yielded, 1 + rounding) << s;
     EXPECT_GT(yielded, 0) << s;
-    // The error of this estimate is of second order in 1/s, so it falls to a tenth for ten times stiffer clusters, from
-    // the second s on.
+    // The relative error of the estimate `yields / s` is of first order in 1/s. So from the second s on it is a tenth
+    // of the error before, when the inner contacts were a tenth as stiff.
     if (s > 10) { EXPECT_NEAR((1 - yielded) / before, 0.1, 0.02) << s; }
     fmt::print("inner contacts {:g} times as stiff: {:.3e} of the modulus below rigid, {:.6f} of first order\n", s,
                rigid / solve(stiff, 1).top.e_star_pa - 1, yielded);

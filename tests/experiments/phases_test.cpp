@@ -34,14 +34,14 @@ TEST(Phases, AnInnerPhaseTakesItsTimeFromTheOuter) {
       const InPhase writing(all, &PhaseSeconds::writing);
       wait();
     }
-    const InPhase again(all, &PhaseSeconds::planning);  // a phase within itself
+    const InPhase again(all, &PhaseSeconds::planning);  // the same phase begins again within itself
     wait();
   }
   const double whole = seconds_since(start);
   EXPECT_GE(all.planning, 0.04);  // a sleep is never shorter than requested
   EXPECT_GE(all.harmonic, 0.02);
   EXPECT_GE(all.writing, 0.02);
-  EXPECT_LE(all.sum(), whole);  // it would be more if a moment counted twice
+  EXPECT_LE(all.sum(), whole);  // the sum would be larger than the wall time if a moment counted twice
 }
 
 TEST(Phases, EndWithWhatIsThrown) {
@@ -87,9 +87,9 @@ double missing_time(SolverMethod method, const std::vector<std::string>& expecte
   return 0.9 * wall - sum;
 }
 
-/// Only the last writing of summary.json belongs to no phase. Another program may delay this writing for any time, but
-/// not in every one of many runs. If another part of the work belonged to no phase, its time would be missing in all
-/// runs.
+/// Only the last writing of summary.json belongs to no phase. Another program may delay this writing by any time, but
+/// not in every one of many runs. If another part of the work belonged to no phase, its time would be missing from the
+/// phases in all runs.
 void expect_whole(SolverMethod method, const std::vector<std::string>& expected) {
   constexpr int runs = 20;
   double least = std::numeric_limits<double>::infinity();

@@ -66,8 +66,8 @@ TEST_F(RunMany, LeavesEachSceneTheFilesOfARunOfItsOwn) {
   }
 }
 
-// The fake device computes on the processor. Whatever number of scenes uses it at a time, every scene finishes with the
-// response of the processor.
+// The fake device (GPU) computes on the processor. Whatever number of scenes uses it at a time, every scene finishes
+// with the same response as on the processor.
 TEST_F(RunMany, SharesOutADevice) {
   const Outcome without = macadam(fmt::format("run {} --out {}", scenes(), path("out")));
   ASSERT_EQ(without.code, 0) << without.err;
@@ -119,7 +119,7 @@ TEST_F(RunMany, SpreadsScenesThatDifferOverDevices) {
     EXPECT_EQ(read(folder_ / "spread" / name / "response.csv"), read(folder_ / "out" / name / "response.csv"));
 }
 
-/// If one scene fails, the others finish.
+/// If one scene fails, the other scenes finish.
 TEST_F(RunMany, GoesOnWhereOneFails) {
   std::string diverges = read(folder_ / "at_10.toml");
   diverges.replace(diverges.find(quick), std::string(quick).size(), "time_step = 1e-3\n");
@@ -131,7 +131,7 @@ TEST_F(RunMany, GoesOnWhereOneFails) {
   for (const char* name : {"at_5", "at_20"}) EXPECT_EQ(results(folder_ / "out" / name).size(), 1u);
 }
 
-/// If one scene is invalid, or two have the same name, none starts.
+/// If one scene is invalid, or if two scenes have the same name, no scene starts.
 TEST_F(RunMany, BeginsNoneWhereASceneIsWrong) {
   write(folder_ / "at_20.toml", "nonsense = 1\n");
   const Outcome wrong = macadam(fmt::format("run {} --out {}", scenes(), path("out")));
@@ -174,8 +174,8 @@ TEST_F(RunMany, BeginsNoOtherAfterAStop) {
   EXPECT_THROW(run_many(jobs), InputError);
 }
 
-// A stop interrupts every running scene. Each leaves its files and a checkpoint, from which it can be resumed with the
-// same bits.
+// A stop interrupts every running scene. Each scene leaves its files and a checkpoint. If it is resumed from the
+// checkpoint, its results are the same bit by bit.
 TEST_F(RunMany, StopsThoseThatRun) {
   std::vector<SceneJob> jobs;
   for (const std::string& name : names_) {

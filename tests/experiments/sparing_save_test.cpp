@@ -28,7 +28,7 @@ TEST(SparingSave, TakesATenthOfTheTimeAtMost) {
   OwnTime time;
   SparingSave save = time.save(20ms);
   for (int k = 0; k < 1000; ++k) save("running");
-  EXPECT_EQ(time.saved, 1);  // the later calls came within ten times the duration of the first writing
+  EXPECT_EQ(time.saved, 1);  // the later calls came sooner than ten times the duration of the first writing
   time.now += 199ms;
   save("running");
   EXPECT_EQ(time.saved, 1);

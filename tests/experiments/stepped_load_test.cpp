@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_load_test.cpp  Tests stepped relaxation, creep and constant rates: they are compared with the solution
-// without steps, interrupted and resumed, and refused. The work of the load must equal stored, kinetic and damped
-// energy.
+// stepped_load_test.cpp  Tests stepped relaxation, creep and constant rates. Compares them with the spectrum, which is
+// computed without time steps; interrupts and resumes runs; and checks which scenes are refused. The work of the load
+// must equal the sum of stored, kinetic and damped energy.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -45,8 +45,8 @@ class SteppedLoad : public TestFolder {
   }
 };
 
-/// Tolerance of the stepped response: waves are damped to 2e-5 at the next point, the effects of damping and inertia
-/// are smaller here, and the spectrum is accurate to 1e-6.
+/// Tolerance of the stepped response. Waves are damped to 2e-5 at the next point; damping and inertia have smaller
+/// effects here; the spectrum is accurate to 1e-6.
 constexpr double tolerance = 1e-4;
 
 TEST_F(SteppedLoad, RelaxationIsThatOfTheSpectrum) {
@@ -83,13 +83,14 @@ TEST_F(SteppedLoad, HeldSidesAreOfAConfinedSpecimen) {
   const RunResult result = run(asked, out("out"));
   const auto& found = std::get<SteppedResponse>(result.found);
   EXPECT_TRUE(found.confined);
-  // With a strain of 1e-4, updated normals and lever arms change the modulus by about as much.
+  // With a strain of 1e-4, updated normals and lever arms change the modulus by about 1e-4.
   EXPECT_NEAR(found.points[0].ratio / spectrum(asked).relaxation.after_ramp(1e-3, 2e-4), 1, 3e-4);
   EXPECT_HAS(results_table(result), "confined modulus");
   EXPECT_EQ(summary("out").at("results").at(0).at("sides"), "held");
 }
 
-// The stress on the platen rises, is held and is released. The strain grows, and a part of it recovers.
+// The stress on the platen (a wall that moves under a load) rises, is held and is released. The strain grows, and a
+// part of it recovers.
 TEST_F(SteppedLoad, CreepAndRecoveryAreThoseOfTheSpectrum) {
   const double stress = 1e5, ramp = 2e-4, release = 2e-3;
   const Scene asked = scene(
@@ -132,7 +133,7 @@ TEST_F(SteppedLoad, AConstantRateEndsAtItsStrain) {
           << p.time_s;
     }
   }
-  // The same scene without steps has the same times.
+  // The same scene computed without time steps has the same times.
   const Scene asked = read_scene(write_t8("kind = \"monotonic\"\nrate = 0.01\nstrain = 4e-5\npoints = 4\n", ""));
   const std::vector<double> times{1e-3, 2e-3, 3e-3, 4e-3};
   const auto& found = std::get<experiments::Monotonic>(asked.experiment).times;
@@ -167,8 +168,8 @@ TEST_F(SteppedLoad, ARunInPiecesGivesTheBitsOfOne) {
   EXPECT_EQ(frames, 1 + static_cast<int>(one.at("results").at(0).at("points").size()) / 3);
 }
 
-// Devices, and the reference, which has its own implementation of platens, give the same result as the processor. Only
-// rounding differs: 1e-16 times a few hundred steps, and stresses are sums of forces a hundred times as large.
+// The processor, devices, and the reference, which has its own implementation of platens, give the same result. Only
+// rounding differs: 1e-16 times a few hundred steps, and stresses are sums of forces that are a hundred times as large.
 TEST_F(SteppedLoad, EveryBackendFindsTheSame) {
   const std::string creep =
       "kind = \"creep\"\nstress = 1e5\nramp = 5e-3\nrelease = 1e-2\ntimes = [4e-3, 8e-3, 16e-3]\n";
@@ -217,7 +218,7 @@ TEST_F(SteppedLoad, ALargeErrorIsReported) {
   EXPECT_TRUE(said) << "a load at once takes a wave's time";
 }
 
-/// A run with very many steps gives a warning with the predicted number of steps; an excessive number is refused.
+/// A run with very many steps gives a warning with the predicted number of steps. A run with far too many is refused.
 TEST_F(SteppedLoad, LongRunsAreForetold) {
   Watcher watcher;
   std::string warned;
@@ -254,9 +255,10 @@ TEST_F(SteppedLoad, WhatDoesNotFitStepsIsRefused) {
   EXPECT_HAS(refusal(spectral), "fields in [output]");
 }
 
-// All laws are elastic, so the stored energy follows from the forces. Leapfrog with central damping satisfies both
-// balances exactly. Momentum: Σ γm(v⁺ − v⁻) = Δt·(P + reaction − β·Σ γm·v̄). Energy: the work P·Δu is the change of
-// ½γmv² − ½u(k+1)·F(k), plus β·γm·v̄²·Δt.
+// All laws are elastic, so the stored energy follows from the forces. Leapfrog with central damping satisfies the
+// balances of momentum and energy exactly. Momentum: Σ γm(v⁺ − v⁻) = Δt·(P + reaction − β·Σ γm·v̄). Energy: the work
+// P·Δu is the change of ½γmv² − ½u(k+1)·F(k), plus β·γm·v̄²·Δt. (P: load of the platen, γ: density scaling, β: viscous
+// damping, v̄: mean of v⁻ and v⁺.)
 TEST(PlatenBalance, OfMomentumAndEnergy) {
   Laws laws = am1_laws();
   for (auto& law : laws) law = laws::Elastic{std::visit([](const auto& l) { return l.instantaneous(); }, *law), 0.2};
@@ -303,8 +305,8 @@ TEST(PlatenBalance, OfMomentumAndEnergy) {
     impulse += dt * (load - up - beta * scaling * mean_momentum);
     most_work = std::max(most_work, std::abs(work)), most_kinetic = std::max(most_kinetic, kinetic);
     most_impulse = std::max(most_impulse, std::abs(momentum));
-    // Rounding only: a sum of about 1e3 steps, and a platen velocity computed from displacements that change by 1e-3 of
-    // themselves per step.
+    // Only rounding is allowed: of a sum of about 1e3 steps, and of a platen velocity that is computed from
+    // displacements, which change by a fraction of 1e-3 per step.
     ASSERT_NEAR(kinetic + stored + damped, work, 1e-9 * most_work) << k;
     ASSERT_NEAR(momentum, impulse, 1e-9 * most_impulse) << k;
     before = now, seen = next, wall_speed = speed;

@@ -79,7 +79,7 @@ class T8 : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// Both contact forms add the same numbers in another order.
+// The two contact forms, `condensed` and `points`, add the same numbers in a different order.
 TEST_F(T8, TwentyHertzInBothForms) {
   const Response condensed = run_t8(20, 100, ContactForm::condensed), points = run_t8(20, 100, ContactForm::points);
   expect_accurate(condensed, at_20_hz);
@@ -98,12 +98,12 @@ TEST_F(T8, TwentyHertzInBothForms) {
 
 TEST_F(T8, TwoHertzCondensed) { expect_accurate(run_t8(2, 1000, ContactForm::condensed), at_2_hz); }
 
-// Inertia is proportional to scaling × f², so it is the same here as at 20 Hz with a scaling of 100, and the tolerances
-// are the same too. The run takes a third of the steps.
+// Inertia is proportional to scaling × f². At 2 Hz with a scaling of 10,000 it is therefore the same as at 20 Hz with a
+// scaling of 100, and the tolerances are the same too. A scaling of 1,000 would take three times as many steps.
 TEST_F(T8, TwoHertzPoints) { expect_accurate(run_t8(2, 10'000, ContactForm::points), at_2_hz); }
 
-// The effect of inertia is proportional to the scaling: at 20 Hz a scaling of 1000 is visible in |E*|. The files are
-// checked with the same run.
+// The effect of inertia is proportional to the scaling: at 20 Hz a scaling of 1000 changes |E*| visibly. The test also
+// checks the files of this run.
 TEST_F(T8, TwentyHertzScaledByAThousand) {
   const Response response = run_t8(20, 1000, ContactForm::condensed);
   const Stiffness found = response.result.stepped().frequencies[0].stiffness;

@@ -59,7 +59,8 @@ class Tolerance : public testing::Test {
     for (const experiments::SteppedFrequency& f : result.stepped().frequencies) {
       ASSERT_TRUE(f.achieved && f.predicted);
       EXPECT_LE(largest(*f.achieved), *scene.solver.tolerance) << f.frequency_hz << " Hz";
-      // Most of the tolerance must be used, because the time of a run decreases as the root of the admitted inertia.
+      // Most of the tolerance must be used, because a run becomes faster with the square root of the inertia that is
+      // allowed.
       EXPECT_GE(largest(*f.achieved), 0.5 * *scene.solver.tolerance) << f.frequency_hz << " Hz";
       EXPECT_NEAR(f.achieved->e_star, f.predicted->e_star, 0.05 * *scene.solver.tolerance);
       EXPECT_NEAR(f.achieved->phase_rad, f.predicted->phase_rad, 0.05 * *scene.solver.tolerance);
@@ -88,8 +89,8 @@ TEST_F(Tolerance, IsKeptOnFreshSpecimens) {
   }
 }
 
-// In clusters stiff and soft contacts are closest together. The units of AM2 relax within a cycle, those of AM1 within
-// seconds.
+// In clusters, stiff contacts are closest to soft ones. The Kelvin units of AM2 relax within a cycle, those of AM1
+// within seconds.
 TEST_F(Tolerance, IsKeptOnClustersWithBothMixes) {
   for (const Laws& laws : {am1_laws(), am2_laws()}) {
     for (const double tolerance : long_tests ? std::vector{1e-2, 1e-3} : std::vector{1e-2}) {
@@ -108,7 +109,8 @@ TEST_F(Tolerance, IsKeptOnTheDemo) {
   expect_kept(scene_of(read_scene(MACADAM_EXAMPLES "/demo/scene.toml").specimen, 1e-2));
 }
 
-// The viscoelastic state is updated as seldom as the tolerance allows, and the plan states how often.
+// On CUDA the viscoelastic states are updated once per block of several steps. The blocks are as long as the tolerance
+// allows, and the plan states how often the states are updated.
 TEST_F(Tolerance, IsKeptInBlocksOfStepsOnCuda) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   Scene scene = scene_of(t8(), 1e-3);
@@ -148,8 +150,8 @@ bool says(const RunResult& result, const std::string& what) {
                      [&](const std::string& d) { return d.find(what) != std::string::npos; });
 }
 
-// Local damping is not linear, so the run starts with a ramp from rest although the scene asks for a steady start, and
-// says so.
+// Local damping is not linear, so the run starts with a ramp from rest although the scene asks for a steady start. The
+// result says so.
 TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -165,8 +167,8 @@ TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   EXPECT_TRUE(says(result, "from rest, although the scene asks for a steady start"));
 }
 
-// With one point per facet and fewer contacts, two particles can rotate freely. There is no harmonic solution, but
-// stepping finds a steady state, so the run only has an estimate of its error.
+// With one point per facet and fewer contacts, two particles can rotate freely. There is no harmonic solution, but time
+// stepping reaches a steady state, so the run can only estimate its error.
 TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -183,8 +185,8 @@ TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   EXPECT_NE(result.warnings[0].find("could not be verified"), std::string::npos) << result.warnings[0];
 }
 
-// A mechanism has no static modulus. Stepping finds its inertia only, with a phase of about 150 degrees, so the run
-// must fail.
+// A mechanism has no static modulus. Time stepping measures only the response of the mechanism's inertia, whose phase
+// is about 150 degrees, so the run must fail.
 TEST_F(Tolerance, AMechanismIsAFailedRun) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -198,7 +200,7 @@ TEST_F(Tolerance, AMechanismIsAFailedRun) {
   }
 }
 
-// Settings of the scene may violate the tolerance; the result says so.
+// If settings of the scene prevent the run from keeping the tolerance, the result says so.
 TEST_F(Tolerance, AMissIsSaid) {
   Scene scene = scene_of(t8(), 1e-3);
   scene.cyclic().frequencies = {20};
@@ -234,7 +236,7 @@ TEST_F(Tolerance, StepsFollowTheDecayOfViscousDamping) {
   EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 1e-4 / 3, 1e-9);
 }
 
-// At large strain the run updates the geometry and says that the harmonic solution does not.
+// At large strain the run updates the geometry, and says that the harmonic solution does not.
 TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   Scene scene = scene_of(t8(), 1e-3);
   scene.cyclic().frequencies = {20};
@@ -246,8 +248,8 @@ TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   EXPECT_TRUE(says(result, "the load grows over 1 cycle"));
 }
 
-// With the initial geometry, which the scene asks for, the harmonic solution is met but the tolerance is not, because
-// the strain is large.
+// The scene asks for the initial geometry. The run then agrees with the harmonic solution, but it misses the tolerance,
+// because the strain is large.
 TEST_F(Tolerance, AFixedGeometryAtLargeStrainIsAMiss) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -258,7 +260,7 @@ TEST_F(Tolerance, AFixedGeometryAtLargeStrainIsAMiss) {
   EXPECT_FALSE(f.kept.value());
 }
 
-// The error of fixed geometry is below the stated one, and not far below.
+// The error that fixed geometry causes is below the stated error, and not far below it.
 TEST_F(Tolerance, FixedGeometryCostsWhatIsStated) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.solver.tolerance = std::nullopt;
@@ -276,7 +278,7 @@ TEST_F(Tolerance, FixedGeometryCostsWhatIsStated) {
   EXPECT_GT(change, 0.1 * fixed_geometry_error(3e-3));
 }
 
-// A start from rest without a ramp is stated in the decisions.
+// A start from rest without a ramp is stated in the list of decisions.
 TEST_F(Tolerance, AStartWithoutARampIsSaid) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};

@@ -153,7 +153,7 @@ TEST_F(FieldFiles, AKillAtAnyMomentLeavesTheFramesBefore) {
     std::size_t frames = 0;
     ASSERT_NO_THROW(frames = static_cast<std::size_t>(steps(open_hdf5(vtkhdf()))));
     ASSERT_GE(frames, static_cast<std::size_t>(*written));
-    // otherwise VTK reads beyond its arrays
+    // if this array had fewer entries than there are frames, VTK would read beyond its arrays
     ASSERT_EQ(numbers(open_hdf5(vtkhdf()), "VTKHDF/Steps/Values").size(), frames);
     ASSERT_NO_THROW(expect_frames(frames, points));
     // The series can be continued.
@@ -227,7 +227,7 @@ TEST_F(FieldFiles, AResumedSeriesDropsWhatIsAheadOfIt) {
   {
     const auto series = begin(points, FieldFormat::vtkhdf, 2.5);
     EXPECT_EQ(series->size(), 3U);
-    // Even without further frames, the arrays are as long as the number of steps.
+    // Even if no frame is added after resuming, the arrays in the file have one entry per remaining frame.
     EXPECT_EQ(numbers(open_hdf5(vtkhdf()), "VTKHDF/Steps/Values").size(), 3U);
     for (const char* name :
          {"NumberOfParts", "PartOffsets", "PointOffsets", "PointDataOffsets/u", "PointDataOffsets/f"})
@@ -245,7 +245,8 @@ TEST_F(FieldFiles, AResumedSeriesDropsWhatIsAheadOfIt) {
 TEST_F(FieldFiles, AListOfFramesIsGoneOnWithToo) {
   const auto listed = [&] {
     const std::string all = read(pvd());
-    return std::count(all.begin(), all.end(), '\n') - 5;  // number of lines except the five that do not list a frame
+    return std::count(all.begin(), all.end(), '\n') -
+           5;  // number of lines, except the five lines that do not list a frame
   };
   {
     const auto series = begin(10, FieldFormat::vtp);

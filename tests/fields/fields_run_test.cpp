@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fields_run_test.cpp  Tests fields of specimens, stepped runs and steady states: which files are written and which
-// frames they have, also after resuming.
+// fields_run_test.cpp  Tests the field files of specimens, stepped runs and steady states: which files are written and
+// which frames they have, also after a run was resumed.
 #include <sstream>
 #include <gtest/gtest.h>
 
@@ -62,8 +62,8 @@ TEST_F(RunFields, ASteppedRunHasAFrameEverySoManySamples) {
   }
 }
 
-// At every frame the contacts of the top wall carry the stress in response.csv, in both contact forms and with rotating
-// contact frames.
+// At every frame the contacts of the top wall carry the stress in response.csv. This holds in the contact forms
+// `points` and `condensed`, and with rotating contact frames.
 TEST_F(RunFields, ContactsOfASteppedRunCarryItsStress) {
   for (const std::string form : {"condensed", "points"}) {
     const Scene asked = scene("fields = [\"contacts\"]\nevery = 8\n", "frequencies = [20.0]\ncycles = 1\n",

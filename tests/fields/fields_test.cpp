@@ -56,11 +56,12 @@ TEST(FieldMeshes, EveryCellIsClosedAndHasItsVolume) {
     }
     volume[cell] += dot(first, twice) / 6;  // volume by the divergence theorem; facets point outwards
     EXPECT_TRUE((area.emplace(std::pair{particle[p], neighbour[p]}, 0.5 * norm(twice)).second));
-    // Corners are in single precision, so they are wrong by up to 6e-8 of 8 mm. For facets with sides of about 2 mm,
-    // the area is then wrong by less than 1e-6 of 4 mm².
+    // Corners are in single precision: they are wrong by up to 6e-8 times their coordinates, which are at most 8 mm.
+    // For facets with sides of about 2 mm, the area is then wrong by less than 1e-6 of 4 mm².
     EXPECT_NEAR(floats(mesh.arrays, "area")[p], 0.5 * norm(twice), 1e-6 * 4e-6);
   }
-  // Corners are wrong by up to 6e-8 of 8 mm. Over a surface of about 2e-5 m² this changes the volume by about 1e-14 m³.
+  // Corners are wrong by up to 6e-8 times 8 mm. Over a surface of about 2e-5 m² this changes the volume by about 1e-14
+  // m³.
   for (std::size_t i = 0; i < s.cells(); ++i) EXPECT_NEAR(volume[i], t.cell_volume[i], 2e-14) << i;
   for (const auto& [pair, one] : area) {
     if (pair.second >= 0) { EXPECT_NEAR(one, area.at({pair.second, pair.first}), 1e-12); }
@@ -98,8 +99,9 @@ TEST(FieldMeshes, SizeClassesAreThoseOfTheAggregates) {
   EXPECT_THROW(array(particle_mesh(s, {}).arrays, "size_class"), std::runtime_error);
 }
 
-/// Returns the largest sum of forces on a particle over the largest force of a contact, and the same for moments over
-/// this force times 1 mm. Forces and moments act on the first particle of a contact, at x0.
+/// Returns two ratios: the largest sum of forces on any particle over the largest force of a contact, and the largest
+/// sum of moments on any particle over this force times 1 mm. The forces and moments given act on the first particle of
+/// each contact, at x0.
 std::pair<double, double> imbalance(const TestScene& scene, const std::vector<float>& force,
                                     const std::vector<float>& moment) {
   std::vector<Vec3d> sum(scene.specimen.size()), turn(scene.specimen.size());
@@ -125,7 +127,7 @@ TEST(HarmonicFields, ForcesOnEveryParticleAreInEquilibriumAndThoseOfTheWallGiveT
   const HarmonicResult solved =
       Harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, frequency).solve(frequency);
   const auto arrays = contact_arrays(scene.network, scene.laws, frequency, solved.motion, amplitude);
-  // single precision, sums of about twenty forces
+  // single precision, and sums of about twenty forces
   constexpr double tolerance = 2e-6;
   for (const std::string part : {"real", "imag"}) {
     const auto [force, moment] = imbalance(scene, floats(arrays, "force_" + part), floats(arrays, "moment_" + part));
@@ -206,8 +208,8 @@ TEST(HarmonicFields, AmplitudeAndPhaseAreThoseOfThePartsForAWallThatMovesAsACosi
   EXPECT_EQ(floats(arrays, "rotation_imag"), (std::vector<float>{0, 0, 2}));
 }
 
-// Every contact, including those at the walls, gets the force of a uniform stress on its facet. Every cell must then
-// have this stress, whatever its shape.
+// Every contact, including those at the walls, gets the force that a uniform stress exerts on its facet. Every cell
+// must then have this stress, whatever the shape of the cell.
 TEST(SteppedFields, AUniformStressIsThatOfEveryCell) {
   NetworkSpec spec;
   spec.lateral_walls = true;
@@ -225,11 +227,11 @@ TEST(SteppedFields, AUniformStressIsThatOfEveryCell) {
   const auto& found = std::get<std::vector<float>>(stress.values);
   ASSERT_EQ(found.size(), 6 * scene.specimen.size());
   const double expected[6] = {xx, yy, zz, xy, yz, xz};
-  // single precision
+  // the arrays are in single precision
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i % 6], 1e-6 * zz) << i;
 }
 
-// A lattice at rest under a platen: each of its cubes has the stress of the platen.
+// In a lattice at rest under a platen (a wall that moves under a load), each cube has the stress of the platen.
 TEST(SteppedFields, StressOfALatticeIsThatOfItsWalls) {
   const double side = 2e-3, force = -3.0;
   const HandMade made = cubic_lattice_network(2, 2, 3, side, 2e-5);

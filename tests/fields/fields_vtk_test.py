@@ -64,7 +64,7 @@ def check(holds, what):
 
 
 def equal(found, expected, what):
-    """Checks that values are equal to the bit: the CSV file's double, rounded to the field's single precision."""
+    """Checks that the values of a field equal those of a CSV file, rounded to single precision, bit by bit."""
     found = np.asarray(found)
     expected = np.asarray(expected).astype(found.dtype)
     check(found.shape == expected.shape and np.array_equal(found, expected), f"{what}: {found} is not {expected}")
@@ -83,7 +83,7 @@ def write_scene(folder, form, fields, method="harmonic", solver=""):
 
 
 class Errors:
-    """Collects the errors and warnings of VTK, which continues after them."""
+    """Collects the errors and warnings of VTK, because VTK continues after them."""
 
     def __init__(self, algorithm):
         algorithm.AddObserver("ErrorEvent", lambda *_: faults.append(f"VTK complains of {algorithm.GetFileName()}"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// check_solutions_test.cpp  Compares the check of harmonic solutions, which is vectorized over tasks, with a plain loop
-// over contacts in complex numbers.
+// check_solutions_test.cpp  The check of harmonic solutions computes several tasks (frequencies) at once in vector
+// registers. These tests compare it with a plain loop over contacts in complex numbers.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -19,7 +19,8 @@ using harmonic::LinearTask;
 using harmonic::SolutionCheck;
 using Complex = std::complex<double>;
 
-/// Returns a task with a motion that solves nothing, for some stiffness and inertia that depend on `number`.
+/// Returns a task with an arbitrary motion, which is not a solution, and with a stiffness and inertia that depend on
+/// `number`.
 LinearTask any_task(const TestScene& scene, int number) {
   const std::size_t n = scene.specimen.size();
   LinearTask task;
@@ -32,7 +33,7 @@ LinearTask any_task(const TestScene& scene, int number) {
   return task;
 }
 
-/// Computes the same check with the operator and one facet after the other.
+/// Computes the same check with the contact operator and a loop over the contacts.
 SolutionCheck one_by_one(const TestScene& scene, const LinearTask& task) {
   SolutionCheck out;
   harmonic::Vector rest;
@@ -56,7 +57,7 @@ SolutionCheck one_by_one(const TestScene& scene, const LinearTask& task) {
   return out;
 }
 
-// The numbers of tasks are one, several that do not fill a block of four, and more than one block.
+// Checks one task, several tasks that do not fill a block of four, and more than one block.
 TEST(CheckSolutions, FindsWhatContactsSayOneByOne) {
   const TestScene scene = make_scene(random_specimen(test_seed(), 8, 8, 12));
   for (const int count : {1, 3, 4, 6}) {
@@ -69,7 +70,7 @@ TEST(CheckSolutions, FindsWhatContactsSayOneByOne) {
     ASSERT_EQ(found.size(), tasks.size());
     for (std::size_t f = 0; f < tasks.size(); ++f) {
       const SolutionCheck expected = one_by_one(scene, tasks[f]);
-      // The sums have a few thousand contacts with a dozen products each, of random signs.
+      // The sums run over a few thousand contacts with a dozen products each, of random signs.
       constexpr double rounding = 1e-13;
       EXPECT_NEAR(found[f].residual, expected.residual, rounding * expected.residual);
       EXPECT_EQ(found[f].beyond_rounding, found[f].residual);
@@ -86,7 +87,7 @@ TEST(CheckSolutions, FindsWhatContactsSayOneByOne) {
   }
 }
 
-/// The result does not depend on the number of threads, bit by bit.
+/// The result of the check does not depend on the number of threads, bit by bit.
 TEST(CheckSolutions, TheSameBitsForAnyNumberOfThreads) {
   const TestScene scene = make_scene(random_specimen(test_seed(), 8, 8, 12));
   const LinearTask task = any_task(scene, 0);
@@ -105,10 +106,11 @@ TEST(CheckSolutions, TheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-// Checks the rounding allowance of a residual. One particle rotates by 2i about y with an arm of 3/4, the other is at
-// rest, so points move by at most 3/2. |Re k| + |Im k| is 7, at distance 1 and area 1, with second moments 3/4 and 1/4.
-// Without cancellation the force is 7·3/2, and the moment is 7·(3/4 + 1/4)·2 plus the force times the arm. A hundredth
-// of these is subtracted from each actual load.
+// Checks how much rounding is subtracted from a residual. One particle rotates by 2i (i² = −1) about y with an arm of
+// 3/4, and the other is at rest, so points move by at most 3/2. For every stiffness k, |Re k| + |Im k| is 7. Distance
+// and area are 1, and the second moments are 3/4 and 1/4. Without cancellation the force is 7·3/2, and the moment is
+// 7·(3/4 + 1/4)·2 plus the force times the arm. A hundredth of this force and moment is subtracted from each actual
+// load.
 TEST(CheckSolutions, RoundingIsAShareOfLoadsThatDoNotCancel) {
   HandMade made = two_sphere_network();
   Contact& c = made.network.contacts.front();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// free_motions_test.cpp  Motions that no contact resists, such as columns that turn, parts that slide and single
-// spheres, do not prevent a unique modulus.
+// free_motions_test.cpp  Free motions are motions that no contact resists: columns turn, parts slide, single spheres
+// rotate. A specimen with free motions still has a unique modulus.
 #include <gtest/gtest.h>
 
 #include "host/harmonic/rigid_motions.hpp"
@@ -66,8 +66,8 @@ class FreeMotions : public BackendTest<std::tuple<Backend>> {
     EXPECT_LT(r.held_force, 1e-10);
     return r.top.e_star_pa;
   }
-  /// Expects that both solvers find this modulus. The tolerance is the rounding of about ten contacts times the
-  /// condition number of the matrix, which is at most 1e4.
+  /// Expects that the direct and the iterative solver find the modulus `expected`. The tolerance is the rounding of
+  /// about ten contacts times the condition number of the matrix, which is at most 1e4.
   void expect_by_both(const TestScene& scene, double expected) const {
     for (const LinearMethod linear : {LinearMethod::direct, LinearMethod::iterative})
       EXPECT_NEAR(modulus(scene, linear) / expected, 1, 1e-11) << to_string(linear);
@@ -137,7 +137,8 @@ TEST_P(FreeMotions, SpheresOfAColumnTurnByThemselvesAboutSinglePoints) {
   EXPECT_NEAR(modulus(scene, LinearMethod::direct) / (4e9 / 3), 1, 1e-11);
 }
 
-// The inertia of free motions does not contribute to the load, so both solvers agree with inertia too.
+// The inertia of free motions does not contribute to the load, so the direct and the iterative solver agree with
+// inertia too.
 TEST_P(FreeMotions, BothSolversAgreeWithInertia) {
   for (const auto& laws : {laws_of(0.1, 0.1, 0.1), laws_of(0, 0, 0)}) {
     const TestScene scene = make_scene(lattice(1, 2, every_other), {}, laws);

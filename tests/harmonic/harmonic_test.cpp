@@ -25,7 +25,7 @@ HarmonicResult solve(const TestScene& scene, double frequency, double density_sc
 
 TestScene t8() { return make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}})); }
 
-// Results of an independent program (other tessellation, other code), to the digits that it prints.
+// Compares with the results of an independent program, which has its own tessellation, to the digits that it prints.
 TEST(Harmonic, EightNumbersOfT8) {
   const TestScene scene = t8();
   const double frequency[4] = {2, 5, 10, 20};
@@ -41,15 +41,16 @@ TEST(Harmonic, EightNumbersOfT8) {
       EXPECT_NEAR(r.top.phase_deg, phase[i], 0.51e-5);
       EXPECT_LE(r.residual, 1e-11);
       EXPECT_LT(r.iterations, linear == LinearMethod::direct ? 40 : 120);
-      // In equilibrium both walls carry the same force and nothing holds the free motions. The tolerance is the
-      // residual of K·u times the condition.
+      // In equilibrium both walls carry the same force, and nothing holds the free motions. The tolerance is the
+      // residual of K·u times the condition number.
       EXPECT_NEAR(r.bottom.e_star_pa, r.top.e_star_pa, 1e-9 * r.top.e_star_pa);
       EXPECT_LT(r.held_force, 1e-10);
     }
   }
 }
 
-// On t8 a density scaling of 1000 changes |E*| by −1.4e-4 at 20 Hz. The effect of inertia grows as s·f².
+// On t8 a density scaling of 1000 changes |E*| by −1.4e-4 at 20 Hz. The effect of inertia grows as the scaling times
+// the square of the frequency.
 TEST(Harmonic, InertiaOfScaledMass) {
   const TestScene scene = t8();
   const double still = solve(scene, 20).top.e_star_pa;
@@ -110,16 +111,16 @@ TEST(Harmonic, AgreesWithADenseSolutionOnFreshSpecimens) {
     for (const double density_scaling : {0.0, 1e5}) {
       const Complex expected = dense_modulus(scene, 7, density_scaling);
       const HarmonicResult r = solve(scene, 7, density_scaling);
-      // 480 unknowns with a condition of about 1e5; a tolerance of 1e-9 leaves a margin of two digits
+      // 480 unknowns with a condition number of about 1e5; a tolerance of 1e-9 leaves a margin of two digits
       EXPECT_NEAR(r.top.e_star_pa, std::abs(expected), 1e-9 * std::abs(expected)) << "seed " << seed;
       EXPECT_NEAR(r.top.phase_deg, std::arg(expected) * 180 / std::numbers::pi, 1e-7) << "seed " << seed;
     }
   }
 }
 
-// The first resonances of the scaled specimen are below these frequencies. The matrix is indefinite and near a
-// resonance almost singular. The solver must either give the right number or refuse. Tolerance: conditions of about 1e8
-// times a residual of 1e-11, with some margin.
+// At the frequencies of this test the scaled specimen is beyond its first resonances. The matrix is indefinite, and
+// near a resonance it is almost singular. The solver must either give the right number or refuse. Tolerance: condition
+// numbers of about 1e8 times a residual of 1e-11, with some margin.
 TEST(Harmonic, BeyondResonanceTheNumberIsRightOrThereIsNone) {
   const TestScene scene = make_scene(random_specimen(8));
   int found = 0, by_factors = 0;
@@ -153,7 +154,8 @@ TEST(Harmonic, ElasticSceneIsTheStaticModulus) {
 }
 
 // Walls in a laboratory are rigid. If the wall's reaction were computed as stiffness times opening, only four digits
-// would be right at a factor of 1e12. The effect of a finite stiffness of the walls is proportional to its inverse.
+// would be right for a wall that is 1e12 times as stiff as the specimen. The effect of a finite stiffness of the walls
+// is proportional to the inverse of this stiffness.
 TEST(Harmonic, WallsFarStifferThanTheSpecimen) {
   TestScene scene = t8();
   const auto with = [&](double factor) {
@@ -207,8 +209,8 @@ TEST(Harmonic, APairWithoutALawIsNamed) {
   }
 }
 
-// Contacts with the z walls are collected in pieces of 65,536; this network has three pieces. All numbers are integers,
-// so sums are exact.
+// The operator collects contacts with the z walls in pieces of 65,536; this network has three pieces. All numbers are
+// integers, so sums are exact.
 TEST(ContactOperator, EveryWallContactCountsOnceInALargeNetwork) {
   ContactNetwork network;
   double area[2] = {};  // total area of the contacts of the bottom and of the top wall

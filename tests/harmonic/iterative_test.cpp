@@ -42,8 +42,8 @@ class Iterative : public BackendTest<std::tuple<Backend>> {
 };
 INSTANTIATE_TEST_SUITE_P(Backends, Iterative, testing::Combine(all_backends()), name_of_case<Backend>);
 
-/// Expects the same E* from both solvers. The error of E* is the square of the residual of 1e-11 times a condition
-/// number of about 1e5. This is far below rounding, so the tolerance is the rounding of the sums.
+/// Expects the same E* from the iterative and the direct solver. The error of E* is the square of the residual of 1e-11
+/// times a condition number of about 1e5. This is far below rounding, so the tolerance is the rounding of the sums.
 void Iterative::expect_same(const TestScene& scene, const std::vector<HarmonicLoad>& loads, const std::string& what,
                             double tolerance) const {
   const auto found = solve(scene, LinearMethod::iterative, loads), expected = solve(scene, LinearMethod::direct, loads);
@@ -89,8 +89,8 @@ TEST_P(Iterative, AgreesWithFactorsOnClusters) {
   }
 }
 
-// With almost no shear stiffness, facets still resist bending, but the bending stiffness is much smaller. The condition
-// number of the matrix increases, and so does the error.
+// With almost no shear stiffness, facets still resist bending, but the bending stiffness is much smaller. So the
+// condition number of the matrix and the error of E* are larger.
 TEST_P(Iterative, AgreesWithFactorsAlmostWithoutShear) {
   Laws laws = am1_laws();
   for (auto& law : laws) std::visit([](auto& l) { l.alpha = 1e-3; }, *law);
@@ -111,7 +111,7 @@ std::vector<std::pair<std::string, TestScene>> hostile_networks() {
   return out;
 }
 
-// On a device a whole thread block works on each particle with this many contacts.
+// On a device (GPU) a whole thread block works on each particle that has so many contacts.
 TEST_P(Iterative, AgreesWithFactorsWhereParticlesTouchAHundredOthers) {
   const TestScene scene = make_scene(boulders(test_seed()));
   std::size_t with_many = 0;
@@ -121,7 +121,8 @@ TEST_P(Iterative, AgreesWithFactorsWhereParticlesTouchAHundredOthers) {
   expect_same(scene, {{10}}, "one");
 }
 
-// If loads much larger than the wall's cancel, a residual of 1e-11 is below rounding; E* is still as accurate.
+// Some loads are much larger than the load of the wall and cancel each other. A residual of 1e-11 is then below
+// rounding, but E* is as accurate as usual.
 TEST_P(Iterative, AgreesWithFactorsOnHostileNetworks) {
   for (const auto& [name, scene] : hostile_networks()) expect_same(scene, {{10}}, name);
 }
@@ -144,8 +145,8 @@ TEST_P(Iterative, AResidualOf1e8GivesNineDigits) {
   }
 }
 
-// At s = a + iω, laws, inertia and damping are those of e^(s·t). For real s the modulus is real, and conjugate s give
-// conjugate moduli.
+// At s = a + iω, the stiffness, the inertia and the damping are those of a motion proportional to e^(s·t). For real s
+// the modulus is real, and conjugate s give conjugate moduli.
 TEST_P(Iterative, AnyComplexFrequency) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   for (const double growth : {0.5, 30.0}) {
@@ -178,8 +179,8 @@ TEST_P(Iterative, StopsWhenAsked) {
   }
 }
 
-// One frequency alone uses other code than four together. Here it also starts from the solution for another inertia,
-// not from rest.
+// The solver has separate code for a single frequency and for four frequencies together. Here the single frequency also
+// starts from the solution for another inertia, not from rest.
 TEST_P(Iterative, OneAtATimeGivesTheSame) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   const auto together = solve(scene, LinearMethod::iterative, loads_of(1e4));
@@ -195,7 +196,8 @@ TEST_P(Iterative, OneAtATimeGivesTheSame) {
   EXPECT_NEAR(three[2].top.e_star_pa / together[3].top.e_star_pa, 1, 1e-10);
 }
 
-// Starting at a solution needs no iteration. On a device the network is so large that solutions are copied in parts.
+// If the solver starts at a solution, it needs no iteration. The network is so large that a device (GPU) copies the
+// solutions in parts.
 TEST_P(Iterative, BeginsAtASolutionAndStaysThere) {
   const bench::BenchCase lattice = bench::lattice(backend() == Backend::cuda ? 380'000 : 15'000, true);
   const TestScene scene{lattice.specimen, lattice.network, lattice.laws, lattice.inertia};
@@ -212,8 +214,8 @@ TEST_P(Iterative, BeginsAtASolutionAndStaysThere) {
   EXPECT_LT(apart, 1e-10);  // the top wall moves by 1
 }
 
-// The lattice is large enough that the particle order, the rows, the coarse matrix and all sums are computed in several
-// pieces.
+// The lattice is so large that the particle order, the matrix rows, the coarse matrix and all sums are computed in
+// several pieces.
 TEST_P(Iterative, SameBitsForAnyNumberOfThreads) {
   const bench::BenchCase lattice = bench::lattice(15000, true);
   const TestScene scene{lattice.specimen, lattice.network, lattice.laws, lattice.inertia};
@@ -234,8 +236,8 @@ TEST_P(Iterative, SameBitsForAnyNumberOfThreads) {
   EXPECT_TRUE(moduli[0] == moduli[1] && moduli[0] == moduli[2]);
 }
 
-// Boxes of particles (the coarse space) are part of the preconditioner only: their number does not change the solution,
-// but more of them reduce the number of iterations.
+// Boxes of particles (the coarse space) are only a part of the preconditioner. Their number does not change the
+// solution, but with more boxes the solver needs fewer iterations.
 TEST(CoarseSpace, SavesIterationsAndChangesNoSolution) {
   const TestScene scene = make_scene(random_specimen(test_seed(), 8, 8, 20));
   const std::size_t n = scene.specimen.size();
@@ -261,11 +263,11 @@ TEST(CoarseSpace, SavesIterationsAndChangesNoSolution) {
   EXPECT_TRUE(same.motion == usual.motion && same.iterations == usual.iterations);
   EXPECT_LT(usual.iterations, few.iterations);
   EXPECT_LT(few.iterations, none.iterations);
-  // the error of E* is the square of residuals of 1e-10 times a condition of about 1e5
+  // the error of E* is the square of residuals of 1e-10 times a condition number of about 1e5
   for (const auto* task : {&none, &few}) { EXPECT_NEAR(std::abs(modulus(*task) / modulus(usual) - 1.0), 0, 1e-9); }
 }
 
-/// Compares the kernels that work on rows with the operator that checks solutions.
+/// Compares the kernels of the solver, which work on rows of the matrix, with the operator that checks solutions.
 template <int F>
 void expect_same_rows() {
   const TestScene scene = make_scene(random_specimen(test_seed()));
@@ -336,8 +338,8 @@ TEST_P(Iterative, ManyFreeMotionsAreLeftToFactors) {
   EXPECT_NEAR(r.bottom.e_star_pa / r.top.e_star_pa, 1, 1e-8);
 }
 
-// The contacts resist neither sliding nor bending, so particles at free ends can rotate. Both solvers refuse such a
-// mechanism.
+// The contacts resist neither sliding nor bending, so particles at free ends can rotate. The direct and the iterative
+// solver both refuse such a mechanism.
 TEST_P(Iterative, AMechanismIsRefusedByBoth) {
   Laws laws;
   laws.fill(laws::Elastic{1e10, 0.0});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_model_test.cpp  The reduced model computes E* in the space of known motions: it is exact where a known motion
-// is the solution, and close to it elsewhere.
+// reduced_model_test.cpp  The reduced model computes E* from combinations of known motions (earlier solutions). It is
+// exact where a known motion is the solution, and close to the solution elsewhere.
 #include "host/harmonic/reduced_model.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using harmonic::ReducedModel;
 
 class Reduced : public testing::TestWithParam<bool> {
  protected:
-  /// Returns laws with M-M moduli multiplied by `factor` and the M-M shear ratio multiplied by `alpha`.
+  /// Returns laws whose M–M moduli are multiplied by `factor` and whose M–M shear ratio is multiplied by `alpha`.
   Laws with(double factor, double alpha = 1) const {
     Laws out = start;
     auto& law = std::get<laws::GeneralisedKelvin>(*out[static_cast<std::size_t>(PairType::mm)]);
@@ -52,8 +52,8 @@ TEST_P(Reduced, WhereThereIsASolutionItIsThat) {
     model.add({solved.motion});
     const ReducedModel::Solution found = model.solve(start, load(frequency));
     const double scale = std::abs(solved.parts.modulus());
-    // Sums of about a thousand contacts, and a small system scaled by its diagonal: rounding of a few thousand
-    // operations.
+    // The rounding of a few thousand operations: sums over about a thousand contacts, and a small system that is scaled
+    // by its diagonal.
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       EXPECT_LT(std::abs(found.parts.normal[pair] - solved.parts.normal[pair]) / scale, 1e-11) << pair;
       EXPECT_LT(std::abs(found.parts.shear[pair] - solved.parts.shear[pair]) / scale, 1e-11) << pair;

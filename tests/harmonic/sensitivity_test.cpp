@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sensitivity_test.cpp  Compares derivatives computed from one harmonic solution with central differences of two
-// solutions.
+// sensitivity_test.cpp  Compares derivatives of |E*| and phase that are computed from one harmonic solution with
+// central differences of two solutions.
 #include "macadam/sensitivity.hpp"
 
 #include <gtest/gtest.h>
@@ -47,9 +47,9 @@ Laws changed(Laws laws, const std::string& parameter, double factor) {
   return laws;
 }
 
-/// Compares the derivatives with central differences. With a step of 1e-4 in the logarithm these have two errors:
-/// (1e-4)²/6 of the third derivative, and the rounding of the solutions, 1e-12, divided by the step. A tolerance of
-/// 1e-6 of |E*| and of a radian covers both.
+/// Compares the derivatives with central differences. With a step of 1e-4 in the logarithm of a parameter, these
+/// differences have two errors: (1e-4)²/6 of the third derivative, and the rounding of the solutions, 1e-12, divided by
+/// the step. A tolerance of 1e-6 of |E*| and of 1e-6 rad covers both errors.
 void expect_derivatives(const TestScene& scene, double density_scaling) {
   constexpr double step = 1e-4, tolerance = 1e-6;
   const HarmonicResult here = solve(scene, scene.laws, density_scaling);
@@ -82,7 +82,8 @@ TEST(Sensitivity, OfClustersAgainstCentralDifferences) {
   for (const double density_scaling : {0.0, 1e5}) expect_derivatives(scene, density_scaling);
 }
 
-// Multiplying all moduli by a number multiplies |E*| and keeps the phase. The fractions of all pairs add up to 1.
+// Multiplying all moduli by a number multiplies |E*| and keeps the phase. The fractions of the modulus that the pair
+// types carry add up to 1.
 TEST(Sensitivity, AllDeltasTogetherScaleTheModulus) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   const HarmonicResult r = solve(scene, scene.laws, 0);
@@ -119,8 +120,8 @@ TEST_F(SensitivityCommand, AreWrittenWhereTheSceneAsks) {
   EXPECT_EQ(std::count(names.begin(), names.end(), "M-W.alpha"), 0);  // its value is 0
 }
 
-// The scaling predicted from the derivative must change the modulus by the wanted amount, except for the square of the
-// change.
+// The largest density scaling is predicted from a derivative. It must change the modulus by the wanted amount, with an
+// error of the order of the square of the change.
 TEST(Scaling, IsAsLargeAsAChangeOfTheModulusAllows) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, frequency);
@@ -131,11 +132,11 @@ TEST(Scaling, IsAsLargeAsAChangeOfTheModulusAllows) {
       EXPECT_GT(scaling, 1);
       const HarmonicResult scaled = harmonic.solve(frequency, scaling, viscous);
       const double reached = largest(difference(scaled.top, known.top));
-      // A change of the modulus by 1e-6 is only accurate to 1e-4.
+      // A change of the modulus by 1e-6 is itself accurate to 1e-4 only.
       EXPECT_NEAR(reached / wanted, 1, 3 * wanted + 1e-4) << wanted << " " << viscous;
     }
   }
-  EXPECT_EQ(largest_scaling(known, 1e9, 1e-6), 1);  // damping alone exceeds the allowed change
+  EXPECT_EQ(largest_scaling(known, 1e9, 1e-6), 1);  // damping alone changes the modulus by more than is allowed
 }
 
 }  // namespace

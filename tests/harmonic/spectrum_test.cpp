@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spectrum_test.cpp  Compares relaxation and creep spectra with closed forms and with Laplace inversions of full
-// solutions, and tests conversions between both spectra.
+// spectrum_test.cpp  Compares relaxation and creep spectra with closed forms and with Laplace inversions of solutions
+// of the whole network, and tests conversions between the two kinds of spectrum.
 #include "macadam/spectrum.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(Series, OfALawIsTheLaw) {
   for (const auto& law : {am1(PairType::mm), solid, maxwell, twins}) {
     const PronySeries series = prony_series(law);
     for (const Complex s : {Complex(1e-6, 0), Complex(0, 1e-3), Complex(3, 40), Complex(0, 1e5), Complex(-1e-3, 1)}) {
-      // There are few units, but they are computed from roots, whose last digits are rounding errors.
+      // The series has few units, but they are computed as roots of a polynomial, whose last digits are rounded.
       EXPECT_LT(std::abs(series.stiffness(s) / law.stiffness(s) - 1.0), 1e-12) << s;
     }
     EXPECT_EQ(series.long_term == 0, std::isfinite(law.C_m));
@@ -37,7 +37,8 @@ TEST(Series, OfALawIsTheLaw) {
   EXPECT_EQ(prony_series(laws::Elastic{3e9, 0.1}).modulus(5), 3e9);
 }
 
-// The creep of a chain follows from its constants, and must be the inverse of E*.
+// The creep series is computed as the inverse of E*. For a chain (springs and dashpots in series) it must equal the
+// closed form, which follows from the chain's constants.
 TEST(Series, CreepOfALawIsItsChain) {
   const laws::GeneralisedKelvin law = am1(PairType::mm);
   const CreepSeries creep = creep_series(prony_series(law));
@@ -59,7 +60,7 @@ TEST(Spectrum, OfOneContactIsTheClosedForm) {
     specimen.body.push_back(-1);
   }
   Laws laws = am1_laws();
-  // so that nothing can slide freely
+  // a shear stiffness at the walls, so that nothing can slide freely
   std::get<macadam::laws::Elastic>(*laws[static_cast<std::size_t>(PairType::mw)]).alpha = 0.1;
   const TestScene scene = make_scene(specimen, {}, laws);
   const Spectrum found = spectrum_of(scene.specimen, scene.network, scene.laws);
@@ -83,7 +84,7 @@ TEST(Spectrum, OfOneContactIsTheClosedForm) {
                   (between / law.stiffness(s) + compliance_at_walls / std::get<laws::Elastic>(wall).E));
         },
         t, 24);
-    // Talbot's sum is only accurate to 1e-11 of E(0), which limits the comparison beyond 100 s.
+    // The sum of Talbot's method is only accurate to 1e-11 of E(0), which limits the comparison beyond 100 s.
     EXPECT_NEAR(found.relaxation.modulus(t), relaxed, 1e-8 * relaxed + 1e-11 * found.relaxation.instantaneous()) << t;
   }
 }
@@ -93,7 +94,8 @@ TEST(Series, ARampIsTheMeanOfSteps) {
   const CreepSeries creep = creep_series(series);
   for (const double duration : {1e-6, 0.02, 5.0}) {
     for (const double t : {0.3 * duration, duration, 1.7 * duration}) {
-      // Midpoint rule: steps of 1/2,000 of the ramp, at most 1/20 of a relaxation time, so errors of (1/20)²/24.
+      // The integral uses the midpoint rule. A step is 1/2,000 of the ramp, and at most 1/20 of a relaxation time, so
+      // the error is (1/20)²/24.
       constexpr int steps = 2000;
       double stress = 0, strain = 0;
       for (int i = 0; i < steps; ++i) {
@@ -109,7 +111,7 @@ TEST(Series, ARampIsTheMeanOfSteps) {
   EXPECT_EQ(creep.after_ramp(-1, 3), 0);
 }
 
-// A sufficiently slow Kelvin unit acts as a dashpot, except for the fraction t/τ of its strain.
+// A sufficiently slow Kelvin unit acts as a dashpot, up to a fraction t/τ of its strain.
 TEST(Series, ASlowUnitFlowsAfterARamp) {
   const CreepSeries dashpot{0, 1e-9, {}};
   const double duration = 0.02;
@@ -151,7 +153,7 @@ TEST(Series, RangesAreEvenInTheLogarithm) {
 }
 
 /// Compares the spectrum of a network with numerical Laplace inversions of solutions of the whole network. The two
-/// computations have only the solver in common.
+/// computations share only the solver.
 TEST(Spectrum, OfANetworkIsTheInversionOfItsSolutions) {
   for (const TestScene& scene : {make_scene(random_specimen(3)), make_scene(random_specimen(4), {}, am2_laws())}) {
     SpectrumOptions options;

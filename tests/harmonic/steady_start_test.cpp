@@ -94,7 +94,8 @@ TEST(SteadyStartDamped, ViscousDampingIsInTheSolution) {
   expect_periodic(error_of_one_cycle(scene, 20, Backend::cpu, options));
 }
 
-// The reference stepper sets its own chains from the same start state and must agree.
+// The reference stepper computes the start state of its Kelvin chains itself, from the same harmonic solution, and must
+// agree.
 TEST(SteadyStartReference, AgreesOverTheFirstSteps) {
   const TestScene scene = t8();
   StepperOptions options = shaking_options(scene);

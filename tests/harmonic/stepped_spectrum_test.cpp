@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_spectrum_test.cpp  Steps relaxation, creep and recovery in time with driven walls, and compares them with the
-// spectrum, which is computed without steps.
+// stepped_spectrum_test.cpp  Steps relaxation, creep and recovery in time with driven walls. Compares them with the
+// spectrum, which is computed without time steps.
 #include <gtest/gtest.h>
 
 #include "tests/support/long_tests.hpp"
@@ -17,8 +17,8 @@ class SteppedSpectrum : public testing::Test {
   double area_ = scene_.specimen.box.size.x * scene_.specimen.box.size.y;
   Spectrum spectrum_ = spectrum_of(scene_.specimen, scene_.network, scene_.laws, {1e-4, 10});
 
-  /// Returns options with viscous damping β [1/s], which ends the waves that a ramp causes. Its effect on slow motion
-  /// is far below 1e-4.
+  /// Returns options with viscous damping β [1/s], which damps the waves that a ramp causes. Damping changes slow
+  /// motion by far less than 1e-4.
   StepperOptions options(double scaling, double beta) const {
     StepperOptions out;
     out.geometry = Geometry::fixed;
@@ -59,7 +59,8 @@ TEST_F(SteppedSpectrum, IsTheRelaxation) {
   expect_relaxation(1000, 2e3, 5e-2, 0.1, long_tests ? 1.0 : 0.2);
 }
 
-// The stress on the platen rises, is held and is released. The strain grows, and a part of it recovers.
+// The stress on the platen (a wall that moves under a load) rises, is held and is released. The strain grows, and a
+// part of it recovers.
 TEST_F(SteppedSpectrum, IsTheCreepAndTheRecovery) {
   const double stress = 1e5, rise = 0.02, release = 0.1, end = 0.3, mass = 1e-4;
   StepperOptions given = options(100, 200);

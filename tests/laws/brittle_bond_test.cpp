@@ -12,7 +12,7 @@
 namespace macadam::test {
 namespace {
 
-/// Brittle bonds are not linear, so every case steps them by contact points.
+/// Brittle bonds are not linear, so every case uses the contact form `points`.
 using Case = std::tuple<Backend, Precision, Geometry>;
 
 class BrittleBond : public BackendTest<Case> {
@@ -65,8 +65,8 @@ struct HeldParticle {
   }
 };
 
-/// Expects that all points of the contact with the top wall are broken in the way `how`, and that the other contact is
-/// intact.
+/// Expects that all points of the contact with the top wall are broken as `how` says, and that the contact with the
+/// bottom wall is intact.
 void expect_broken(const Stepper& stepper, const ContactNetwork& network, Break how) {
   const std::vector<Break> breaks = stepper.point_breaks(network);
   ASSERT_EQ(breaks.size(), network.point_area.size());
@@ -129,8 +129,7 @@ TEST_P(BrittleBond, BreakingCostsTheEnergyThatItHeld) {
       u = u_next, force = force_next;
     }
     const double energy = 0.5 * stiffness * opens * opens;
-    // The bond may break anywhere within a step, so the work is uncertain by half of the work of the last step before
-    // it breaks.
+    // The bond may break anywhere within a step, so the work is uncertain by half of the work of that step.
     EXPECT_NEAR(work, reached > 1 ? energy : 0, reached > 1 ? 2 * reached / steps * energy : 1e-4 * energy) << reached;
   }
 }
@@ -152,7 +151,8 @@ std::pair<int, int> broken_points(const TestScene& scene, const Stepper& stepper
   return out;
 }
 
-/// Expects the given breaks from a stepper, and for each contact the fraction of broken points that follows from them.
+/// Expects the given breaks from a stepper. Expects for each contact the fraction of broken points that follows from
+/// these breaks.
 void expect_breaks(const TestScene& scene, const Stepper& stepper, const std::vector<Break>& expected) {
   const ContactState state = stepper.contacts(scene.network);
   EXPECT_EQ(stepper.point_breaks(scene.network), expected);
@@ -166,8 +166,8 @@ void expect_breaks(const TestScene& scene, const Stepper& stepper, const std::ve
   }
 }
 
-// A specimen is shaken until many bonds are broken, and must agree with the reference. Only rounding may change the
-// step in which a bond breaks.
+// A specimen is shaken until many bonds are broken. It must agree with the reference stepper, in which a bond breaks at
+// the same step except for rounding.
 TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   Laws laws = same_law(laws::BrittleBond{2e10, 3e4, 2e4, 0.3});
   laws[static_cast<std::size_t>(PairType::mm)] = mastic_am1();
@@ -195,8 +195,8 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   if (own.precision == Precision::double_) expect_breaks(scene, *stepper, breaks);
   const auto [points, broken] = broken_points(scene, *stepper);
   const auto expected = std::ssize(breaks) - std::count(breaks.begin(), breaks.end(), Break::none);
-  // In single precision, rounding may decide for points that are within 1e-5 of their strength; allowed is one point in
-  // a thousand.
+  // In single precision, rounding may decide whether a point breaks that is within 1e-5 of its strength. One point in a
+  // thousand may differ.
   EXPECT_NEAR(broken, static_cast<double>(expected), own.precision == Precision::double_ ? 0 : 1e-3 * points);
   EXPECT_GT(broken, points / 20);
   EXPECT_LT(broken, points * 19 / 20);

@@ -18,7 +18,7 @@ class ContactStates : public BackendTest<StepperCase> {
   }
 };
 
-/// Expects that the forces and moments of all contacts add up to those of every particle and wall.
+/// Expects that the forces and moments of all contacts add up to the forces and moments on every particle and wall.
 void expect_sums(const TestScene& scene, const Stepper& stepper, double tolerance) {
   const ContactState contacts = stepper.contacts(scene.network);
   const ParticleState particles = stepper.particles();
@@ -51,7 +51,8 @@ TEST_P(ContactStates, ForcesAddUpToThoseOfTheBodies) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   for (StepperOptions options : {shaking_options(scene), slow_options(scene)}) {
     const auto stepper = make(scene, options);
-    stepper->advance(137);  // a step within a block of steps, for backends that have blocks
+    // Step 137 lies within a block of steps, for backends that update the viscoelastic state once per block.
+    stepper->advance(137);
     // With fixed geometry the stepper keeps the initial lever arms, but the sums here use the current ones. At strains
     // of 1e-4 they differ by 1e-4.
     const bool fixed = options.geometry == Geometry::fixed;
@@ -88,7 +89,7 @@ TEST_P(ContactStates, RelativeDisplacementIsWhatTheLawSees) {
 
 INSTANTIATE_TEST_SUITE_P(All, ContactStates, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
 
-/// Sampling calls back at the start and after every sample.
+/// A stepper calls back at the start and after every sample.
 TEST(Sampling, TellsTheStartAndEverySample) {
   const TestScene scene = make_scene(random_specimen(3));
   const StepperOptions options = shaking_options(scene);

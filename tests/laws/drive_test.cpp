@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// drive_test.cpp  Compares drives with their formulas. Tests driven walls, platens, fixed particles and body forces on
-// every backend: against the reference, conservation of momentum and static solutions.
+// drive_test.cpp  Compares drives (prescribed motions and loads as functions of time) with their formulas. Tests driven
+// walls, platens (walls that move under a load), fixed particles and body forces on every backend: against the
+// reference stepper, conservation of momentum and static solutions.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -137,7 +138,8 @@ TEST_P(DrivenWalls, OnSeveralAxesAtOnce) {
   compare(of, options, 150);
 }
 
-// With walls that move slowly, a device steps in blocks.
+// If the walls move slowly, a device (GPU) updates the viscoelastic state only once per block of several steps. This
+// test moves several walls in that way.
 TEST_P(DrivenWalls, SlowlyOnSeveralWalls) {
   const TestScene of = scene(test_seed() + 3);
   StepperOptions options = slow_options(of);
@@ -167,7 +169,7 @@ TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
 }
 
 // Laboratories usually apply pulses with rests between them. The motion is so slow that a step rotates normals by at
-// most about 5e-7; stepper and reference differ by the square of this angle.
+// most about 5e-7 rad. The stepper and the reference stepper differ by the square of this angle.
 TEST_P(DrivenWalls, UnderHaversinePulses) {
   const TestScene of = scene(test_seed() + 4);
   StepperOptions options = shaking_options(of);
@@ -177,11 +179,11 @@ TEST_P(DrivenWalls, UnderHaversinePulses) {
   const double area = of.specimen.box.size.x * of.specimen.box.size.y, size = of.specimen.box.size.x;
   options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Haversine>(-1e5 * area, options.dt, 60, 30), mass);
   options.boundary.move(wall_x_lo, 0, std::make_shared<drives::Haversine>(5e-6 * size, options.dt, 80, 20, 1));
-  // the end is within the second pulse of the platen, and after the only pulse of the side wall
+  // the run ends within the second pulse of the platen, and after the only pulse of the side wall
   compare(of, options, 120);
 }
 
-// The wall has more contacts than one thread on a device sums up.
+// The wall has more contacts than a single thread on a device (GPU) sums up.
 TEST_P(DrivenWalls, APlatenOnManyParticles) {
   const TestScene of = make_scene(random_specimen(test_seed() + 5, 9, 9, 2));
   std::int64_t on_top = 0;
@@ -194,7 +196,7 @@ TEST_P(DrivenWalls, APlatenOnManyParticles) {
   compare(of, options, 100);
 }
 
-// The run has more steps than a stepper tabulates for the walls at once.
+// A stepper tabulates the motion of the walls for a limited number of steps at once; this run has more steps.
 TEST_P(DrivenWalls, OverMoreStepsThanOnePieceOfTheTable) {
   const std::int64_t piece = kernels::WallTable<double>::most_rows;
   const TestScene of = make_scene(random_specimen(test_seed() + 6, 2, 2, 2));
@@ -215,7 +217,8 @@ TEST_P(DrivenWalls, OverMoreStepsThanOnePieceOfTheTable) {
   compare(of, options, piece + 300);
 }
 
-// A device takes these steps in blocks.
+// If the wall moves slowly, a device (GPU) updates the viscoelastic state only once per block of several steps. This
+// test has fixed particles and weight in such a run.
 TEST_P(DrivenWalls, FixedParticlesAndWeightUnderASlowDrive) {
   const TestScene of = scene(test_seed() + 2);
   StepperOptions options = slow_options(of);
@@ -234,8 +237,8 @@ class Platen : public BackendTest<std::tuple<Backend, Precision>> {
   }
 };
 
-// The impulse of the drive and the bottom wall equals the change of momentum of particles and platen, except for
-// rounding.
+// The sum of the impulses of the drive and of the bottom wall equals the change of momentum of particles and platen,
+// except for rounding.
 TEST_P(Platen, KeepsMomentum) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   StepperOptions options = shaking_options(scene);
@@ -255,7 +258,7 @@ TEST_P(Platen, KeepsMomentum) {
   double momentum = mass * velocity;
   const ParticleState state = stepper->particles();
   for (std::size_t i = 0; i < scene.specimen.size(); ++i) momentum += scene.inertia.mass[i] * state.velocity[i].z;
-  // forces of about a thousand contacts, each rounded, over a hundred steps, in which the errors average
+  // rounding of the forces of about a thousand contacts over a hundred steps, in which the errors partly cancel
   const double rounding = std::get<Precision>(GetParam()) == Precision::double_ ? 0x1p-53 : 0x1p-24;
   EXPECT_NEAR(momentum, given, 300 * rounding * largest);
   EXPECT_GT(largest, 0.1 * std::abs(force) * 100 * options.dt);
@@ -280,7 +283,7 @@ TEST_P(Platen, ComesToRestAtTheStaticDisplacement) {
   options.boundary = Boundary().load(wall_z_hi, 2, std::make_shared<drives::Ramp>(force, options.dt, 100), mass);
   const auto stepper = make(scene, options);
   stepper->advance(4000);
-  // The contacts are springs in series, E·A/d each, with half the length at the two walls.
+  // The contacts are springs in series with the stiffness E·A/d; d is half as long at the two walls.
   const double expected = force / (modulus * side * side / (layers * side));
   const Observation now = stepper->observe();
   EXPECT_NEAR(now.wall_displacement[wall_index(wall_z_hi)].z, expected, 1e-4 * std::abs(expected));
@@ -324,7 +327,8 @@ TEST(SteppersBytes, CountWeightsAndTheWallsTable) {
   EXPECT_EQ(bytes() - bare, 4 * 8 * particles + 8 * 4 * (kernels::WallTable<double>::most_rows + 1));
 }
 
-// A light platen on an elastic contact limits the time step: λ = E·A/(d·m), and the step is √(2/λ).
+// A light platen (a wall that moves under a load) on an elastic contact limits the time step. The eigenvalue is λ =
+// E·A/(d·m), and the step is √(2/λ).
 TEST(PlatenStep, IsCriticalWhereThePlatenIsLight) {
   const HandMade made = cubic_lattice_network(1, 1, 2, 2e-3, 2e-5);
   const Laws laws = same_law(laws::Elastic{3e9, 0.2});

@@ -86,7 +86,7 @@ struct WithoutValue : Unknown {
     return {};
   }
 };
-/// Declares that it is coupled, but has neither advance_point() nor the number of its units.
+/// A law that declares itself coupled, but has neither advance_point() nor the number of its units.
 struct Coupled : UnknownAndNotLinear {
   template <class R>
   struct Step {
@@ -98,7 +98,7 @@ struct Coupled : UnknownAndNotLinear {
   }
 };
 
-// The requirements of a stepper: types that lack one of them do not satisfy the concept.
+// The requirements of a stepper form a concept; types that lack one of them do not satisfy it.
 TEST(Contract, IsAConcept) {
   using laws::SteppableLaw;
   static_assert(SteppableLaw<Elastic> && SteppableLaw<GeneralisedKelvin> && SteppableLaw<Unknown>);

@@ -25,7 +25,7 @@ using laws::GeneralisedKelvin;
 using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// One displacement component with a law of the library.
+/// One displacement component, to which a law of the library is applied.
 template <class L>
 class Element {
  public:
@@ -44,7 +44,8 @@ class Element {
   double f_;
 };
 
-/// One displacement component with the chain of the reference implementation, for an area over distance of 1.
+/// One displacement component with the chain (springs and dashpots in series) of the reference implementation. Area
+/// over distance is 1.
 class ReferenceElement {
  public:
   ReferenceElement(const Law& law, double dt, double f = 0) : law_(reference::make_reference_law(law, "M-M")), dt_(dt) {
@@ -71,7 +72,7 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-// The slowest relaxation time of these chains is below (ΣC_l + C_m)/min E_l.
+// The slowest relaxation time of a chain (springs and dashpots in series) is below (ΣC_l + C_m)/min E_l.
 std::vector<Case> cases() {
   GeneralisedKelvin no_flow = test::mastic_am1();
   no_flow.C_m = infinity;
@@ -92,8 +93,8 @@ std::complex<double> measured_stiffness(E element, double frequency, double sett
   const int n = steps_per_cycle;
   std::vector<double> x(n);
   for (int k = 0; k < n; ++k) x[k] = std::sin(2 * pi * k / n);
-  // If Δt is much larger than a relaxation time τ, the trapezoidal rule damps this transient only by 1 − 4τ/Δt per
-  // step. 200 more cycles are enough for τ > Δt/1000.
+  // If Δt is much larger than a relaxation time τ, the trapezoidal rule damps the transient of this time by only 4τ/Δt
+  // per step. 200 more cycles are enough for τ > Δt/1000.
   const auto cycles = static_cast<std::int64_t>(std::ceil(settling * frequency)) + 200;
   for (std::int64_t c = 0; c + 1 < cycles; ++c) {
     for (int k = 0; k < n; ++k) element.advance(x[(k + 1) % n] - x[k]);
@@ -111,9 +112,9 @@ class ComplexStiffness : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Chains, ComplexStiffness, testing::ValuesIn(cases()),
                          [](const auto& info) { return info.param.name; });
 
-// The trapezoidal rule gives a harmonic at ω exactly the stiffness of the continuous law at (2/Δt)·tan(ωΔt/2).
-// Tolerance: rounding over up to 2e6 steps is a random walk, 1400·1.1e-16, in forces up to E_m, while |k*| may be
-// E_m/1000.
+// For a harmonic at ω, the trapezoidal rule gives exactly the stiffness of the continuous law at (2/Δt)·tan(ωΔt/2).
+// Tolerance: rounding over up to 2e6 steps is a random walk, 1400·1.1e-16, in forces up to E_m, while |k*| may be as
+// small as E_m/1000.
 TEST_P(ComplexStiffness, IsExactAtTheWarpedFrequency) {
   const auto& [name, law, settling] = GetParam();
   constexpr int n = 64;
@@ -141,7 +142,7 @@ TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
   };
   const double coarse = error(64), fine = error(128);
   if (name == "Spring") {
-    EXPECT_LT(coarse, 1e-12);  // there is nothing to integrate, only 64 roundings
+    EXPECT_LT(coarse, 1e-12);  // this law needs no integration, so there are only 64 roundings
   } else {
     EXPECT_LT(coarse, 1e-3);  // (ωΔt)²/12 = 8e-4
     EXPECT_NEAR(coarse / fine, 4, 0.05);
@@ -150,12 +151,12 @@ TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
 
 TEST_P(ComplexStiffness, TendsToTheInstantaneousStiffness) {
   const auto& law = GetParam().law;
-  // At ω the dashpots reduce the stiffness by E_m/(ω·C), in sum less than 5e10/(1e12·2e6).
+  // At ω the dashpots reduce the stiffness by E_m/(ω·C), summed over all dashpots by less than 5e10/(1e12·2e6).
   EXPECT_LT(std::abs(law.stiffness(std::complex<double>(0, 1e12)) - law.instantaneous()) / law.instantaneous(), 1e-6);
 }
 
-// Library and reference implementation follow the same random motion. Rounding errors grow as a random walk over 1e4
-// steps to 100·1.1e-16 of the largest force, which is E_m times a displacement of 1.
+// The library and the reference implementation follow the same random motion. Over 1e4 steps, rounding errors grow as a
+// random walk to 100·1.1e-16 of the largest force, which is E_m times a displacement of 1.
 TEST_P(ComplexStiffness, LibraryAndReferenceAgree) {
   const auto& law = GetParam().law;
   for (double dt : {1e-7, 1e-3, 1.0}) {
@@ -178,8 +179,8 @@ double creep(const GeneralisedKelvin& law, double t) {
   return x;
 }
 
-/// Returns the displacement after `steps` steps under a unit force. In each step, dx is chosen so that f stays
-/// constant, by Eq. 13 with f(t+Δt) = f(t).
+/// Returns the displacement after `steps` steps under a unit force. Each step chooses dx so that the force f stays
+/// constant; dx follows from Eq. 13 of [1] with f(t+Δt) = f(t).
 double computed_creep(const GeneralisedKelvin& law, double dt, int steps) {
   Element element(law, dt, 1.0);
   double x = 1 / law.E_m;
@@ -281,14 +282,15 @@ TEST(Step, TheNumberOfUnitsMayBeKnownToTheCompiler) {
   for (int l = 0; l < 3; ++l) EXPECT_DOUBLE_EQ(x[l], y[l]);
 }
 
-/// Errors of f under a sinusoidal displacement, if steps are taken in blocks and not one by one.
+/// Errors of the force f under a sinusoidal displacement if the state of the law is updated once per block of steps,
+/// compared with an update at every step.
 struct BlockErrors {
   double largest;      ///< largest difference over the largest f
-  double fundamental;  ///< error of size and phase in the last cycle, |ratio − 1|
+  double fundamental;  ///< error of amplitude and phase in the last cycle, |ratio − 1|
 };
 
-/// Returns the errors over `cycles` of a sine, in blocks of `block` steps. `Real` is the type of the change of f within
-/// a block, δf, and of its sum.
+/// Returns the errors over `cycles` cycles of a sine, in blocks of `block` steps. `Real` is the type of δf, the change
+/// of f within a block, and of the sum of these changes.
 template <class Real, class L>
 BlockErrors block_errors(const L& law, double frequency, int steps_per_cycle, int block, int cycles) {
   const double dt = 1 / (frequency * steps_per_cycle);
@@ -337,7 +339,8 @@ TEST(Block, ConvergesAtSecondOrder) {
 
 /// A block lasts 1/4000 of the period, or of 2π times the shortest time of the law if this is less. The error of f
 /// within a block is a saw-tooth of at most (2π/4000)²/8 = 3e-7. In single precision, δf (at most 2π/4000 of f) and the
-/// drive are rounded by 2^-24; this random walk over the 4,000 blocks of a period and their steps stays below 3e-7.
+/// drive are rounded by 2^-24. Over the steps of the 4,000 blocks of a period these errors add up as a random walk,
+/// which stays below 3e-7.
 TEST(Block, IsExactEnoughAtAFourThousandthOfTheShortestTime) {
   for (const auto& law : {test::mastic_am1(), test::mastic_am2()}) {
     for (const double frequency : {2.0, 20.0}) {
@@ -352,8 +355,8 @@ TEST(Block, IsExactEnoughAtAFourThousandthOfTheShortestTime) {
   EXPECT_DOUBLE_EQ(test::mastic_am1().shortest_time(), 1.114e9 / 4.308e10);
 }
 
-/// If a block is as long as a tolerance allows, size and phase have at most the error that the plan assumes, also if δf
-/// is in single precision.
+/// If a block is as long as a tolerance allows, amplitude and phase have at most the error that the plan assumes. This
+/// also holds if δf, the change of f within a block, is in single precision.
 TEST(Block, OfTheLengthThatAnErrorAllowsKeepsIt) {
   for (const auto& law : {test::mastic_am1(), test::mastic_am2()}) {
     for (const double frequency : {2.0, 5.0, 20.0}) {
@@ -372,8 +375,8 @@ TEST(Block, OfTheLengthThatAnErrorAllowsKeepsIt) {
   EXPECT_LT(block_error(4000), 3e-7);
 }
 
-// In single precision, 1 − b/a would come out as 0 or 1.2e-7 here. If it is computed in double precision and rounded
-// once, its relative error is at most 6e-8.
+// If 1 − b/a were computed in single precision, it would be 0 or 1.2e-7 here. The step computes it in double precision
+// and rounds it once, so its relative error is at most 6e-8.
 TEST(Step, SinglePrecisionCoefficientsDoNotCancel) {
   const auto step = GeneralisedKelvin{1, 1, {1, 10}, {1, 1}}.step<float>(1e-9);
   EXPECT_NEAR(step.recover[0], 1e-9, 1e-16);

@@ -90,7 +90,7 @@ TEST_F(CommandHelp, SaysChoicesDefaultsAndWhatIsRequired) {
     EXPECT_NE(fill.find(words), std::string::npos) << words << "\n" << fill;
 }
 
-/// Returns the reason why the program refuses these words; empty if it accepts them. Runs nothing.
+/// Returns the reason why the program refuses the words of a command line; empty if it accepts them. Runs no command.
 std::string fault_of(std::vector<std::string> words) {
   CLI::App app;
   make_command_line(app);

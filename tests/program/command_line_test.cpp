@@ -89,7 +89,7 @@ TEST_F(CommandLine, ReportsAreMadeByThePythonThatIsNamedIfOneIs) {
     return std::pair{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out)};
   };
   EXPECT_EQ(report("MACADAM_PYTHON=" + path("named")), (std::pair{0, std::string("named -m macadam report --help\n")}));
-  const auto unnamed = report("");  // uses scripts/python if it exists
+  const auto unnamed = report("");  // uses scripts/python if this exists
   EXPECT_EQ(unnamed.first, 0) << unnamed.second;
   EXPECT_EQ(report("MACADAM_PYTHON="), unnamed);
 }
@@ -256,8 +256,9 @@ TEST_F(CommandLine, CudaWithoutADeviceFailsAndLeavesOldResultsAlone) {
     return;
   }
   EXPECT_EQ(cuda.code, 1);
-  EXPECT_TRUE(contains(cuda.err, "cuda") && contains(cuda.err, "cpu")) << cuda.err;  // what and instead
-  EXPECT_TRUE(contains(cuda.err, report_backends().cuda_status)) << cuda.err;        // and the reason
+  EXPECT_TRUE(contains(cuda.err, "cuda") && contains(cuda.err, "cpu"))
+      << cuda.err;  // the unavailable backend, and one to use instead
+  EXPECT_TRUE(contains(cuda.err, report_backends().cuda_status)) << cuda.err;  // the reason
   EXPECT_TRUE(read(folder_ / "out/response.csv") == response);
   EXPECT_TRUE(read(folder_ / "out/summary.json") == summary);
 }
@@ -294,8 +295,8 @@ TEST_F(CommandLine, AnotherBackendDoesWithoutTheScenesCudaDevice) {
   EXPECT_EQ(run_quick("cpu", "--backend cpu").code, 0);
 }
 
-// A step of 1e-4 s is 1.5 times the stable limit for this mass. The motion grows for some samples before the run counts
-// as diverged.
+// A step of 1e-4 s is 1.5 times the largest stable step for this mass. The motion grows for some samples before the run
+// counts as diverged.
 TEST_F(CommandLine, ADivergingRunNamesAParticleAndKeepsItsFiles) {
   write_scene("density_scaling = 2e5\ntime_step = 1e-4\n");
   const Outcome outcome = run_quick("out");

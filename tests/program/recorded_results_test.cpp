@@ -23,7 +23,7 @@ using nlohmann::ordered_json;
 const fs::path cases = MACADAM_RECORDED;
 
 /// Code with sanitizers is optimized less, so sums in libraries are rounded differently, and iterations and searches
-/// amplify this. For such builds only files, names, words and the count of numbers are compared.
+/// amplify these differences. For such builds only files, names, words and the count of numbers are compared.
 #ifdef MACADAM_ROUNDS_OTHERWISE
 constexpr bool compares_numbers = false;
 #else
@@ -56,8 +56,8 @@ std::vector<std::string> names_of_cases() {
   return out;
 }
 
-/// Returns whether a value in JSON or an array in HDF5 is not compared: times, memory, versions, residuals that consist
-/// of rounding, and phases in fields, which are rounding where almost nothing moves.
+/// Returns whether a value in JSON or an array in HDF5 is left out of the comparison: times, memory, versions,
+/// residuals that consist of rounding, and phases in fields, which are only rounding where almost nothing moves.
 bool is_left_out(const std::string& key) {
   static const std::regex names(
       R"(timing_s\..*|.*solve_s|solver\.bytes|macadam|.*residual|.*held_force|VTKHDF/.*_phase)");
@@ -101,7 +101,7 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
   }
 
   /// Returns the text without everything that differs between machines or runs: times, memory, threads, version,
-  /// folders, and the line of tessellation errors, which are rounding.
+  /// folders, and the line of tessellation errors, which consist of rounding.
   std::string comparable(std::string text) const {
     const auto replace = [&](const std::string& what, const std::string& with) {
       for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
@@ -141,7 +141,7 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
       const fs::path local = file.lexically_relative(folder_);
-      // Surfaces of many grains are combined into one list.
+      // The surfaces of many grains are combined into one list of numbers.
       const bool one_of_many = file.extension() == ".off";
       recorded::Contents& to = all[one_of_many ? (local.parent_path() / "*.off").string() : local.string()];
       recorded::Contents contents;
@@ -166,8 +166,8 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
     return outcome;
   }
 
-  /// Returns whether values are equal. Numbers must agree to nine digits, which other versions of libraries do not
-  /// change, or to rounding of the largest number in the list.
+  /// Returns whether two values are equal. Numbers must agree to nine digits; other versions of the libraries change
+  /// only later digits. Numbers in a list may also differ by the rounding error of the largest number in the list.
   static bool alike(const ordered_json& a, const ordered_json& b) {
     if (a.is_array() && b.is_array() && a.size() == b.size()) {
       if (!compares_numbers) return true;

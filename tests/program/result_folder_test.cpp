@@ -29,7 +29,7 @@ TEST_F(Folder, RefusedCommandsLeaveEveryFileAsItWas) {
   write_scene(quick, contacts);
   ASSERT_EQ(run_quick("out").code, 0);
   const auto before = content("out");
-  ASSERT_EQ(before.size(), 4u);  // summary, response, contacts, specimen
+  ASSERT_EQ(before.size(), 4u);  // the files summary, response, contacts and specimen
   const auto expect_refused = [&](const std::string& arguments, const std::string& what) {
     const Outcome outcome = macadam(arguments);
     EXPECT_EQ(outcome.code, 2) << what << ": " << outcome.err;
@@ -61,8 +61,8 @@ TEST_F(Folder, RefusedCommandsLeaveEveryFileAsItWas) {
   expect_refused(run, "no harmonic solution");
 }
 
-// At 1e-20 Hz the dashpots are so soft compared with the springs that the stiffness matrix is singular to rounding.
-// Results of the frequencies before it stay.
+// At 1e-20 Hz the dashpots are so soft compared with the springs that the stiffness matrix is singular to rounding. The
+// run fails there, and keeps the results of the frequencies before.
 TEST_F(Folder, SolutionsBeforeOneThatFailsStay) {
   write_scene_of("kind = \"cyclic\"\nfrequencies = [20, 5, 1e-20, 2]\n",
                  "method = \"harmonic\"\nlinear = \"iterative\"\n");
@@ -111,8 +111,10 @@ TEST_F(Folder, OneCommandAtATimeAndTheLockDiesWithIt) {
         const ResultFolder held(out);
         for (;;) pause();
       } catch (const Error&) {
+        // The parent checks whether the folder is locked. Meanwhile it may hold the folder, and it removes the empty
+        // folder.
         usleep(500);
-      }  // while checking, the parent may briefly hold the folder and remove it as empty
+      }
     }
   }
   const auto held = [&] { return message_of([&] { const ResultFolder second(out); }); };

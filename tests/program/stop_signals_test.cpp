@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stop_signals_test.cpp  Tests stop signals at any time, single or several at once: either the program leaves a
-// checkpoint, or the folder is unchanged.
+// stop_signals_test.cpp  Tests stop signals at any time, a single signal or several at once: either the program leaves
+// a checkpoint, or the folder is unchanged.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/syscall.h>
@@ -20,7 +20,7 @@ class FullPipe {
   FullPipe() {
     if (pipe2(ends_, O_NONBLOCK) != 0) throw std::system_error(errno, std::generic_category(), "pipe2");
     while (::write(ends_[1], "", 1) == 1) {}
-    fcntl(ends_[1], F_SETFL, 0);  // from now on the writer waits
+    fcntl(ends_[1], F_SETFL, 0);  // from now on a writer waits until there is room
     fcntl(ends_[0], F_SETFL, 0);
   }
   FullPipe(const FullPipe&) = delete;
@@ -103,8 +103,8 @@ class StopSignals : public Program {
   }
 };
 
-// timeout of coreutils sends a signal to its child and at once another one to the child's process group. Several
-// signals count as one request to stop.
+// timeout of coreutils sends a signal to its child, and at once sends another one to the child's process group. The
+// program must take several signals as one request to stop.
 TEST_F(StopSignals, SeveralAtOnceAreOne) {
   write_scene(minutes_long);
   const std::vector<std::vector<int>> bursts{
@@ -144,8 +144,8 @@ TEST_F(StopSignals, StopACommandOfSeveralScenes) {
   EXPECT_FALSE(fs::exists(folder_ / "out/second/response.csv"));
 }
 
-// Tests the functions themselves in a process that raises the signal repeatedly until it dies. Only the lower limit of
-// two seconds is checked, because a slow machine makes it die later, never earlier.
+// Tests the signal handler without a run: a child process raises the signal repeatedly until it dies. Only the lower
+// limit of two seconds is checked, because on a slow machine the process dies later, but never earlier.
 TEST(StopSignal, AfterTwoSecondsItEndsTheProgram) {
   std::fflush(stdout);
   const auto begin = std::chrono::steady_clock::now();

@@ -47,8 +47,8 @@ TEST_F(Streams, LostOutputOfACommandThatOnlyPrintsIsExitCodeOne) {
   }
 }
 
-// The results of a run are in its files, so it succeeds without streams, and no file gets output that was meant for a
-// stream.
+// The results of a run are in its files, so a run succeeds even if its streams are closed. No file may get output that
+// was meant for a stream.
 TEST_F(Streams, ARunNeedsNone) {
   ASSERT_EQ(run_quick("out").code, 0);
   for (const char* streams : {">/dev/full", "| head -n 1 >/dev/null; exit ${PIPESTATUS[0]}", ">&-", "2>&-", "<&-",
@@ -118,8 +118,8 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
   EXPECT_GT(done, 0);
 }
 
-// If a tenth of the work took at least 0.3 s, at least 2.7 s are left, and at the end nothing is left. This holds
-// however slow the machine is.
+// If a tenth of the work took at least 0.3 s, the time that is left is at least 2.7 s, however slow the machine is. At
+// the end of the work no time is left.
 TEST(ProgressLine, SaysTheTimeThatIsLeft) {
   std::fflush(stdout);
   int terminal = -1;

@@ -51,7 +51,7 @@ inline std::vector<Part> numbers(const std::string& line) {
   return out;
 }
 
-/// Returns the parts of a line between the separators.
+/// Returns the parts of a line between separators, as table cells.
 inline std::vector<Part> cells(const std::string& line, const std::string& separators) {
   std::vector<Part> out;
   std::size_t begin = 0;
@@ -63,8 +63,8 @@ inline std::vector<Part> cells(const std::string& line, const std::string& separ
   return out;
 }
 
-/// Replaces one part of one line at a time. The lines are those in `which`; a part is replaced by each text of
-/// `instead` and by the part before it. Adds each result to `out`.
+/// Replaces one part at a time in the lines whose numbers are in `which`. Each part is replaced by every text of
+/// `instead`, and by the preceding part of its line. Adds each changed text to `out`.
 template <class PartsOf>
 void replace_parts(std::vector<TextEdit>& out, const std::string& text, const std::vector<std::size_t>& which,
                    const std::vector<std::string>& instead, const PartsOf& parts_of) {
@@ -102,8 +102,8 @@ inline void replace_lines(std::vector<TextEdit>& out, const std::string& text, c
   }
 }
 
-/// Adds a text for each of `values` as the value of a key in a section of TOML, and one without the key if it is there.
-/// The old value must be on one line.
+/// Adds to `out` one text for each of `values`, in which a key in a section of TOML has this value. If the text has the
+/// key, also adds a text without it. The old value must be on one line.
 inline void set_key(std::vector<TextEdit>& out, const std::string& text, const std::string& section,
                     const std::string& key, const std::vector<std::string>& values) {
   std::vector<std::string> all = lines_of(text);

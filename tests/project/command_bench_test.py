@@ -38,7 +38,7 @@ CASES = [
     (summary(status="interrupted"), WALL, "status 'interrupted'"),
     (summary(), 2.0 * len(TIMED) + 1.1, None, 18.0),  # the process waited 3.1 s for a core
     (summary(), 2.0 * len(TIMED) + 1.1, "sum up to 20.000 s of 21.100 s", 21.1),
-    (summary(harmonic=4.0), WALL, "sum up to 22.000 s", 18.0),  # a phase that is counted twice is found all the same
+    (summary(harmonic=4.0), WALL, "sum up to 22.000 s", 18.0),  # a phase that is counted twice must be found too
 ]
 
 

@@ -87,7 +87,7 @@ FAULTS = [
 
 
 def with_entry(program, folder):
-    """Returns a message if a text of by-hand.csv that is on no page passes."""
+    """Returns a message if scripts/documents accepts an entry of by-hand.csv whose text is on no page."""
     module = program["unmarked"]
     entry = {"document": "README.md", "text": "a text that is on no page", "reason": "a test"}
     wrong = module.sentences("README.md", (folder / "README.md").read_text(encoding="utf-8").splitlines(), [entry])
@@ -95,7 +95,7 @@ def with_entry(program, folder):
 
 
 def answered(base, query):
-    """Returns the answer to the query of a mark, or the reason of its refusal."""
+    """Returns the value that the query of a mark gives, or the reason for which it is refused."""
     try:
         return base.value(query)
     except functions.Refused as error:
@@ -143,7 +143,7 @@ def of_queries():
 
 
 def of_failed_runs():
-    """Tests what is said of a committed run that failed."""
+    """Tests the message about a committed run that failed."""
     base = results.Results()
     base.ask("SELECT count(*) FROM accuracy_runs")
     heads = [row[1] for row in base.base.execute('PRAGMA table_info("accuracy.csv")')]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// thread_limit_test.cpp  Every part of a job uses the given number of threads, and waiting threads do not spin.
+// thread_limit_test.cpp  Every part of a job uses the given number of threads. Threads that wait do not use processor
+// time.
 #include "macadam/thread_limit.hpp"
 
 #include <dlfcn.h>
@@ -75,7 +76,7 @@ TEST_F(ThreadLimitOfJobs, SteppedAndHarmonicRuns) {
   }
 }
 
-/// The direct solver calls BLAS with a single thread, because it is itself parallel.
+/// The direct solver is itself parallel, so it calls BLAS with a single thread.
 TEST_F(ThreadLimitOfJobs, FactorsHaveOneThreadOfBlas) {
   using Get = int();
   auto* const threads = reinterpret_cast<Get*>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
@@ -112,7 +113,8 @@ TEST_F(ThreadLimitOfJobs, SeveralScenesAtOnce) {
   EXPECT_EQ(seen[1], std::set<int>{2});
 }
 
-/// OpenMP prints its settings when it is loaded. If the program restarts itself, the last report counts.
+/// OpenMP prints its settings when it is loaded. If the program restarts itself, OpenMP prints them again, and the last
+/// report counts.
 using WaitPolicy = Program;
 
 std::string spins(const fs::path& folder, const std::string& environment) {

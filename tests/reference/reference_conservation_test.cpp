@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_conservation_test.cpp  Tests conservation laws of the reference stepper: loads rotate with the pair,
-/// and momenta and energy are conserved.
+/// \file reference_conservation_test.cpp  Tests conservation laws of the reference stepper: contact loads rotate with
+/// the pair of particles, and momenta and energy are conserved.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,9 +23,9 @@ using test::options_of;
 using test::PairShape;
 using test::spring;
 
-// A pair is opened, sheared, bent and twisted, then rotated rigidly by 2 rad about an oblique axis. The loads must
-// rotate with it. Velocities are evaluated in the contact frame at the middle of the step, in which the chord of B's
-// path around A is tangential.
+// A pair is opened, sheared, bent and twisted. Then it is rotated rigidly by 2 rad about an oblique axis, and the loads
+// must rotate with it. The stepper evaluates velocities in the contact frame at the middle of the step. In this frame
+// the chord of B's path around A is tangential.
 TEST(Reference, RigidRotationCreatesNoForce) {
   const HandMade made = test::two_sphere_network(heavy({2.0 / 7, 3.0 / 7, 6.0 / 7}));
   const Contact& c = made.network.contacts[0];
@@ -100,16 +100,16 @@ TEST_P(FreePair, MomentaStay) {
   const ParticleState p = stepper->particles();
   const Momenta end = momenta(made, p, displaced);
   ASSERT_EQ(stepper->first_divergent(), -1);
-  // The forces of a pair are of the order m·v·ω and are rounded in every step: a random walk of 1e4 steps, 100·1e-16,
-  // in momenta of 1e-5 kg·0.4 m/s with lever arms of 5e-3 m. Ten times that is allowed.
+  // The forces of a pair are of the order m·v·ω and are rounded in every step. Over 1e4 steps this is a random walk of
+  // 100·1e-16, relative to momenta of 1e-5 kg·0.4 m/s with lever arms of 5e-3 m. Ten times this error is allowed.
   const double scale = 1e-5 * 0.4;
   expect_near(end.linear, start.linear, 1e-13 * scale, "momentum");
   expect_near(end.angular, start.angular, 1e-13 * scale * 5e-3, "angular momentum");
   EXPECT_GT(norm(p.force[0]), 0);
 }
 
-// With only one mode, opening, leapfrog conserves ½·μ·v(k−½)·v(k+½) + ½·k·x(k)² exactly, where x(k) is the force over
-// the stiffness.
+// With a single mode, opening, leapfrog conserves ½·μ·v(k−½)·v(k+½) + ½·k·x(k)² exactly. Here μ is the reduced mass of
+// the pair, and x(k) is the force over the stiffness.
 TEST(Reference, EnergyOfAnElasticPairStays) {
   const HandMade made = test::two_sphere_network();
   const Contact& c = made.network.contacts[0];
@@ -131,7 +131,7 @@ TEST(Reference, EnergyOfAnElasticPairStays) {
   }
 }
 
-// With all modes and updated geometry, kinetic energy returns to its initial value and does not grow beyond it.
+// With all modes and updated geometry, kinetic energy returns to its initial value and does not exceed it.
 TEST(Reference, EnergyOfAnElasticPairIsBoundedInUpdatedGeometry) {
   PairShape shape;
   shape.s0 = 2e-4;
@@ -153,7 +153,8 @@ TEST(Reference, EnergyOfAnElasticPairIsBoundedInUpdatedGeometry) {
     stepper->advance(1);
     (k < 10'000 ? early : late) = std::max(k < 10'000 ? early : late, kinetic());
   }
-  // Half-step velocities exceed the bound by (ωΔt)²/4 < 0.0025. In between, the rest of the energy is in the springs.
+  // Half-step velocities exceed the bound by (ωΔt)²/4 < 0.0025. Between the maxima the springs hold a part of the
+  // energy.
   EXPECT_LT(early, 1.0025 * start);
   EXPECT_LT(late, 1.0025 * start);
   EXPECT_GT(late, 0.5 * start);

@@ -35,7 +35,7 @@ PairShape equal_spheres(double side) {
   return shape;
 }
 
-/// Returns the largest angular frequency of such a pair in closed form.
+/// Returns in closed form the largest angular frequency of a pair from equal_spheres().
 double largest_of_equal_spheres(const PairShape& shape, double alpha) {
   const double d = shape.distance, m = shape.mass_a, inertia = 0.4 * m * shape.radius_a * shape.radius_a;
   const double k = E * shape.side * shape.side / d;
@@ -94,8 +94,8 @@ TEST(LargestFrequency, IsTheLimitOfTheStep) {
 }
 
 // Contacts at the walls have the distance from centre to wall, so a column of n cubes has exactly the length n·side of
-// material. α does not matter, because nothing is sheared. Without shear stiffness every layer of spheres can slide; no
-// force is needed to hold it.
+// material. The shear ratio α does not matter, because nothing is sheared. If α is 0, every layer of spheres can slide;
+// no force is needed to hold it.
 TEST(StaticModulus, OfACubicLatticeIsE) {
   for (double alpha : {0.0, 0.3}) {
     for (const auto& size : {std::array{1, 1, 1}, std::array{1, 1, 5}, std::array{3, 3, 4}}) {
@@ -108,7 +108,7 @@ TEST(StaticModulus, OfACubicLatticeIsE) {
   }
 }
 
-// A particle without contacts has rows without stiffness in the matrix. It carries nothing and must not be refused.
+// A particle without contacts has rows without stiffness in the matrix. It carries no load and must not be refused.
 TEST(StaticModulus, ALooseParticleChangesNothing) {
   HandMade made = test::cubic_lattice_network(2, 2, 3, 2e-3, 1e-5);
   const test::Laws laws = same_law(laws::Elastic{E, 0.1});
@@ -118,7 +118,7 @@ TEST(StaticModulus, ALooseParticleChangesNothing) {
   EXPECT_NEAR(reference_static_modulus(made.specimen, made.network, laws) / without, 1, 1e-11);
 }
 
-// Walls with another modulus act in series: 1/E* = Σ (fraction of length) / modulus.
+// Walls with another modulus act in series with the specimen: 1/E* = Σ (fraction of length) / modulus.
 TEST(StaticModulus, OfLayersInSeries) {
   const HandMade made = test::cubic_lattice_network(2, 2, 4, 2e-3, 1e-5);
   test::Laws laws = same_law(laws::Elastic{E, 0.1});

@@ -41,8 +41,8 @@ class SmallMotion : public testing::TestWithParam<Geometry> {
     stepper->advance(10);
     return stepper->particles();
   }
-  /// Expects these forces and moments on both particles. In updated geometry the normal rotates by amount/distance =
-  /// 6e-7, which is the tolerance.
+  /// Expects the given forces and moments on A and B. In updated geometry the normal rotates by amount/distance = 6e-7;
+  /// the tolerance is 2e-6.
   void expect_loads(const ParticleState& p, const Vec3d& force_a, const Vec3d& moment_a, const Vec3d& moment_b) {
     const double error = GetParam() == Geometry::fixed ? 1e-13 : 2e-6;
     const double force = E * contact.area / contact.distance * amount;
@@ -98,7 +98,8 @@ TEST_P(SmallMotion, Twist) {
                -about_x0 + contact.arm_b * lever);
 }
 
-// A pair at constant velocity prescribes the displacement of the contact, so the force must follow the law of AM1.
+// A pair whose spheres move at constant velocity prescribes the displacement of the contact, so the force must follow
+// the law of AM1.
 TEST(Reference, ContactFollowsItsLaw) {
   HandMade made = test::two_sphere_network(heavy());
   const auto law = test::mastic_am1();
@@ -168,12 +169,12 @@ TEST(Reference, LocalDampingOpposesEveryComponent) {
   stepper->advance(2);
   const double force = E * c.area / c.distance * 1e-8 * 0.03;
   const ParticleState p = stepper->particles();
-  // A is pulled up (+) while it moves down (−), so damping acts upwards too. B likewise downwards.
+  // A is pulled up (+) while it moves down (−), so damping also acts upwards. On B, pull and damping act downwards.
   EXPECT_NEAR(p.velocity[0].z, -0.01 + 1e-8 * 1.2 * force / (10 * 2e-5), 1e-15);
   EXPECT_NEAR(p.velocity[1].z, 0.02 - 1e-8 * 1.2 * force / (10 * 1e-5), 1e-15);
 }
 
-// A fixed sphere between two walls. The spring of the top wall has d = h; the bottom wall stays at rest.
+// A fixed sphere lies between two walls. The spring of the top wall has d = h; the bottom wall stays at rest.
 TEST(Reference, TheTopWallFollowsItsLoading) {
   const double side = 2e-3;
   const HandMade made = test::cubic_lattice_network(1, 1, 1, side, 1e-5);
@@ -187,7 +188,8 @@ TEST(Reference, TheTopWallFollowsItsLoading) {
     const Observation seen = stepper->observe();
     EXPECT_EQ(seen.step, 700);
     EXPECT_DOUBLE_EQ(seen.time, 0.35);
-    // The velocity during the smooth start is exact to (2π/1000)², 4e-5; the mean of this error over the ramp remains.
+    // During the smooth start the velocity is exact to (2π/1000)² = 4e-5. The displacement keeps the mean of this
+    // error.
     EXPECT_NEAR(seen.top_displacement(), loading.value(700), 1e-5 * loading.amplitude);
     const double stiffness = E * side * side / (side / 2);
     expect_near(seen.wall_force[wall_index(wall_z_hi)], {0, 0, -stiffness * seen.top_displacement()},
@@ -196,7 +198,7 @@ TEST(Reference, TheTopWallFollowsItsLoading) {
   }
 }
 
-// Eq. 5: when the centres move apart, each lever arm grows by half of the opening.
+// By Eq. 5 of [1], each lever arm grows by half of the opening when the centres move apart.
 TEST(Reference, LeverArmsShareTheOpening) {
   const HandMade made = test::two_sphere_network(heavy());
   const Contact& c = made.network.contacts[0];
@@ -226,8 +228,9 @@ TEST(Reference, WallLeverFollowsTheParticle) {
   const ParticleState p = stepper->particles();
   const double shear = alpha * E * side * side / (side / 2) * slide;
   EXPECT_NEAR(p.force[0].x, -2 * shear, 1e-12 * shear);
-  // Moments: (h − rise)·ẑ × −shear·x̂ at the top and −(h + rise)·ẑ × −shear·x̂ at the bottom; normal forces act on the
-  // axis. Each normal force is rise/slide/α = 333 times the shear force and is rounded at lever arms of h.
+  // Moments: (h − rise)·ẑ × −shear·x̂ at the top and −(h + rise)·ẑ × −shear·x̂ at the bottom. The normal forces act on
+  // the axis, so they give no moment except for rounding. Each is rise/slide/α = 333 times the shear force; the
+  // tolerance allows for the rounding of its moment with a lever arm of h.
   EXPECT_NEAR(p.moment[0].y, 2 * rise * shear, 1e-12 * shear * side);
 }
 

@@ -50,8 +50,8 @@ TEST_P(ExampleScene, HasEveryLaw) {
 }
 
 /// Checks the moduli of elastic contacts. Contacts between aggregates have the modulus of Table 4 of [1]. Contacts
-/// within an aggregate have the modulus with which a cube of fine or coarse spheres has the 60 GPa of the rock.
-/// Contacts at a wall have the modulus of the stiffest spring of the material that touches the wall.
+/// within an aggregate have the modulus that gives a cube of fine or coarse spheres the rock's 60 GPa. Contacts at a
+/// wall have the modulus of the stiffest spring of the material that touches the wall.
 TEST_P(ExampleScene, HasThePapersElasticLaws) {
   const Scene scene = this->scene();
   std::vector<std::pair<PairType, laws::Elastic>> expected;
@@ -85,8 +85,8 @@ INSTANTIATE_TEST_SUITE_P(Scene, ExampleScene,
                                            "ac14_ms_poly_fine", "ac14_ms_ico_coarse", "ac14_ms_ico_fine",
                                            "ac14_ms_design", "mastic", "ac14_recipe", "ac20_recipe"));
 
-/// The M–A row of Table 4 is δ times the M–M row. Both rows are rounded to four digits, so the ratio is accurate to
-/// twice 5e-4. This finds mistyped digits in the examples.
+/// The M–A row of Table 4 of [1] is δ times the M–M row. Both rows are rounded to four digits, so their ratio is
+/// accurate to twice 5e-4. The test finds mistyped digits in the examples.
 TEST(ExampleScenes, TheMasticAggregateLawIsDeltaTimesTheMasticLaw) {
   for (const auto& [folder, delta] : {std::pair{"ac14_ss_am1", 3.15},
                                       {"ac14_ss_am2", 6.75},

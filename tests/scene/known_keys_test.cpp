@@ -20,7 +20,7 @@ namespace {
 using scene::KnownKey;
 using scene::Need;
 
-/// Returns the sections without which a scene cannot be read, except the section `but`.
+/// Returns the sections that every scene must have, except the section `but`.
 std::string needed(const std::string& but) {
   const std::map<std::string, std::string> all{
       {"[specimen]",

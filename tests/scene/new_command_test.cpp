@@ -43,8 +43,8 @@ TEST_F(NewCommand, EverySceneIsRead) {
     }
 }
 
-// If the # is removed from a comment that shows a key with its default, the scene stays the same. A comment on a key
-// without a fixed default states that there is none.
+// If the # is removed from a comment that shows a key with its default value, the scene keeps its meaning. A comment on
+// a key without a fixed default states that it has none.
 TEST_F(NewCommand, EveryKeyInACommentCanBeTakenOut) {
   const std::regex key("^# ([A-Za-z0-9_]+ = )(.*)$");
   for (const NewKind kind : kinds) {
@@ -81,11 +81,11 @@ TEST_F(NewCommand, KeysAreExplainedWhereTheirSectionComesFirst) {
       EXPECT_FALSE(contains(line, "#")) << line;
       ++again;
     }
-    EXPECT_GE(again, 15u);  // keys of the repeated sections of contacts
+    EXPECT_GE(again, 15u);  // keys of the sections [[contacts]] after the first one
   }
 }
 
-// A comment behind or above every key explains it, also for keys that only this kind of loading or this law has.
+// A comment behind or above every key explains it. This includes keys that only this kind of loading or this law has.
 TEST_F(NewCommand, KeysOfTheTestAndOfTheLawAreExplained) {
   for (const std::string& test : scene::tests_of_new_scenes()) {
     std::set<std::string> sections;

@@ -13,8 +13,8 @@
 namespace macadam::test {
 namespace {
 
-/// Returns the AC 14 of [1]: the mass between its sieves, summed up; one density of rock; an assumed density of the
-/// binder.
+/// Returns the AC 14 mix of [1]. The gradation adds up the masses between the sieves of [1]; all sizes have one density
+/// of rock; the density of the binder is an assumption.
 MixDesign ac14() {
   MixDesign d;
   d.gradation = {{0.019, 1},     {0.0125, 0.837},   {0.0095, 0.712},   {0.00475, 0.478},
@@ -100,8 +100,9 @@ TEST(Recipe, DensitiesASizeAndAbsorbedBinderByHand) {
   expect_hand(v.mastic_binder_mass, 0.04095238);  // 0.043/1.05
 }
 
-/// A laboratory measures densities, here those above rounded to 1 kg/m³. Half a unit of 2493 is 2e-4; this changes the
-/// volume of the mix, 4.2e-4 m³, by 8.4e-8 m³, and the absorbed binder by 8.4e-5 kg per kg of aggregate.
+/// A laboratory measures densities: here the densities of the test above, rounded to 1 kg/m³. Half a unit of 2493 is
+/// 2e-4; this changes the volume of the mix, 4.2e-4 m³, by 8.4e-8 m³, and the absorbed binder by 8.4e-5 kg per kg of
+/// aggregate.
 TEST(Recipe, MeasuredDensitiesGiveAbsorbedBinderAndVoids) {
   MixDesign d = limestone();
   d.absorbed_binder = {}, d.air_voids = {};
@@ -113,8 +114,8 @@ TEST(Recipe, MeasuredDensitiesGiveAbsorbedBinderAndVoids) {
   expect_hand(v.air_voids, 0.03971119);  // 1 − 2394/2493
 }
 
-/// If nothing is absorbed, a measured maximum density may be slightly low because it is rounded: 2433 for 2433.435.
-/// This is not a contradiction.
+/// If nothing is absorbed, rounding may make a measured maximum density slightly too low: 2433 for 2433.435. The reader
+/// must not take this for a contradiction.
 TEST(Recipe, RoundingOfAMeasuredDensityIsNoContradiction) {
   MixDesign d = ac14();
   d.maximum_density = 2433;
@@ -178,7 +179,8 @@ TEST(Recipe, MassInIsMassOut) {
   }
 }
 
-/// One more sieve on the straight line between two others changes no sum: densities, cut and mass stay.
+/// One more sieve on the straight line between two other sieves changes none of the results: densities, cut and mass
+/// stay.
 TEST(Recipe, ASieveMoreChangesNothing) {
   const MixVolumes one = volumes_of(ac14());
   MixDesign d = ac14();
@@ -220,7 +222,8 @@ TEST(Recipe, ReachedCurveByHand) {
   EXPECT_HAS(message_of([&] { gradation_of(d, reached); }), "4 and the mastic");
 }
 
-/// A design made by a program can have envelopes that the scene reader would refuse; they are refused here too.
+/// A program can make a design whose envelopes the scene reader would refuse. The recipe functions must refuse them
+/// too.
 TEST(Recipe, EnvelopesThatAreNoneAreRefused) {
   const auto refusal = [](double size, double least, double most) {
     MixDesign d = ac14();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_recipe_test.cpp  `[specimen.recipe]` is read to the right values and replaces the keys that follow from
-/// it. Every contradiction is refused with its line and the calculation.
+/// \file scene_recipe_test.cpp  Tests that `[specimen.recipe]` is read correctly and that keys which can be computed
+/// from it may be left out. If a key contradicts the recipe, the error message gives its line and the calculation.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -45,7 +45,7 @@ class SceneRecipe : public testing::Test {
   }
   ~SceneRecipe() override { fs::remove_all(folder_); }
 
-  /// Reads the scene with these edits; `materials` is appended to its lines.
+  /// Reads the scene `good` with the given edits; `materials` is appended to its lines.
   Scene scene(const Edits& edits = {}, const std::string& materials = "") const {
     std::vector<std::string> lines = good;
     for (const auto& [line, text] : edits) lines.at(static_cast<std::size_t>(line - 1)) = text;
@@ -102,7 +102,7 @@ TEST_F(SceneRecipe, GivesClassesPorosityAndDensities) {
 
 TEST_F(SceneRecipe, DensitiesOfMaterialsAgreeOrAreRefused) {
   const std::string aggregate = "[materials.aggregate]\ndensity = 2650\n", mastic = "[materials.mastic]\ndensity = ";
-  // The given density is rounded, so it differs by less than half a unit of its third digit.
+  // The given density is rounded, so it differs from the recipe's density by less than half a unit of its third digit.
   const Scene s = scene({}, aggregate + mastic + "\"2.23 g/cm3\"\n");
   EXPECT_NEAR(s.materials.aggregate, 2646.524, 1e-3);  // the recipe's densities are used
   EXPECT_NEAR(s.materials.mastic, 2227.850, 1e-3);
@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
          "an effective binder of 4.7619 % - 5.71429 % = -0.952381 %",
          "at most 5 % of the aggregate's mass"},
         {"AbsorbedTwice", {{12, "maximum_density = 2500"}}, 14, "absorbed_binder and maximum_density", "one of them"},
-        // Without absorption the maximum density is 1.05/(3.811030e-4 + 5e-5) = 2435.613 kg/m³.
+        // If no binder is absorbed, the maximum density is 1.05/(3.811030e-4 + 5e-5) = 2435.613 kg/m³.
         {"NegativeAbsorption",
          {{14, "maximum_density = 2400"}},
          14,

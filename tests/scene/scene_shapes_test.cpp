@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_shapes_test.cpp  `[specimen.shapes]` is read to the right SI values, and refused if it is wrong.
+/// \file scene_shapes_test.cpp  Tests that `[specimen.shapes]` is converted to the right SI values, and refused if it
+/// is wrong.
 #include <fmt/format.h>
 #include <unistd.h>
 

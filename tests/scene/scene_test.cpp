@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_test.cpp  Scenes are read to the right SI values, and missing values are named.
+/// \file scene_test.cpp  Tests that the values of a scene are converted to the right SI values, and that an error names
+/// the values that are missing.
 #include "macadam/scene.hpp"
 
 #include <cmath>

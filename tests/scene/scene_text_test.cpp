@@ -7,7 +7,7 @@
 namespace macadam::test {
 namespace {
 
-/// Returns the library in a scene that is moved from /a to /a/b.
+/// Returns the path of the library in a scene after the scene was moved from /a to /a/b.
 std::string moved_library(const std::string& library) {
   scene::SceneText text("[specimen.shapes]\nlibrary = \"" + library + "\"\n");
   text.move("/a", "/a/b");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// temperature_test.cpp  Tests that temperature in a scene shifts the laws, and that a specimen whose laws all shift
-// equally is shifted by the same amount.
+// temperature_test.cpp  Tests that the temperature in a scene shifts the laws on the time axis. If all laws shift
+// equally, the response of the specimen shifts by the same factor.
 #include <cmath>
 
 #include "tests/support/program.hpp"
@@ -15,7 +15,7 @@ double wlf_log_a(double t) { return -14.0 * (t - 10) / (120 + t - 10); }
 
 class Temperature : public Program {
  protected:
-  /// Writes a scene of the 175 particles at 1 and 10 Hz; `shift` is inserted in both viscoelastic laws.
+  /// Writes a scene of the 175 particles of t8 at 1 and 10 Hz; `shift` is inserted in both viscoelastic laws.
   fs::path scene(const std::string& shift, const std::string& materials, const std::string& loading,
                  const std::string& frequencies = "1, 10", const std::string& method = "harmonic") const {
     std::string contacts = am1_contacts;
@@ -65,7 +65,7 @@ TEST_F(Temperature, IsothermsOfASpecimenLieOnOneCurve) {
     EXPECT_NEAR(reduced, f * std::pow(10.0, wlf_log_a(t)), 1e-9 * reduced);
     scene("", "", "", fmt::format("{}", reduced));
     const json master = results("master")[0];
-    // Both are solutions with residuals of at most 1e-11; the error of the modulus is smaller.
+    // Both moduli come from solutions with residuals of at most 1e-11; the error of the modulus is smaller.
     EXPECT_NEAR(isotherms[i]["e_star_pa"].get<double>(), master["e_star_pa"], 1e-9 * master["e_star_pa"].get<double>());
     EXPECT_NEAR(isotherms[i]["phase_deg"].get<double>(), master["phase_deg"], 1e-7);
     EXPECT_FALSE(master.contains("temperature_c"));
@@ -81,7 +81,7 @@ TEST_F(Temperature, IsTheSameOfTheSceneAndOfTheLoading) {
   for (json* r : {&loading, &materials})
     for (json& one : *r) one.erase("solve_s");
   ASSERT_FALSE(loading[0]["sensitivities"].empty());
-  // The viscosities differ by the rounding of a_T.
+  // The viscosities differ only by the rounding of the shift factor a_T.
   const auto near = [](const json& a, const json& b, double scale) {
     EXPECT_NEAR(a.get<double>(), b.get<double>(), 1e-8 * scale);
   };

@@ -195,8 +195,8 @@ TEST_F(SceneFile, CountedAggregatesNeedNoMastic) {
   EXPECT_EQ(message(text_of({{6, "count = 3"}, {7, ""}, {8, ""}, {9, ""}})), "");
 }
 
-// In the box of 12 cm3, 40 aggregates of 8 mm leave space for 4e7 spheres of 0.04 mm; one aggregate leaves space for
-// 3.5e8, which is too many.
+// In the box of 12 cm³, 40 aggregates of 8 mm leave space for 4e7 spheres of 0.04 mm. One aggregate leaves space for
+// 3.5e8 spheres, which is too many.
 TEST_F(SceneFile, MasticHasTheRoomThatCountedAggregatesLeave) {
   const auto with_aggregates = [](int count) {
     return text_of({{5, "sieve = [0.008, 0.008]"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file aggregate_cube.hpp  A cube of one aggregate, filled with spheres, between two walls. [1] found its inner
-/// contact moduli by compressing such a cube.
+/// \file aggregate_cube.hpp  A cube that consists of a single aggregate, filled with spheres, between two walls. [1]
+/// found the contact moduli within aggregates by compressing such a cube.
 #pragma once
 
 #include "macadam/shape.hpp"
@@ -87,9 +87,9 @@ inline CubeModulus cube_modulus(const Specimen& specimen, const laws::Elastic& i
           -0.5 * (gauge_strain(specimen, r, 0) + gauge_strain(specimen, r, 1)) / strain};
 }
 
-/// Returns Young's modulus over the contact modulus for uniform strain: every sphere moves with the mean strain, and
-/// facets have all directions equally often. With Σ A·d = 3V, K = E/3 and G = (2 + 3α)·E/10, and Young's modulus is
-/// 9KG/(3K + G). Spheres that are free to relax give less.
+/// Returns the ratio of Young's modulus to the contact modulus under uniform strain: every sphere moves with the mean
+/// strain, and facets have all directions equally often. With Σ A·d = 3V (V: volume), K = E/3 and G = (2 + 3α)·E/10,
+/// and Young's modulus is 9KG/(3K + G). Spheres that can move to equilibrium have a lower modulus.
 inline double uniform_strain_modulus(double alpha) {
   const double k = 1.0 / 3, g = (2 + 3 * alpha) / 10;
   return 9 * k * g / (3 * k + g);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fake_plugin.cpp  A plugin that replaces the CUDA backend in tests. Compiled without options, it has this version and
-// one device that cannot be used. With FAKE_INTERFACE, it has another interface version. With FAKE_DEVICE, its devices
-// compute on the processor; the environment variable FAKE_DEVICES sets their number (default 1). Every stepper that is
-// made appends its device to the file FAKE_DEVICE_LOG.
+// fake_plugin.cpp  A plugin that replaces the CUDA backend in tests. Compiled without options, it has the version of
+// this build and one device that cannot be used. With FAKE_INTERFACE, it has another interface version. With
+// FAKE_DEVICE, its devices compute on the processor; the environment variable FAKE_DEVICES sets their number (default
+// 1). For every stepper that is made, the plugin appends the device's number to the file FAKE_DEVICE_LOG.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -26,7 +26,7 @@ void report(BackendReport& out) {
 }
 #ifdef FAKE_DEVICE
 std::string refusal(int) { return ""; }
-/// The processor's stepper, which returns up to seven samples at a time, as a device does.
+/// Wraps the processor's stepper. Like a device (GPU), it returns up to seven samples (recorded time steps) at a time.
 class InBatches : public Stepper {
  public:
   InBatches(std::unique_ptr<Stepper> on, int device) : on_(std::move(on)), device_(device) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file general_laws.hpp  Gives every contact the most general law without changing its behaviour. Tests compare steps
-/// that skip unneeded work with steps of these laws, which skip nothing.
+/// \file general_laws.hpp  Gives every contact the most general law without changing its behaviour. A stepper skips
+/// work that a simple law does not need; with these laws it skips nothing. Tests compare the two.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace macadam::test {
 
-/// Returns every law as a generalised Kelvin law of at least `units` units. Added units have E = 0 and C = ∞ and never
-/// move.
+/// Returns every law as a generalised Kelvin law of at least `units` units. The added units have E = 0 and C = ∞ and
+/// never move.
 inline LawTable general_laws(LawTable laws, std::size_t units) {
   for (auto& law : laws) {
     if (!law) continue;

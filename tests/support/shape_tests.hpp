@@ -103,8 +103,9 @@ inline double evenness(std::vector<double> values) {
   return std::clamp(p, 0.0, 1.0);
 }
 
-/// Returns the smallest evenness(), over the three axes, of the directions of D^L of all placed shapes that are not
-/// spheres. The components of a uniformly distributed direction are uniformly distributed.
+/// For all placed shapes that are not spheres, takes the directions of D^L, the line between the two most distant
+/// points. Returns the smallest evenness() over the three components (without sign) of these directions. The components
+/// of a uniformly distributed direction are uniformly distributed.
 inline double evenness_of_directions(const std::vector<PlacedAggregate>& placed,
                                      const std::vector<ShapeTemplate>& shapes) {
   std::vector<Vec3d> axis;

@@ -16,8 +16,8 @@ namespace macadam::test {
 /// Returns every backend except the reference, whether or not this build and machine can run it.
 inline auto all_backends() { return testing::Values(Backend::cpu, Backend::cuda); }
 
-/// Fixture of tests over backends. Without a device, a CUDA case is skipped with the reason, so that it is
-/// counted.
+/// Fixture of tests that run on each backend. Without a device (GPU), a CUDA case is skipped with the reason, so that
+/// it is counted as skipped.
 template <class Case>
 class BackendTest : public testing::TestWithParam<Case> {
  protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file test_files.hpp  Scene files for tests, and helpers for reading the files and messages that come out of them.
+/// \file test_files.hpp  Scene files for tests, and helpers that read the files and messages of a run.
 #pragma once
 
 #include <gtest/gtest.h>

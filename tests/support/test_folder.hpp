@@ -35,8 +35,8 @@ class TestFolder : public testing::Test {
   }
   fs::path out(const std::string& name) const { return folder_ / name; }
 
-  /// Runs the scene, and interrupts the run when it has called `stop` `asked` times after planning; if `asked` is 0,
-  /// the run continues to its end. Returns whether the run was interrupted.
+  /// Runs the scene. Interrupts the run at its `asked`-th call of `stop` after planning; if `asked` is 0, the run
+  /// continues to its end. Returns whether the run was interrupted.
   bool run_until(const Scene& scene, const std::string& name, int asked, bool resume = false) const {
     Watcher watcher;
     int count = 0;
@@ -57,8 +57,8 @@ class TestFolder : public testing::Test {
   fs::path folder_;
 };
 
-/// Limits the size of every file that this process writes, while it lives: writing beyond `bytes` fails as on a full
-/// disk.
+/// Limits the size of every file that this process writes, as long as the object exists: writing beyond `bytes` fails
+/// as on a full disk.
 class FileLimit {
  public:
   explicit FileLimit(rlim_t bytes) {

@@ -14,7 +14,7 @@ namespace macadam::test {
 
 using Laws = LawTable;
 
-/// A specimen with its contacts and masses: the input of a stepper without laws and options.
+/// A specimen with its contacts and masses: everything that a stepper needs except the laws and the options.
 struct HandMade {
   Specimen specimen;
   ContactNetwork network;

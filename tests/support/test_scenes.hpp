@@ -19,7 +19,7 @@ inline unsigned test_seed() {
   return asked ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10)) : 1;
 }
 
-/// Everything that a stepper needs except options.
+/// Everything that a stepper needs except the options.
 struct TestScene {
   Specimen specimen;
   ContactNetwork network;
@@ -85,7 +85,7 @@ inline Specimen random_specimen(unsigned seed, int nx = 4, int ny = 4, int nz = 
   return out;
 }
 
-/// Returns such a specimen with two large spheres in it, each of which touches about a hundred others.
+/// Returns a random specimen with two large spheres in it, each of which touches about a hundred other spheres.
 inline Specimen boulders(unsigned seed) {
   const double cell = 2e-3, radius = 3.1 * cell;
   const Specimen small = random_specimen(seed, 15, 9, 9);
