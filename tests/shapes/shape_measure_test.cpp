@@ -125,7 +125,7 @@ TEST(Dimensions, ATunnelDoesNotStopTheCalliper) {
 }
 
 TEST(Dimensions, OfASphereHaveTheKnownLimitOfTheWorkingSphericity) {
-  for (int level = 1; level <= 3; ++level) {  // every level has three pairs of points on perpendicular axes
+  for (int level = 1; level <= 3; ++level) {  // the points of every level include three pairs on perpendicular axes
     const ShapeMeasure m = measure_shape(icosphere(level));
     expect_lengths(m, 2, 2, 2);
     EXPECT_NEAR(m.sphericity_working(), 12.8 / (3 + 6 * std::sqrt(3.0)), 1e-12);  // 0.956
@@ -200,7 +200,8 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
         found = std::max(found, length);
       }
     }
-    EXPECT_GT(found, 0.95 * m.d_short);  // 3,200 lines, about 1/50 of the size apart, some at the edges of dents
+    // the 3,200 lines are about 1/50 of the size apart, so they miss the longest line
+    EXPECT_GT(found, 0.95 * m.d_short);
     // D^I: lines in all directions perpendicular to D^L, through random points of the facets.
     double across = 0;
     for (int k = 0; k < 20000; ++k) {
@@ -213,7 +214,8 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
       EXPECT_LE(length, m.d_intermediate * (1 + rounding));
       across = std::max(across, length);
     }
-    EXPECT_GT(across, 0.92 * m.d_intermediate);  // here the lines must also be close to the right angle
+    // looser than above, because here a line must also have nearly the right direction
+    EXPECT_GT(across, 0.92 * m.d_intermediate);
     double longest = 0;
     for (const Vec3d& p : s.points) {
       for (const Vec3d& q : s.points) longest = std::max(longest, norm(p - q));
@@ -236,12 +238,12 @@ TEST(Dimensions, DoNotDependOnPoseOrScale) {
                                : std::string(property.column).ends_with("_m") ? 1
                                                                               : 0;
       const double expected = property.value(m) * std::pow(scale, dimension);
-      // a centre at a distance of 7 sizes costs a digit, V is a sum of 320 terms
+      // rounding: a centre at a distance of 7 sizes costs a digit, and V is a sum of 320 terms
       EXPECT_NEAR(property.value(t), expected, 1e-12 * expected) << property.column;
     }
     EXPECT_NEAR(norm(t.centroid - pose(m.centroid)), 0, 1e-13 * scale);
     EXPECT_NEAR(t.radius_bounding, scale * m.radius_bounding, 1e-12 * scale);
-    // ill-conditioned if few points determine the sphere
+    // this centre is ill-conditioned if few points determine the bounding sphere
     EXPECT_NEAR(norm(t.centre_bounding - pose(m.centre_bounding)), 0, 1e-7 * scale);
   }
 }

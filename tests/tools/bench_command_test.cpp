@@ -53,15 +53,15 @@ TEST_F(BenchCommand, WritesWhatItTimedAsGoogleBenchmarkDoes) {
     EXPECT_GT(parts, 0) << entry;
     shares.push_back(parts / step);
   }
-  // Other work on the machine disturbs a repetition of 2 ms, so a single ratio means nothing. The median of all ratios
-  // does.
+  // Other work on the machine disturbs a repetition of 2 ms, so a single ratio is not reliable. The test uses the
+  // median of all ratios.
   ASSERT_EQ(shares.size(), 2u * 3 * 2 * 3);  // scenes × precisions × geometries × repetitions
   std::ranges::nth_element(shares, shares.begin() + shares.size() / 2);
   EXPECT_GT(shares[shares.size() / 2], 0.2);
   EXPECT_LT(shares[shares.size() / 2], 5);
 }
 
-/// The preparation row lists its four parts, which add up to its time.
+/// The row of the preparation lists the times of its four parts, which add up to the time of the row.
 TEST_F(BenchCommand, TimesWhatComesBeforeAStep) {
   const Outcome outcome =
       bench("lattice:500 --only preparation --precision double --geometry fixed --json " + path("now.json"));

@@ -43,8 +43,8 @@ TEST(CtCuts, AreReadAsTheyWereWritten) {
   std::filesystem::remove(file);
 }
 
-// Three fragments, each of which touches the other two. Cuts that do not match the faces of the scan, or contradict one
-// another, are refused.
+// Uses three fragments, each of which touches the other two. Cuts are refused if they do not match the faces between
+// fragments of the scan, or if they contradict one another.
 TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
   ct::Fragments fragments;
   fragments.labels = Image<std::uint32_t>({1, 1, 1}, {voxel, voxel, voxel});
