@@ -94,7 +94,7 @@ class Setting:
                   "full": scene("t8.csv", output=everything + 'format = "vtp"'),
                   "hdf5": scene("t8.csv", output=everything),
                   "device": scene("t8.csv", "density_scaling = 1e4", "checkpoint = 0.02"),
-                  # short steps, taken in blocks of many steps per launch
+                  # short steps, so they are taken in blocks, after which the states of the laws are updated
                   "tiles": scene("t8.csv", "density_scaling = 1e2", "checkpoint = 0.02"),
                   "stepped": scene("t8.csv", f"density_scaling = {self.scaling()}", "checkpoint = 0.05")}
         for name, text in scenes.items():

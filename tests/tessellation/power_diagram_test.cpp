@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file power_diagram_test.cpp  A triangulation computed in parts equals the whole one bit by bit. Searches for near
-/// sites agree with a comparison of all sites.
+/// \file power_diagram_test.cpp  Tests that a triangulation computed in parts equals, bit by bit, the triangulation
+/// computed as a whole, and that searches for near sites agree with a comparison of all sites.
 #include "host/tessellation/power_diagram.hpp"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ namespace {
 
 using test::add;
 
-/// Returns spheres at random positions in a box that is not a cube. One in fifty is up to ten times as large, so that
-/// it hides other spheres and reaches far beyond a part.
+/// Returns spheres at random positions in a box that is not a cube. One sphere in fifty is up to ten times as large as
+/// the others, so that it hides other spheres and reaches far beyond a part.
 Specimen random_spheres(int number, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0, 1);
@@ -47,7 +47,8 @@ Specimen lattice(int cells) {
   return s;
 }
 
-/// Returns two distant groups of spheres with nothing between them, so that a part needs data from far away.
+/// Returns two distant groups of spheres with nothing between them, so that each part of the triangulation needs data
+/// from far away.
 Specimen two_crowds(int number) {
   Specimen s = random_spheres(number, 5);
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -131,9 +132,9 @@ TEST(PowerDiagram, TetrahedraAreInOrderAndKnowTheirNeighbours) {
   }
 }
 
-/// At a dual point no site has less power than the four corners. The tolerance is the rounding error of squared lengths
-/// up to the bounding sites, about 100 m² · 1e-16, times 1e3 for the flattest tetrahedron that is solved in double
-/// precision.
+/// At a dual point no site has less power than the four corners of the tetrahedron. The tolerance is the rounding error
+/// of squared lengths, times 1e3 for the flattest tetrahedron that is solved in double precision. Lengths reach up to
+/// the bounding sites, so the rounding error is about 100 m² · 1e-16.
 TEST(PowerDiagram, NobodyIsInsideADualSphere) {
   const Specimen s = random_spheres(400, 9);
   const WeightedSites sites(s);
@@ -146,7 +147,7 @@ TEST(PowerDiagram, NobodyIsInsideADualSphere) {
   }
 }
 
-/// The tree finds the same sites as a comparison of all of them.
+/// The tree finds the same sites as a comparison of all sites.
 TEST(SiteTree, FindsWhomALookAtEverybodyFinds) {
   const Specimen s = random_spheres(500, 10);
   const WeightedSites sites(s);
