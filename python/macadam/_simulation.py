@@ -81,8 +81,8 @@ def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, An
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}
     solver = {k: v for k, v in tables.get("solver", {}).items() if k not in _OF_THE_TEST}
     if method != "harmonic":
-        # the scene's tolerance is removed; it would be refused, because no error is predicted for a stepped test of
-        # this kind
+        # the scene's tolerance is removed: it would be refused, because the program cannot predict the error of a
+        # stepped test of this kind
         solver.pop("tolerance", None)
     tables["solver"] = {**solver, "method": method}
     options = {**given.options, "method": None}

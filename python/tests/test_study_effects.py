@@ -95,7 +95,8 @@ def test_the_scatter_of_a_line() -> None:
     )
     design = asked(grid={"a": list(x), "seed": [1, 2]})
     (effect,) = effects(quantities(rows, design)[0])
-    # Standard error of the slope. The seeds of a point deviate by sqrt(2), and each mean is of two seeds.
+    # Standard error of the slope. The two seeds of a point have a standard deviation of sqrt(2), and each
+    # mean is of two seeds.
     error = 2**0.5 / 2**0.5 / ((x - x.mean()) ** 2).sum() ** 0.5
     assert np.isclose(effect.scatter, student_95(10) * 9 * error)
 
@@ -169,7 +170,8 @@ def test_each_point_counts_with_its_own_number_of_seeds() -> None:
     chance = scatter(quantity)
     assert (chance.points, chance.fewest, chance.most, chance.freedom) == (3, 1, 4, 2 + 3 + 1)
     effect = next(e for e in effects(quantity) if e.factor == "a")
-    variances = [(1 / 1 + 1 / 3) / 4, (1 / 4 + 1 / 2) / 4]  # variances of the mean of two points, for each level
+    # for each level, the variance of the mean of two points, in units of the variance of a single seed
+    variances = [(1 / 1 + 1 / 3) / 4, (1 / 4 + 1 / 2) / 4]
     assert np.allclose(effect.errors, chance.deviation * np.sqrt(variances))
     assert np.isclose(effect.scatter, student_95(6) * chance.deviation * sum(variances) ** 0.5)
 

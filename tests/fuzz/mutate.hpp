@@ -16,7 +16,8 @@ using Random = std::minstd_rand;
 /// Returns a random number below `end`.
 std::size_t below(Random& random, std::size_t end);
 
-/// Returns the text after one mutation by libFuzzer, which does not know the form; at most `most` bytes.
+/// Returns the text after one mutation by libFuzzer, which does not know the form of the text. The result has at most
+/// `most` bytes.
 std::string changed_bytes(std::string text, std::size_t most);
 
 /// Returns the text after a few changes of lines (removed, copied, exchanged) and cells (emptied, copied, inserted,

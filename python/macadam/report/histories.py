@@ -15,8 +15,8 @@ from macadam.report.modulus import decades
 from macadam.report.page import Page
 
 
-# Adds a section for each kind of test in time, and one for Prony series. A kind without a drawing of its own gets the
-# general one.
+# Adds a section for each kind of test in time, and one section for Prony series. A kind of test without its own
+# drawing gets the drawing that fits every test.
 def add(page: Page, folders: list[Folder]) -> None:
     with_points = [f for f in folders if f.kind == "run" and f.in_time and f.in_time.get("points")]
     kinds = {f.in_time["kind"] for f in with_points}
@@ -46,7 +46,7 @@ def _errors(folder: Folder) -> np.ndarray:
     error_of_test = folder.in_time.get("error") or 0
     errors = np.array([float(p.get("error") or error_of_test) for p in folder.in_time["points"]])
     if folder.in_time.get("rupture"):
-        errors[-1] = 0  # the specimen is in two pieces, without equilibrium, so the difference is not an error
+        errors[-1] = 0  # the specimen is in two pieces and not in equilibrium, so the difference is not an error
     return errors
 
 

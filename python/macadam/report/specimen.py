@@ -84,7 +84,7 @@ def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
     base = np.array([to_rgb(of_class[n]) for n in _names(folder).values()] or [to_rgb(look.CLASSES[0])])
     rows = {size_class: row for row, size_class in enumerate(_names(folder))}
     of = np.array([rows.get(classes.get(b), 0) for b in body[grain]], int)
-    # golden ratio: consecutive numbers get different shades
+    # multiples of the golden ratio give consecutive numbers clearly different shades
     shade = 1 + 0.22 * ((body[grain] * 0.6180339887) % 1 - 0.5)
     colour[grain] = np.clip(base[of] * shade[:, None], 0, 1)
     return lambda rows: colour[rows]

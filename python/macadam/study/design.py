@@ -98,7 +98,7 @@ def read_design(source: str | Path | Table, version: str) -> Design:
         base,
     )
     design = Design(folder, run=table_of(asked, "run"), report=table_of(asked, "report"))
-    equal: dict[str, list[Job]] = {}  # jobs with the same scene, by a key in which 1 and 1.0 are the same
+    equal: dict[str, list[Job]] = {}  # jobs with the same scene, by a key that is the same for 1 and 1.0
     for values in points.crossed(sampled, axes | {name: list(of) for name, of in options.items()}):
         chosen = [options[name][value] for name, value in values.items() if name in options]
         factors = Changes("point", {key: value for key, value in values.items() if key not in options})

@@ -198,7 +198,8 @@ def _round(
                 return died
     except BaseException:  # also KeyboardInterrupt: jobs that still wait must not begin
         for future in waiting:
-            with contextlib.suppress(NotImplementedError):  # Parsl cannot cancel jobs; its workers end with the pool
+            # Parsl cannot cancel jobs; its workers end when the pool is closed
+            with contextlib.suppress(NotImplementedError):
                 future.cancel()
         raise
     return died

@@ -50,14 +50,15 @@ class Quantity:
         return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].size().to_numpy()
 
 
-# Coordinates at which quantities are shown: column of the table, key of [report], default value, unit. Infinity means
-# the largest value.
+# Coordinates at which quantities are shown: column of the table, key of [report], default value, unit. The default
+# infinity means the largest value in the table.
 _AT = (
     ("frequency_hz", "frequency", 10.0, "Hz"),
     ("temperature_c", "temperature", 20.0, "°C"),
     ("time_s", "", np.inf, "s"),
 )
-# column of the table, and name, unit and factor in the report; moduli of 1000 MPa or more are shown in GPa
+# column of the table, and its name, unit and factor in the report; moduli of 1000 MPa or more are shown in
+# GPa
 _SHOWN = (
     ("e_star_pa", "|E*|", "MPa", 1e-6),
     ("phase_deg", "phase angle", "°", 1.0),
@@ -127,7 +128,8 @@ class Effect:
     means: list[float]  # mean of the quantity at each level
     share: float
     errors: list[float] | None = None  # standard errors of the means, from the scatter of seeds; None: it is unknown
-    # half the 95 % interval of the change between the ends, also from the scatter of seeds
+    # half of the 95 % interval of the change between the two ends, from the scatter of seeds; None:
+    # it is unknown
     scatter: float | None = None
     within_scatter: bool = False  # whether different seeds alone can explain all differences between the means
 
@@ -197,10 +199,10 @@ def effects(quantity: Quantity) -> list[Effect]:
             means = [float(points["value"].mean() + slope * (e - x.mean())) for e in ends]
             effect = Effect(factor, ends, means, float(((slope * (x - x.mean())) ** 2).sum()) / total if total else 0.0)
             if chance:
-                # The means at both ends have the error of the same slope, so half of the change's variance is given to
-                # each end.
+                # The means at the two ends depend on the same slope, so their errors are not independent. Half of the
+                # variance of the change is given to each end.
                 effect.compare(np.full(2, 0.5 * (error * (ends[1] - ends[0])) ** 2), chance)
-                effect.errors = None  # a fitted line has no means at levels
+                effect.errors = None  # a fitted line has no means at single levels
             out.append(effect)
             continue
         by = points[factor]
@@ -209,7 +211,8 @@ def effects(quantity: Quantity) -> list[Effect]:
         between = float((number * (mean - points["value"].mean()) ** 2).sum())
         levels = [v.item() if isinstance(v, np.generic) else v for v in mean.index]
         effect = Effect(factor, levels, list(map(float, mean)), between / total if total else 0.0)
-        if chance:  # a level's mean is over its points, and each point's value is a mean over seeds
+        # the mean of a level is over the points of the level, and the value of each point is a mean over seeds
+        if chance:
             inverse = pd.Series(1 / repetitions, points.index).groupby(by, sort=numeric(points, factor), dropna=False)
             effect.compare(inverse.sum().to_numpy() / number.to_numpy() ** 2, chance)
         out.append(effect)
@@ -221,7 +224,7 @@ class Scatter:
     """The scatter between seeds of one point, pooled over the points that have several seeds."""
 
     deviation: float  # standard deviation, in the quantity's unit
-    relative: float  # the same, relative to each point's mean
+    relative: float  # the standard deviation as a fraction of the mean of each point
     points: int  # number of points with several seeds
     fewest: int  # smallest number of seeds of a point, 1 if a point has a single seed
     most: int  # largest number of seeds of a point

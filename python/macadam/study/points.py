@@ -11,7 +11,7 @@ from typing import Any
 from macadam.study.errors import StudyError
 from macadam.study.scenes import Table, normal
 
-MOST = 1_000_000  # largest number of points: far more than anyone computes, and all are held in memory
+MOST = 1_000_000  # largest number of points: more than anyone computes, and few enough to hold all of them in memory
 
 
 def table_of(asked: Table, name: str) -> Table:
