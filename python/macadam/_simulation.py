@@ -24,8 +24,8 @@ _OF_RUN = ("resume", "on_step", "every", "on_plan", "on_warning")
 
 def _scene_and_specimen(scene: SceneLike, specimen: SpecimenLike | None,
                         overrides: dict[str, Any] | None = None) -> tuple[Scene, _core.Specimen | None]:
-    """Returns the scene, and the specimen if one was made before. If `specimen` is a dictionary of keys, puts it into
-    `overrides` as the section `specimen`."""
+    """Returns the scene, and the specimen if the caller has made one before. If `specimen` is a dictionary of keys,
+    puts the dictionary into `overrides` as the section `specimen`."""
     overrides = {} if overrides is None else overrides
     made = scene if isinstance(scene, _core.Specimen) else None
     if isinstance(specimen, _core.Specimen):
@@ -74,8 +74,8 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: S
 
 def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, Any], overrides: dict[str, Any],
           method: str = "harmonic", **call: Any) -> Result:
-    """Runs another test than the scene's own. loading: the new section [loading]. call: arguments for run();
-    `overrides` may hold such arguments too."""
+    """Runs a test that replaces the scene's own test. loading: the new section [loading]. call: arguments for run();
+    `overrides` may contain arguments for run() too."""
     given, made = _scene_and_specimen(scene, specimen, overrides)
     tables = given.as_dict()
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}

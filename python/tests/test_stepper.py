@@ -119,8 +119,8 @@ def test_pulses_and_what_drives_say_of_themselves(specimen, dt):
 
 
 def test_stresses_of_cells_are_those_of_the_whole(specimen, dt):
-    """The volume-weighted sum of the cells' stresses equals the stress on the walls. In equilibrium, when no momentum
-    is left, this is exact."""
+    """The mean of the cells' stresses, weighted by volume, equals the stress on the walls. This is exact in
+    equilibrium, when all particles are at rest."""
     ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=200)
     stepping = stepper(specimen, ramp, damping_kind="viscous", damping=0.05 / dt)
     stepping.advance(3000)

@@ -140,8 +140,9 @@ def test_small_differences_between_levels_are_within_the_scatter(tmp_path: Path)
 
 
 def test_names_of_pure_scatter_are_an_effect_in_one_of_twenty_studies() -> None:
-    """A thousand studies have twelve names with three seeds each, all of one normal distribution. In most studies the
-    difference between the largest and the smallest mean exceeds the confidence interval of two means."""
+    """A thousand studies have a factor with twelve names and three seeds each. All values have one normal distribution,
+    so there is no effect. In most studies the difference between the largest and the smallest mean exceeds the
+    confidence interval for the difference of two means."""
     draw = np.random.default_rng(1)
     names, seeds = np.repeat([f"binder {k}" for k in range(12)], 3), np.tile([1, 2, 3], 12)
     found = []
@@ -157,7 +158,8 @@ def test_names_of_pure_scatter_are_an_effect_in_one_of_twenty_studies() -> None:
 
 
 def test_each_point_counts_with_its_own_number_of_seeds() -> None:
-    """The points of level 0 have one and three seeds, those of level 1 four and two."""
+    """The two points of level 0 have one seed and three seeds, the two points of level 1 have four seeds and two
+    seeds."""
     seeds = {(0, "x"): 1, (0, "y"): 3, (1, "x"): 4, (1, "y"): 2}
     jobs = pd.DataFrame(
         [

@@ -136,8 +136,8 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
 
 
 def test_a_manager_that_waits_for_ever_ends_with_its_study() -> None:
-    """A worker that is killed while it holds the queue of results leaves a manager that waits forever. Here a program
-    that only waits takes the manager's place."""
+    """If a worker is killed while it holds the queue of results, Parsl's manager of workers waits forever. In this test
+    a program that only waits takes the place of the manager."""
     study = subprocess.Popen(["sleep", "3600"])
     line = [sys.executable, "-m", "macadam.study.manager", str(study.pid), "1", "sleep", "3600"]
     manager = subprocess.Popen(line, env=ENVIRONMENT)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies on a Slurm cluster: on a real one, which consists of this machine alone; wrong options; jobs that Slurm
-refuses."""
+"""Studies on a Slurm cluster that consists of this machine alone; wrong options of Slurm; jobs that Slurm refuses."""
 
 from __future__ import annotations
 

@@ -61,8 +61,8 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def cannot_draw() -> str:
-    """Returns why pictures of fields cannot be drawn on this machine; empty if they can. This is tried in a separate
-    process, because VTK ends the process if no OpenGL library can draw without a screen."""
+    """Returns why pictures of fields cannot be drawn on this machine; empty if they can. A separate process tries to
+    draw, because VTK ends its process if no OpenGL library can draw without a screen."""
     if importlib.util.find_spec("pyvista") is None:
         return "the Python package PyVista is not installed"
     line = "import pyvista as p; t = p.Plotter(off_screen=True); t.add_mesh(p.Cube()); t.screenshot(return_img=True)"
@@ -74,8 +74,8 @@ def cannot_draw() -> str:
 
 
 def _files(folder: Folder) -> dict[str, Path]:
-    """Returns one file of particles and one file of contacts, by kind: the file of the lowest frequency. If that is a
-    series of .vtp files, returns the last frame."""
+    """Returns one file of particles and one file of contacts, by kind, for the lowest frequency. If a series of .vtp
+    files was written, returns the last frame of the series."""
     chosen = {}
     for kind in _SHOWN:
         files = [p for end in ("vtkhdf", "vtp") for p in (folder.path / "fields").glob(f"{kind}*.{end}")]

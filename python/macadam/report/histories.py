@@ -41,8 +41,8 @@ def _points(folder: Folder, *keys: str) -> list[np.ndarray]:
 
 
 def _errors(folder: Folder) -> np.ndarray:
-    """Returns the relative error of each point: the point's own error in a stepped test, otherwise the error of the
-    test."""
+    """Returns the relative error of each point. In a stepped test each point has its own error; otherwise all points
+    have the error of the test."""
     error_of_test = folder.in_time.get("error") or 0
     errors = np.array([float(p.get("error") or error_of_test) for p in folder.in_time["points"]])
     if folder.in_time.get("rupture"):
@@ -55,7 +55,8 @@ def _is_stepped(folder: Folder) -> bool:
 
 
 def _bars(folder: Folder) -> np.ndarray:
-    """Returns the error bars of a stepped test, and NaN for other tests, whose bars would be smaller than the line."""
+    """Returns the error bars of a stepped test. Returns NaN for other tests: their bars would be smaller than the
+    line."""
     return _errors(folder) if _is_stepped(folder) else np.full(len(folder.in_time["points"]), np.nan)
 
 

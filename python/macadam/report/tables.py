@@ -19,8 +19,8 @@ Error = Callable[[dict[str, Any]], tuple[float, float]]
 
 
 def add(page: Page, folders: list[Folder], error: Error) -> None:
-    """Adds tables of these folders, all of which have results over frequencies. error: returns the error of a
-    result."""
+    """Adds tables of these folders. All of them have results over frequencies. error: a function that returns the error
+    of a result."""
     if 1 < len(folders) <= ABREAST and not any(_temperatures(f)[1:] for f in folders):
         _abreast(page, folders)
         return

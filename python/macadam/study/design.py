@@ -111,8 +111,8 @@ def read_design(source: str | Path | Table, version: str) -> Design:
 
 
 def _add(design: Design, job: Job, equal: list[Job]) -> None:
-    """Adds a job to the design. equal: earlier jobs with the same scene; the job then uses their result. A job with the
-    same values and experiment as one of these is not added."""
+    """Adds a job to the design. equal: earlier jobs with the same scene; the new job uses their result. If the new job
+    also has the same values and experiment as one of these earlier jobs, it is not added."""
     if any(normal(job.values) == normal(o.values) and job.experiment == o.experiment for o in equal):
         design.notes.append(f"{job.label}: this point occurs more than once in the study; it has one row in the table")
         return

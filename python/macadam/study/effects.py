@@ -135,8 +135,9 @@ class Effect:
 
     @property
     def at_ends(self) -> tuple[int, int]:
-        """The numbers of the two levels whose difference is the change: the first and the last one if the levels are
-        numbers and the means only rise or only fall, otherwise those with the smallest and the largest mean."""
+        """The indices of the two levels whose difference is the change. If the levels are numbers and the means only
+        rise or only fall, these are the first and the last level, otherwise the levels with the smallest and the
+        largest mean."""
         steps = np.diff(self.means)
         if all(isinstance(v, (int, float)) for v in self.levels) and ((steps >= 0).all() or (steps <= 0).all()):
             return 0, len(self.levels) - 1
@@ -149,10 +150,10 @@ class Effect:
         return self.means[first], self.means[last]
 
     def compare(self, variances: np.ndarray, chance: Scatter) -> None:
-        """Compares the means with the scatter of seeds by an F-test over all levels: the mean square between the levels
-        against the variance of seeds. `scatter` becomes half of Scheffé's 95 % interval of the change, which for two
-        levels is Student's interval. So the change is never larger than `scatter` if the test finds no effect.
-        variances: variance of each mean, divided by the variance of a single seed."""
+        """Compares the means with the scatter of seeds by an F-test over all levels, which compares the mean square
+        between the levels with the variance of seeds. Sets `scatter` to half of Scheffé's 95 % interval of the change
+        (for two levels this is Student's interval). So the change is never larger than `scatter` if the test finds no
+        effect. variances: variance of each mean, divided by the variance of a single seed."""
         means, freedom = np.array(self.means), len(self.means) - 1
         limit = freedom * fisher_95(freedom, chance.freedom) * chance.deviation**2
         between = (((means - np.average(means, weights=1 / variances)) ** 2) / variances).sum()
@@ -168,8 +169,9 @@ def continuous(points: pd.DataFrame, factor: str) -> bool:
 
 def _lines(points: pd.DataFrame, factors: list[str], repetitions: np.ndarray) -> dict[str, tuple[float, float]]:
     """Returns the slope of each continuous factor, and the standard error that the slope would have if every seed had a
-    standard deviation of 1. All factors are fitted together by least squares, factors with levels as 0/1 columns: the
-    values of a hypercube are not quite independent, and the effect of one factor must not be attributed to another.
+    standard deviation of 1. All factors are fitted together by least squares; a factor with levels has a column of 0
+    and 1 per level. The values of a hypercube are slightly correlated, and a fit of single factors would attribute the
+    effect of one factor to another.
     repetitions: number of seeds of each point. As in the means of levels, each point counts once."""
     smooth = [f for f in factors if continuous(points, f)]
     if not smooth:

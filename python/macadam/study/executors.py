@@ -69,9 +69,9 @@ def _threads(number: int, folder: Path) -> Iterator[concurrent.futures.Executor]
 
 
 def patience(run: dict[str, Any]) -> tuple[float, float]:
-    """Returns the longest time [s] for which no worker may be working although there are jobs: until the first worker
-    begins, and afterwards. After that time all workers are replaced. This is needed because a Parsl worker that is
-    killed while it waits for a job can block the queue for all others."""
+    """Returns the longest times [s] for which no worker may be working although there are jobs: one time until the
+    first worker begins, and one for afterwards. Then all workers are replaced. This is needed because a Parsl worker
+    that is killed while it waits for a job can block the queue for all other workers."""
     slurm = run.get("on", "local") == "slurm"
     later = float(run.get("patience", 600 if slurm else 60))
     # before the first worker begins there is no limit on a cluster: jobs may wait there for days

@@ -47,8 +47,8 @@ def _text(value: Any) -> str:
 
 
 def samples(asked: Table) -> list[dict[str, Any]]:
-    """Returns the points of all hypercubes and lists. Raises StudyError if a point has no value for a key of the
-    others."""
+    """Returns the points of all hypercubes and lists. Raises StudyError if a point has no value for a key for which
+    another point has one."""
     out: list[dict[str, Any]] = []
     places: list[str] = []
     for name, points in (("latin_hypercube", _hypercube), ("list", lambda block: [_flat(block)])):
