@@ -245,8 +245,8 @@ TEST(ShapeLibrary, DimensionsHaveTheStatisticsOfTable1) {
   }
 }
 
-/// A row of Table 2 in [1]: a property and its correlations with the properties of earlier rows. SI and Fl count only
-/// from 4 mm on.
+/// A row of Table 2 in [1]: a property of shapes and its correlations with the properties of earlier rows. The
+/// properties SI and Fl are defined only for shapes of at least 4 mm.
 struct Correlations {
   const char* name;
   const Property& property;

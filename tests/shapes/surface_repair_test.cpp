@@ -136,7 +136,8 @@ TEST(RepairSurface, WrapsWhatCutsItself) {
   EXPECT_NEAR(repair.area_before, 12, 1e-12);
 }
 
-/// A wrap that changes the volume is refused without `wrap`. The message states both volumes.
+/// A wrap (a new skin around the surface) that changes the volume is refused without `wrap`. The message states the
+/// volumes before and after.
 TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
   const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
   try {

@@ -74,8 +74,8 @@ std::string message_of(const Run& run) {
   return "(accepted)";
 }
 
-/// The overlap check agrees with a brute-force test of every edge against every facet, also if one particle is inside
-/// the other.
+/// The overlap check agrees with a brute-force test of every edge of one particle against every facet of the second.
+/// This must also hold if one particle is inside the second.
 TEST(ShapeBody, OverlapAgreesWithEveryEdgeAgainstEveryFacet) {
   const std::vector<ShapeTemplate> shapes = stones();
   std::vector<std::unique_ptr<ShapeGeometry>> geometries;

@@ -47,7 +47,8 @@ std::vector<Row> committed(const std::string& name) {
 
 double number(const Row& row, const std::string& key) { return std::stod(row.at(key)); }
 
-/// A comparison with double precision: the larger of the relative difference of |E*| and the difference of φ [rad].
+/// A comparison of a result with double precision. `off` is the larger of the relative difference of |E*| and the
+/// difference of φ [rad].
 struct Comparison {
   std::string precision, scene;
   RoundingScale scale;

@@ -80,7 +80,8 @@ TEST(PowerDiagram, PartsGiveTheWholeOfSpheresOfManySizes) {
 }
 TEST(PowerDiagram, PartsGiveTheWholeOfALattice) { expect_same_in_parts(lattice(5)); }
 TEST(PowerDiagram, PartsGiveTheWholeOfCrowdsFarApart) { expect_same_in_parts(two_crowds(600)); }
-/// Large spheres among small ones: a part may need sites on the far side of a large sphere, outside of its reach.
+/// Large spheres lie among small spheres. A part may then need sites on the far side of a large sphere, beyond the
+/// reach of the part's own spheres.
 TEST(PowerDiagram, PartsGiveTheWholeOfBoulders) {
   Specimen s = random_spheres(3000, 13);
   for (std::size_t i = 0; i < s.size(); ++i) s.radius[i] = i < 6 ? 0.25 : std::min(s.radius[i], 0.03);
@@ -91,7 +92,8 @@ TEST(PowerDiagram, PartsGiveTheWholeOfAPlane) {
   for (Vec3d& p : s.centre) p.z = 0.8;
   expect_same_in_parts(s);
 }
-/// Dual points overflow here, so nearness cannot be decided and all sites must be included.
+/// The coordinates of dual points overflow here, so the search cannot decide which sites are near, and must include all
+/// sites.
 TEST(PowerDiagram, PartsGiveTheWholeOfCentresThatNearlyCoincide) {
   for (const double distance : {1e-12, 1e-200, 5e-324}) {
     Specimen s = random_spheres(200, 14);

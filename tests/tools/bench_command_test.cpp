@@ -43,7 +43,7 @@ TEST_F(BenchCommand, WritesWhatItTimedAsGoogleBenchmarkDoes) {
     EXPECT_EQ(number, 3) << name;
     EXPECT_HAS(outcome.out, name);
   }
-  std::vector<double> shares;  // time of the two parts of a step over the time of the whole step
+  std::vector<double> shares;  // time of the two parts of a step divided by the time of the whole step
   for (const json& entry : all["benchmarks"]) {
     if (!std::string(entry["name"]).starts_with("step/") || entry["run_type"] == "aggregate") continue;
     const double step = entry["real_time"].get<double>(), contacts = entry["contacts"];
@@ -143,8 +143,8 @@ TEST(BenchComparison, TakesNoiseForNoise) {
   EXPECT_TRUE(bench::compare(row({1}), {{.name = "b", .label = "", .seconds = {1}, .counters = {}}}).empty());
 }
 
-// A face-centred lattice is a normal network: twelve contacts per inner particle, walls at two ends, and every contact
-// in the rows.
+// The face-centred lattice of the benchmark is a normal contact network: an inner particle has twelve contacts, walls
+// are at two ends, and the rows list every contact.
 TEST(BenchLattice, IsANetwork) {
   const bench::BenchCase lattice = bench::lattice(4000, true);
   const std::size_t n = lattice.specimen.size();

@@ -21,7 +21,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Returns the scene of the 175 particles of t8 with the laws of binder AM1, of which two follow temperature.
+/// Returns the scene of the small specimen t8 (175 particles) with the contact laws of binder AM1. Two of these laws
+/// depend on temperature.
 Scene t8_scene(bool inertia = false) {
   Scene scene;
   scene.file = "t8";
@@ -68,7 +69,7 @@ CalibrationOptions freeing(const std::vector<std::string>& names) {
   return out;
 }
 
-/// Multiplies the moduli and viscosities of a pair's law by `delta`.
+/// Multiplies the moduli and viscosities of the law of a pair type by `delta`.
 void scale(Scene& scene, PairType pair, double delta) {
   auto& law = std::get<laws::GeneralisedKelvin>(*scene.laws[static_cast<std::size_t>(pair)]);
   law.E_m *= delta, law.C_m *= delta;
@@ -271,12 +272,12 @@ TEST(Calibration, ASceneWithoutAFileIsRefusedBeforeFilesAreWritten) {
   fs::remove_all(out);
 }
 
-/// Only the product of A-W.E and A-W.delta enters the moduli, so calibration reports their combination as undetermined.
-/// A prior for one of them makes both known.
+/// The moduli depend only on the product of A-W.E and A-W.delta, so calibration reports that the two cannot be told
+/// apart. If one of them has a prior, both are determined.
 TEST(Calibration, WhatCannotBeToldApartIsNamed) {
   const ModulusData data = measured(t8_scene(), {0.1, 2, 20});
   CalibrationOptions known = freeing({"A-W.E", "A-W.delta", "M-M.delta"});
-  // walls contribute little to |E*|, so accurate measurements are needed
+  // contacts with walls contribute little to |E*|, so accurate measurements are needed
   known.e_star_deviation = 1e-3, known.phase_deviation = 0.05;
   const Calibration c = calibrate(t8_scene(), data, known);
   ASSERT_EQ(c.combinations.size(), 1u);
@@ -343,7 +344,8 @@ TEST(Calibration, AParameterAtItsBoundIsAsIfGiven) {
   EXPECT_NEAR(bounded.parameters[1].deviation / alone.parameters[0].deviation, 1, 1e-2);
 }
 
-/// With two seeds the fit compares the mean modulus of both specimens with the target and reports their scatter.
+/// With two seeds there are two specimens. Calibration compares the mean of their moduli with the target, and reports
+/// the scatter between them.
 TEST(Calibration, SeedsAreAveraged) {
   Scene scene = t8_scene();
   scene.specimen = {};
@@ -419,7 +421,8 @@ TEST(Calibration, TargetsWithoutSenseAreRefused) {
   EXPECT_NE(with([](ModulusData& d) { d.points[0].phase_deg = std::nan(""); }).find("measurement 1"),
             std::string::npos);
   EXPECT_NE(with([](ModulusData& d) { d.points.clear(); }).find("measurements: found none"), std::string::npos);
-  // M-A contacts alone can neither make the specimen stiffer than all other contacts together, nor soft like a fluid.
+  // If only M-A contacts may change, the specimen can neither be stiffer than all other contacts together, nor as soft
+  // as a fluid.
   for (const double factor : {1e3, 1e-3}) {
     const std::string said = with([&](ModulusData& d) {
       for (ModulusPoint& p : d.points) p.e_star_pa *= factor;

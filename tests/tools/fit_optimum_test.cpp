@@ -167,7 +167,8 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   const std::vector<double> nominal{0, 15, 30};
   ModulusData data = measured(nominal, 0, 1, 9);
   for (std::size_t i = 0; i < data.points.size(); ++i)
-    data.points[i].temperature_c += 0.1 * static_cast<double>(i % 5) - 0.2;  // as an instrument records them
+    // small differences, as an instrument records them
+    data.points[i].temperature_c += 0.1 * static_cast<double>(i % 5) - 0.2;
   FitOptions options;
   options.shift = ShiftKind::free;
   options.units = 4;
@@ -196,7 +197,8 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   EXPECT_NO_THROW(fit_modulus(data, options)) << "one isotherm needs no shift";
 }
 
-/// A ramp of temperature has no isotherms, so a free shift is refused and a shift law is fitted.
+/// If the temperature rises steadily, there are no isotherms. So a free shift is refused, and a shift law can be
+/// fitted.
 TEST(FitOptimum, ARampOfTemperatureTakesAShiftLaw) {
   std::vector<double> ramp;
   for (int i = 0; i <= 100; ++i) ramp.push_back(0.4 * i);
@@ -214,7 +216,7 @@ TEST(FitOptimum, OneMeasurementFarOffTheFitIsNamed) {
   FitOptions options;
   options.shift = ShiftKind::wlf;
   EXPECT_FALSE(has_warning(fit_modulus(data, options), "off the fit"));
-  data.points[9].phase_deg = 85;  // 40 degrees above the others
+  data.points[9].phase_deg = 85;  // 40 degrees above the phases of all other points
   data.points[9].line = 12;
   EXPECT_TRUE(has_warning(fit_modulus(data, options),
                           "1 of 28 measurements lie more than 5 standard deviations off the fit: line 12: phase 85"));

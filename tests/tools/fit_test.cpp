@@ -221,7 +221,8 @@ void expect_equal(const AnalogueModel& found, const AnalogueModel& truth) {
   EXPECT_LT(relative(found.h, truth.h), 1e-4);
   EXPECT_LT(relative(found.delta, truth.delta), 1e-4);
   EXPECT_LT(relative(found.tau, truth.tau), 1e-4);
-  EXPECT_TRUE(found.beta == truth.beta || relative(found.beta, truth.beta) < 1e-4);  // both infinite, or nearly equal
+  // both values are infinite, or they are nearly equal
+  EXPECT_TRUE(found.beta == truth.beta || relative(found.beta, truth.beta) < 1e-4);
 }
 
 TEST(Fit, ParametersOfAnaloguesComeBack) {

@@ -46,7 +46,7 @@ def _of(folder: Folder) -> str:
     return words + (". The sides are held: this is a confined modulus" if confined else "")
 
 
-# Returns the first ROWS rows, and notes on the page that the others were left out.
+# Returns the first ROWS rows. If there are more rows, notes on the page that they were left out.
 def _cut(page: Page, label: str, rows: list[Any]) -> list[Any]:
     if len(rows) > ROWS:
         page.leave_out(

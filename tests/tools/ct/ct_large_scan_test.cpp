@@ -226,7 +226,7 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   EXPECT_NE(fault(folder_ / "pages.tif", options, 1e12).find("edge of a voxel"), std::string::npos);
 }
 
-/// The ends of the scan cut grains in the same way on both sides of each axis: mirroring the scan does not change the
+/// The two ends of the scan along each axis cut grains in the same way, so mirroring the scan does not change the
 /// volumes.
 TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
   Image<float> scan = scan_of({96, 96, 96}, {ball(95.5, 30, 34, 20), ball(34, 95.5, 30, 22), ball(30, 34, 95.5, 24)},
@@ -271,8 +271,9 @@ class CutGrains : public CtLargeScan {
     };
     return refined(scan, 2, number, 0, Denoising::none);
   }
-  /// Expects that the first grain contains the point `before` but not `behind` along an axis, and the second grain the
-  /// reverse. `there` is the coordinate of both points along the axis `other`.
+  /// Expects that the first grain contains the point at `before` along an axis and the second grain contains the point
+  /// at `behind`, and that neither grain contains the point of the other grain. `there` is the coordinate of the two
+  /// points along the axis `other`.
   void expect_parted(const std::vector<ScannedGrain>& grains, std::size_t along, double before, double behind,
                      std::size_t other, double there) {
     for (const double at : {before, behind}) {
