@@ -8,14 +8,15 @@
 #include "macadam/laws/law.hpp"
 #include "macadam/numeric.hpp"
 
-/// f = E·x up to |x| = x_0, and with the slope E_2 beyond. The only unit state is x itself.
+/// Force f = E·x up to |x| = x_0, with the slope E_2 beyond. The only state of the law is the displacement x.
 struct Bilinear {
   static constexpr const char* name = "bilinear";
-  static constexpr bool linear = false;  // so contact points are stepped one by one, not as a condensed contact
+  // so the points of a contact are stepped one by one, not as a condensed contact
+  static constexpr bool linear = false;
   static constexpr int only_units = 1;
   double E = 0, E_2 = 0;  ///< [Pa], E_2 ≤ E
   double x_0 = 0;         ///< [m]
-  double alpha = 0;       ///< shear over normal stiffness
+  double alpha = 0;       ///< ratio of shear stiffness to normal stiffness
 
   int units() const { return 1; }
   double instantaneous() const { return E; }
@@ -25,8 +26,8 @@ struct Bilinear {
   struct Step {
     static constexpr bool memoryless = false;
     R E, E_2, x_0;
-    /// Advances the state by dx and returns the new f. It uses sums, products and abs instead of branches, so that it
-    /// also compiles for packets of contacts.
+    /// Advances the state x by dx and returns the new f. It uses sums, products and abs() instead of branches, so that
+    /// it also compiles if S is a packet of contacts.
     template <int L, class S, class Units>
     MACADAM_HD S advance(S, S dx, Units&& x) const {
       x(0) += dx;
@@ -34,7 +35,7 @@ struct Bilinear {
     }
     template <class S>
     MACADAM_HD S value(const S& x) const {
-      // if S is a packet, its own abs() is found by the type
+      // if S is a packet, the compiler finds the abs() that belongs to the packet
       using std::abs;
       const S beyond = S(R(0.5)) * (abs(x - S(x_0)) - abs(x + S(x_0)));  // −x, limited to ±x_0
       return S(E_2) * x - S(E - E_2) * beyond;

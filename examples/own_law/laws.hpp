@@ -12,7 +12,7 @@
 using OwnLaw = std::variant<StandardLinearSolid, Bilinear, macadam::laws::Elastic>;
 using OwnLaws = std::array<std::optional<OwnLaw>, macadam::pair_types>;
 
-/// Whether this program has kernels for CUDA devices too, which on_device.cu compiles.
+/// Whether this program has kernels for GPUs too; on_device.cu compiles them.
 #ifdef OWN_LAW_ON_DEVICE
 inline constexpr bool on_device = true;
 #else

@@ -41,7 +41,7 @@ double stress_after(const OwnLaw& law, StepperOptions options, D drive, double s
   drive.step = options.dt;
   drive.ramp_steps = std::llround(2e-4 / options.dt);
   options.boundary = moving_top(drive);
-  // here, and in on_device.cu, the kernels are compiled for these laws and this precision
+  // in this file, and in on_device.cu for GPUs, the kernels are compiled for these laws and this precision
   const auto stepper = make_stepper_of<OwnLaw, on_device, Precision::double_>(Backend::automatic, column, network, laws,
                                                                               inertia, options);
   stepper->advance(std::llround(seconds / options.dt));
@@ -65,7 +65,7 @@ bool relaxes() {
   StepperOptions options;
   options.form = ContactForm::condensed;  // the law is linear
   options.geometry = Geometry::fixed;
-  options.damping_kind = Damping::viscous;  // damps the waves that the rise leaves
+  options.damping_kind = Damping::viscous;  // damps the waves that the rising strain causes
   options.damping = 2e4;
   const double found = stress_after(OwnLaw(law), options, drive, at);
   double memory = 0;  // convolution of the strain rate with exp(−t/time), by the midpoint rule
@@ -78,8 +78,8 @@ bool relaxes() {
   return agree("standard linear solid, after 2 ms of hold", found, law.E_inf * strain + law.E_1 * memory, 2e-4);
 }
 
-/// Checks the stress in a bilinear column that was pulled beyond the yield displacement of its longer contacts and is
-/// at rest again.
+/// Checks the stress in a column with bilinear contacts. The column was pulled until its longer contacts passed the
+/// displacement x_0, and is at rest again.
 bool yields() {
   const Bilinear law{2e9, 4e8, 2e-9, 0};
   const double pulled = 1.6e-8;
@@ -91,8 +91,8 @@ bool yields() {
   options.damping_kind = Damping::local;
   options.damping = 0.5;
   const double found = stress_after(OwnLaw(law), options, drive, 3e-3);
-  // The contacts are in series, so all carry the same stress f(x)/d. Bisection finds the stress at which their
-  // displacements add up to that of the wall.
+  // The contacts are in series, so all carry the same stress f(x)/d. Bisection finds the stress at which the
+  // displacements of the contacts add up to the displacement of the wall.
   const auto stretch = [&](double stress, double d) {
     const double f = stress * d, yield = law.E * law.x_0;
     return f <= yield ? f / law.E : law.x_0 + (f - yield) / law.E_2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// on_device.cu  Compiles the steppers for this program's laws on a CUDA device.
+// on_device.cu  Compiles the steppers (which advance particles in time) for this program's laws on a GPU.
 #include <kernels/make_cuda.hpp>
 
 #include "laws.hpp"

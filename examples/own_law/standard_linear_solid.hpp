@@ -9,14 +9,14 @@
 #include "macadam/laws/law.hpp"
 #include "macadam/numeric.hpp"
 
-/// f = E_inf·x + g. The part g = E_1·(x − y) acts on the dashpot, whose displacement is y: C_1·dy/dt = g. The only unit
-/// state is g itself.
+/// Force f = E_inf·x + g. The part g = E_1·(x − y) acts on the dashpot, whose displacement is y: C_1·dy/dt = g. The
+/// only state of the law is g.
 struct StandardLinearSolid {
   static constexpr const char* name = "standard_linear_solid";
   static constexpr int only_units = 1;
   double E_inf = 0, E_1 = 0;  ///< [Pa]
   double C_1 = 0;             ///< [Pa·s]
-  double alpha = 0;           ///< shear over normal stiffness
+  double alpha = 0;           ///< ratio of shear stiffness to normal stiffness
 
   int units() const { return 1; }
   double instantaneous() const { return E_inf + E_1; }

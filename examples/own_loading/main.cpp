@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  Example of a new drive: a sawtooth moves the top wall of a specimen up and down while a platen presses on
-// its side. The program takes samples during the run and reads the contact forces at the end.
+// main.cpp  Example of a new drive (the prescribed motion of a wall): a sawtooth moves the top wall of a specimen up
+// and down while a platen presses on its side. The program takes samples during the run and reads the contact forces at
+// the end.
 #include <macadam/macadam.hpp>
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 
 using namespace macadam;
 
-/// Displacement that rises and falls linearly between 0 and `height`, with `period` steps for each.
+/// Displacement that rises from 0 to `height` and falls back linearly, in `period` steps each.
 struct Sawtooth final : Drive {
   double height, step;
   std::int64_t period;

@@ -17,8 +17,8 @@ import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
-# OpenMP reads OMP_WAIT_POLICY once, when the compiled library is loaded. By default, OpenMP's waiting threads spin; if
-# other programs use the cores, that makes the work several times slower.
+# OpenMP reads OMP_WAIT_POLICY once, when the compiled library is loaded. By default, threads of OpenMP spin while they
+# wait. If other programs use the cores, spinning makes the work several times slower.
 if "OMP_WAIT_POLICY" not in os.environ and "GOMP_SPINCOUNT" not in os.environ:
     os.environ["OMP_WAIT_POLICY"] = "passive"
 

@@ -60,7 +60,7 @@ def _tables_of(text: str, file: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        _core.Scene(file, text)  # raises the error with the command's own message
+        _core.Scene(file, text)  # raises the error with the message of the command
         raise _core.InputError(f"{file}: TOML syntax: found {error}, expected valid TOML") from error
 
 

@@ -24,8 +24,8 @@ _OF_RUN = ("resume", "on_step", "every", "on_plan", "on_warning")
 
 def _scene_and_specimen(scene: SceneLike, specimen: SpecimenLike | None,
                         overrides: dict[str, Any] | None = None) -> tuple[Scene, _core.Specimen | None]:
-    """Returns the scene, and the specimen if one was made before. If `specimen` is a dictionary of keys, puts it into
-    `overrides` as the section `specimen`."""
+    """Returns the scene, and the specimen if the caller has made one before. If `specimen` is a dictionary of keys,
+    puts the dictionary into `overrides` as the section `specimen`."""
     overrides = {} if overrides is None else overrides
     made = scene if isinstance(scene, _core.Specimen) else None
     if isinstance(specimen, _core.Specimen):
@@ -74,15 +74,15 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: S
 
 def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, Any], overrides: dict[str, Any],
           method: str = "harmonic", **call: Any) -> Result:
-    """Runs another test than the scene's own. loading: the new section [loading]. call: arguments for run();
-    `overrides` may hold such arguments too."""
+    """Runs a test that replaces the scene's own test. loading: the new section [loading]. call: arguments for run();
+    `overrides` may contain arguments for run() too."""
     given, made = _scene_and_specimen(scene, specimen, overrides)
     tables = given.as_dict()
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}
     solver = {k: v for k, v in tables.get("solver", {}).items() if k not in _OF_THE_TEST}
     if method != "harmonic":
-        # the scene's tolerance is removed; it would be refused, because no error is predicted for a stepped test of
-        # this kind
+        # the scene's tolerance is removed: it would be refused, because the program cannot predict the error of a
+        # stepped test of this kind
         solver.pop("tolerance", None)
     tables["solver"] = {**solver, "method": method}
     options = {**given.options, "method": None}

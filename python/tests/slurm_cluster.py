@@ -100,9 +100,9 @@ def cluster(folder: Path) -> Iterator[dict[str, str]]:
         for daemon in daemons:
             with open(folder / f"{daemon[0]}.out", "w") as out:
                 running.append(subprocess.Popen(daemon, env=environment, stdout=out, stderr=out))
-            if daemon[0] == "munged":  # the others need its socket
+            if daemon[0] == "munged":  # the daemons of Slurm need the socket of munged
                 _wait(folder, running, (folder / "munge.socket").exists)
-            elif daemon[0] == "slurmctld":  # the node registers with it
+            elif daemon[0] == "slurmctld":  # the node registers with slurmctld
                 _wait(folder, running, lambda: "is UP" in _said(environment, "scontrol", "ping"))
         _wait(folder, running, lambda: "idle" in _said(environment, "sinfo", "-h", "-o", "%T"))
         yield environment

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A running study that never ends, for tests that stop it."""
+"""Starts a study that never ends, for tests that stop it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ workers = 2
 
 
 class Running:
-    """A study, in its own session, of which one point ends and two points run forever."""
+    """A study that runs in its own session. One of its points ends, and two points run forever."""
 
     def __init__(self, folder: Path, place: str, study: str = STUDY, environment: dict[str, str] | None = None) -> None:
         self.folder, self.out, self.go = folder, folder / "out", folder / "go"

@@ -79,7 +79,8 @@ def test_python_runs_beside_a_long_call(specimen):
     stepper = mc.Stepper(specimen, mc.Boundary(), backend="cpu", threads=1)
     beside.start()
     before, calls = counted[0], 0
-    # If the call held a lock, the other thread could count at most once between two calls.
+    # If advance() held the lock of Python, the second thread could count at most once between two
+    # calls.
     while counted[0] - before <= 3 * calls + 20 and calls < 300:
         stepper.advance(5000)
         calls += 1

@@ -18,7 +18,7 @@ def test_a_fit_is_that_of_the_command(tmp_path, program):
     found = mc.fit(MASTIC, shift="wlf", units=6, out=tmp_path / "own")
     assert found.files.keys() == {"law.toml", "fit.json", "fit.csv", "curve.csv"}
     for name, text in found.files.items():
-        if name != "fit.json":  # fit.json names the source of the data, which differs
+        if name != "fit.json":  # fit.json names the source of the data, which is different here
             assert text == (tmp_path / name).read_text() == (tmp_path / "own" / name).read_text()
     assert found.law["law"] == "generalised_kelvin" and len(found.law["E"]) == 6
     assert len(found.table) == len(pd.read_csv(MASTIC, comment="#")) and "e_star_pa" in found.curve.columns
@@ -55,7 +55,7 @@ def lab(specimen):
 
 def test_a_calibration_finds_what_was_there(scene, small_file, lab, tmp_path, program):
     found = mc.calibrate(scene, lab, free=["M-A.delta"])
-    # error: the solver's tolerance divided by the sensitivity
+    # the error is the tolerance of the solver divided by the sensitivity
     assert found.parameters.value[0] == pytest.approx(1.3, rel=1e-6)
     assert found.scene.as_dict()["contacts"][1]["delta"] == found.parameters.value[0]
     assert list(found.table.columns)[0] == "frequency_hz" and "M-A.delta" in str(found)
@@ -78,7 +78,7 @@ def test_results_are_targets_and_data(specimen, scene, tmp_path):
     few = mc.fit(found.table[["frequency_hz", "e_star_pa", "phase_deg"]], units=1)
     assert law.files["law.toml"] == few.files["law.toml"]
     again = mc.calibrate(scene, found.table, free=["M-A.delta"])
-    # error: the solver's tolerance divided by the sensitivity
+    # the error is the tolerance of the solver divided by the sensitivity
     assert again.parameters.value[0] == pytest.approx(1.3, rel=1e-6)
 
 

@@ -34,8 +34,9 @@ def test_a_stepped_creep_nears_the_spectrum(specimen):
     stepped = CALLS["creep"](specimen, method="explicit", platen_mass=1e-4, **FAST).table
     spectrum = mc.spectrum(specimen, shortest=1e-4, longest=1e-2)
     expected = 1e5 * spectrum.creep.compliance(stepped.time_s.to_numpy())
-    # The tolerance of 5 % covers the difference that is left at 4 ms. It comes from the ramp, which takes some tenths
-    # of a millisecond, and from damping. The spectrum has neither of them.
+    # The tolerance of 5 % covers the difference between the stepped test and the spectrum at 4 ms. The difference
+    # comes from damping and from the ramp, which takes some tenths of a millisecond. The spectrum has neither of the
+    # two.
     assert stepped.strain.iloc[-1] == pytest.approx(expected[-1], rel=0.05)
 
 
@@ -68,7 +69,7 @@ def test_brittle_bonds_break_for_good(scene):
         return mc.monotonic(mc.Scene(scene, contacts=brittle), rate=0.5, strain=5e-4, points=5, method="explicit", **FAST)
     weak, strong = pulled("1 kPa"), pulled(1e12)
     assert weak.table.strain.iloc[-1] == pytest.approx(5e-4, rel=1e-2)
-    # contacts of mastic on mastic carry much of the load until they break
+    # contacts between mastic particles carry much of the load until they break
     assert weak.table.stress_pa.iloc[-1] < 0.8 * strong.table.stress_pa.iloc[-1]
     assert weak.table.broken_points.iloc[-1] > 0
     assert strong.table.broken_points.iloc[-1] == 0

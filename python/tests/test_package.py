@@ -21,7 +21,8 @@ def test_every_name_is_there_and_documented():
         assert getattr(mc, name) is not None
         assert getattr(mc, name).__doc__, name
     number = subprocess.run([ROOT / "scripts" / "version", "--number"], capture_output=True, text=True, check=True).stdout
-    assert mc.__version__.split("+")[0] == number.strip()  # after the + comes the commit that was built
+    # after the + comes the commit from which the program was built
+    assert mc.__version__.split("+")[0] == number.strip()
     assert set(mc.__all__) <= set(dir(mc))
     with pytest.raises(AttributeError, match="harmonics"):
         mc.harmonics  # noqa: B018
@@ -113,7 +114,7 @@ def test_the_program_hands_on_what_is_python(name, tmp_path, program):
 def test_a_python_without_the_packages_is_told_apart(name, tmp_path, program):
     """The message names the missing packages, the Python and the way to install them. It is not a traceback."""
     python = tmp_path / "python"
-    python.write_text(f"#!/bin/sh\nexec {sys.executable} -S \"$@\"\n")  # without its site-packages
+    python.write_text(f"#!/bin/sh\nexec {sys.executable} -S \"$@\"\n")  # -S: Python without its site-packages
     python.chmod(0o755)
     said = subprocess.run([program, name, "DIR"], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True)
     assert said.returncode == 2 and "Traceback" not in said.stderr
@@ -139,7 +140,8 @@ def test_code_of_every_generation_finds_the_same(level, small_file, specimen):
     own = mc.info()["processor"]
     assert name == own == "native" or name == min(level, own)
     assert float(solved) == pytest.approx(mc.harmonic(specimen, frequencies=[10]).table.e_star_pa[0], rel=1e-9)  # the solver's tolerance
-    # the scene's tolerance leads to single precision, whose error the run itself estimates to be below 1e-5
+    # The scene's tolerance leads to single precision. The run itself estimates the error of single
+    # precision to be below 1e-5
     assert float(stepped) == pytest.approx(mc.run(specimen, loading={"frequencies": [20.0]}).table.e_star_pa[0], rel=1e-5)
 
 

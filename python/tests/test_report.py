@@ -136,7 +136,7 @@ def test_seeds_of_one_scene_have_a_mean_and_a_scatter(tmp_path: Path, no_picture
     scatter = abs(values[0] - values[1]) / 2**0.5 / (sum(values) / 2)
     assert "mean of 2 seeds" in plain
     said = re.search(r"standard deviation as bars; the deviation is ([\d.]+) % of", plain)
-    assert said and float(said[1]) >= 0.98 * 100 * scatter  # the page shows the largest of all frequencies
+    assert said and float(said[1]) >= 0.98 * 100 * scatter  # the page shows the largest scatter of all frequencies
 
 
 def test_folders_of_one_name_are_told_apart(tmp_path: Path, no_pictures) -> None:

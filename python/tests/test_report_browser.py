@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reports in a headless Chromium: they open without a network and without an error on the console, a screenshot shows
-them, and they print on A4."""
+"""Reports in a browser (Chromium without a window). They open without a network and without an error on the console, a
+screenshot shows them, and they print on A4."""
 
 from __future__ import annotations
 

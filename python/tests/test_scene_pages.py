@@ -43,7 +43,7 @@ def test_an_example_fits_into_the_scene(page: Path) -> None:
     scene, example = whole(), block(page, "## Example")
     if page.stem in ("materials", "loading"):  # a temperature needs a law with a shift
         contacts(scene, block(page.with_name("contacts.md"), "## Example")["contacts"])
-    if page.stem == "recipe":  # it replaces the aggregates, the mastic's content and the densities
+    if page.stem == "recipe":  # the recipe replaces the aggregates, the content of mastic and the densities
         del scene["specimen"]["aggregate"], scene["specimen"]["mastic"]["porosity"], scene["materials"]
     if page.stem == "shapes":
         contacts(scene, [{"pair": "inner", "law": "elastic", "E": "110 GPa"}])

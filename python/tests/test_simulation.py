@@ -66,7 +66,8 @@ def test_what_a_callback_sees(specimen):
         force = step.contacts().force
         assert state.displacement.shape == (len(specimen), 3) and force.shape == (len(specimen.contacts), 3)
         top = specimen.contacts.b == -6
-        # the wall's force is opposite to the forces on the particles; sums of some hundred terms in single precision
+        # The force on the wall is opposite to the sum of the forces on its particles. Each is a sum of some hundred
+        # terms in single precision
         assert step.observation.top_force == pytest.approx(-force[top, 2].sum(), rel=1e-6)
     result = mc.run(specimen, on_step=lambda s: (look(s) if s.step % 10_000 == 0 else None), every=2000,
                     **{"loading.frequencies": [20.0]})
@@ -143,7 +144,8 @@ def test_sensitivities_and_inertia(specimen):
     result = mc.harmonic(specimen, frequencies=[10], sensitivities=True)
     by = result.sensitivities.set_index("parameter").d_e_star_pa
     deltas = [by[name] for name in by.index if name.endswith(".delta")]
-    # |E*| is a homogeneous function of degree 1 of all stiffnesses
+    # |E*| is a homogeneous function of degree 1 of all stiffnesses, so the derivatives by the
+    # logarithms add up to |E*|
     assert sum(deltas) == pytest.approx(result.table.e_star_pa[0], rel=1e-9)
     heavy = mc.harmonic(specimen, frequencies=[10], inertia=True, **{"solver.density_scaling": 1e6})
     assert heavy.table.density_scaling[0] == 1e6 and heavy.table.e_star_pa[0] != result.table.e_star_pa[0]
@@ -168,7 +170,7 @@ def test_tests_without_steps_hang_together(specimen):
     with pytest.raises(mc.InputError, match="sweep.*not stepped in time|not stepped in time"):
         mc.run(swept.scene, method="explicit")
     spectrum = mc.spectrum(specimen, shortest=0.01, longest=1.0)
-    # tolerance of the relaxation: 1e-5
+    # the tolerance of the relaxation modulus is 1e-5
     assert np.allclose(relaxed.table.modulus_pa, spectrum.relaxation.modulus(times), rtol=1e-4)
     assert spectrum.error < 1e-6 and spectrum.relaxation.units.shape[1] == 2
     assert spectrum.relaxation.instantaneous * spectrum.creep.instantaneous == pytest.approx(1, rel=1e-9)

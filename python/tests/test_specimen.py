@@ -53,7 +53,8 @@ def test_views_do_not_dangle(scene):
     copies = [v.copy() for v in views]
     del made
     gc.collect()
-    others = [np.full(100_000, float(i)) for i in range(50)]  # would overwrite the memory if it had been freed
+    # if the memory of the view had been freed, these arrays would overwrite it
+    others = [np.full(100_000, float(i)) for i in range(50)]
     for view, copy in zip(views, copies, strict=True):
         assert np.array_equal(view, copy)
     del others

@@ -36,7 +36,7 @@ def test_steady_start_gives_the_harmonic_modulus(specimen, dt):
         strain.append(now.top_displacement / height)
         stress.append(-now.top_force / area)
     e_star = np.fft.rfft(stress)[1] / np.fft.rfft(strain)[1]
-    # 1e-3: the error of the time step, which is of second order
+    # 1e-3: the error of the time stepping, which is of second order in the step
     assert abs(e_star) == pytest.approx(solved.e_star_pa, rel=1e-3)
     assert np.degrees(np.angle(e_star)) == pytest.approx(solved.phase_deg, abs=0.05)
     assert solved.motion.shape == (len(specimen), 6) and solved.motion.dtype == complex
@@ -99,7 +99,7 @@ def test_forces_balance(specimen, dt):
     inner = contacts.b >= 0
     np.subtract.at(force, contacts.b[inner], state.force[inner])
     scale = abs(state.force).max()
-    # each force is a sum of some twenty terms
+    # the tolerance is the rounding of a sum of some twenty terms
     assert np.allclose(force, stepping.particles().force, rtol=0, atol=1e-12 * scale)
     assert state.chain_begin.shape == (len(contacts) + 1,) and state.relative.shape == (len(contacts), 6)
 
@@ -119,8 +119,8 @@ def test_pulses_and_what_drives_say_of_themselves(specimen, dt):
 
 
 def test_stresses_of_cells_are_those_of_the_whole(specimen, dt):
-    """The volume-weighted sum of the cells' stresses equals the stress on the walls. In equilibrium, when no momentum
-    is left, this is exact."""
+    """The mean of the cells' stresses, weighted by volume, equals the stress on the walls. This is exact in
+    equilibrium, when all particles are at rest."""
     ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=200)
     stepping = stepper(specimen, ramp, damping_kind="viscous", damping=0.05 / dt)
     stepping.advance(3000)
@@ -128,7 +128,7 @@ def test_stresses_of_cells_are_those_of_the_whole(specimen, dt):
     mean = (stepping.stress() * specimen.cells.volume[:, None]).sum(axis=0) / (box[0] * box[1] * box[2])
     wall = -stepping.observe().top_force / (box[0] * box[1])
     assert stepping.stress().shape == (len(specimen), 6)
-    assert mean[2] == pytest.approx(wall, rel=0.05)  # 5 %: the specimen still flows, and waves are left
+    assert mean[2] == pytest.approx(wall, rel=0.05)  # 5 %: the specimen still flows, and some waves are not damped yet
 
 
 def test_boundaries(specimen, dt):
@@ -194,8 +194,8 @@ def test_broken_points_of_contacts(scene):
     assert state.broken.shape == (len(contacts),) and 0 < state.broken.max() <= 1
     begin, breaks, bond = state.chain_begin, [], mc.pair_names.index("M-M")
     for c, pair in enumerate(contacts.pair):
-        # The state of a contact point of a bond has six values: f and opening, then f and break of each of the two
-        # slips.
+        # The state of a point of a bonded contact has six values: the force and the opening in the normal
+        # direction, then for each of the two slips the force and the break (not 0 if the point is broken).
         of_points = state.chain[begin[c]:begin[c + 1]].reshape(-1, 6)[:, 3] if pair == bond else np.zeros(1)
         assert state.broken[c] == pytest.approx(np.count_nonzero(of_points) / len(of_points))
         breaks += list(of_points[of_points != 0])

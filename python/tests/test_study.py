@@ -225,7 +225,7 @@ def test_columns_of_a_hypercube_do_not_go_together(program: Path) -> None:
     keys = ["contacts.M-M.delta", "contacts.M-A.delta", "contacts.A-A.E"]
     design = read_design(asked(latin_hypercube={"points": 24, **{k: [1.0, 2.0] for k in keys}}), "1")
     table = np.array([[job.values[k] for k in keys] for job in design.jobs])
-    # 0.2 is one standard deviation of the correlation of 24 independent points
+    # 0.2 is the standard deviation of the correlation of 24 independent points
     assert abs(np.corrcoef(table.T) - np.eye(3)).max() < 0.2
 
 

@@ -95,7 +95,8 @@ def test_the_scatter_of_a_line() -> None:
     )
     design = asked(grid={"a": list(x), "seed": [1, 2]})
     (effect,) = effects(quantities(rows, design)[0])
-    # Standard error of the slope. The seeds of a point deviate by sqrt(2), and each mean is of two seeds.
+    # Standard error of the slope. The two seeds of a point have a standard deviation of sqrt(2), and each
+    # mean is of two seeds.
     error = 2**0.5 / 2**0.5 / ((x - x.mean()) ** 2).sum() ** 0.5
     assert np.isclose(effect.scatter, student_95(10) * 9 * error)
 
@@ -139,8 +140,9 @@ def test_small_differences_between_levels_are_within_the_scatter(tmp_path: Path)
 
 
 def test_names_of_pure_scatter_are_an_effect_in_one_of_twenty_studies() -> None:
-    """A thousand studies have twelve names with three seeds each, all of one normal distribution. In most studies the
-    difference between the largest and the smallest mean exceeds the confidence interval of two means."""
+    """A thousand studies have a factor with twelve names and three seeds each. All values have one normal distribution,
+    so there is no effect. In most studies the difference between the largest and the smallest mean exceeds the
+    confidence interval for the difference of two means."""
     draw = np.random.default_rng(1)
     names, seeds = np.repeat([f"binder {k}" for k in range(12)], 3), np.tile([1, 2, 3], 12)
     found = []
@@ -156,7 +158,8 @@ def test_names_of_pure_scatter_are_an_effect_in_one_of_twenty_studies() -> None:
 
 
 def test_each_point_counts_with_its_own_number_of_seeds() -> None:
-    """The points of level 0 have one and three seeds, those of level 1 four and two."""
+    """The two points of level 0 have one seed and three seeds, the two points of level 1 have four seeds and two
+    seeds."""
     seeds = {(0, "x"): 1, (0, "y"): 3, (1, "x"): 4, (1, "y"): 2}
     jobs = pd.DataFrame(
         [
@@ -169,7 +172,8 @@ def test_each_point_counts_with_its_own_number_of_seeds() -> None:
     chance = scatter(quantity)
     assert (chance.points, chance.fewest, chance.most, chance.freedom) == (3, 1, 4, 2 + 3 + 1)
     effect = next(e for e in effects(quantity) if e.factor == "a")
-    variances = [(1 / 1 + 1 / 3) / 4, (1 / 4 + 1 / 2) / 4]  # variances of the mean of two points, for each level
+    # for each level, the variance of the mean of two points, in units of the variance of a single seed
+    variances = [(1 / 1 + 1 / 3) / 4, (1 / 4 + 1 / 2) / 4]
     assert np.allclose(effect.errors, chance.deviation * np.sqrt(variances))
     assert np.isclose(effect.scatter, student_95(6) * chance.deviation * sum(variances) ** 0.5)
 

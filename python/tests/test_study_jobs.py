@@ -84,8 +84,8 @@ def test_the_line_that_says_what_is_wrong() -> None:
 def test_failures_have_the_labels_of_the_present_study(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
 ) -> None:
-    """A first study computes the failing scene as a point of a grid. In the second one, two names of a choice have this
-    scene, and each has its row."""
+    """A first study computes the failing scene as a point of a grid. In the second study, two names of a choice
+    have this scene, and each name has its row."""
     program, log = stand_in(tmp_path)
     monkeypatch.setenv("MACADAM_PROGRAM", program)
     monkeypatch.chdir(tmp_path)

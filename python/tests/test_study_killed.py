@@ -115,7 +115,8 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
                     drivers += 1
                     moments.pop(0)
             time.sleep(0.02)
-        _, left = psutil.wait_procs(seen, timeout=LONG)  # processes that a killed driver leaves must end by themselves
+        # processes that a killed driver left behind must end by themselves
+        _, left = psutil.wait_procs(seen, timeout=LONG)
         assert not left, left
     finally:
         for process in {*processes(driver, out), *seen}:
@@ -124,8 +125,8 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
     assert len(published(out)) == points
     table = pd.read_csv(out / "table.csv")
     assert set(table["contacts.M-A.delta"]) == set(values) and table["key"].nunique() == points
-    assert len(table) == points + 2 * (points // 10)  # results of macadam itself have three frequencies
-    # only computations that were running at a kill are begun again: at most one per worker
+    assert len(table) == points + 2 * (points // 10)  # a result that macadam itself computed has three frequencies
+    # only computations that were running at a kill start again: at most one per worker
     assert len(lines(log, "begin")) <= points + kills * WORKERS
     assert set(lines(log, "end")) == set(values)
     assert not (out / "failures.csv").exists() and not (out / "running").exists()
@@ -135,8 +136,8 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
 
 
 def test_a_manager_that_waits_for_ever_ends_with_its_study() -> None:
-    """A worker that is killed while it holds the queue of results leaves a manager that waits forever. Here a program
-    that only waits takes the manager's place."""
+    """If a worker is killed while it holds the queue of results, Parsl's manager of workers waits forever. In this test
+    a program that only waits takes the place of the manager."""
     study = subprocess.Popen(["sleep", "3600"])
     line = [sys.executable, "-m", "macadam.study.manager", str(study.pid), "1", "sleep", "3600"]
     manager = subprocess.Popen(line, env=ENVIRONMENT)
@@ -147,7 +148,7 @@ def test_a_manager_that_waits_for_ever_ends_with_its_study() -> None:
             time.sleep(0.01)
         (watcher,) = process.children()
         looked = watcher.num_ctx_switches().voluntary
-        while watcher.num_ctx_switches().voluntary < looked + 3:  # until the watcher has checked at least twice
+        while watcher.num_ctx_switches().voluntary < looked + 3:  # until the watcher process has checked at least twice
             time.sleep(0.01)
         assert manager.poll() is None
         study.kill()

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies on a Slurm cluster: on a real one, which consists of this machine alone; wrong options; jobs that Slurm
-refuses."""
+"""Studies on a Slurm cluster that consists of this machine alone; wrong options of Slurm; jobs that Slurm refuses."""
 
 from __future__ import annotations
 
@@ -57,7 +56,7 @@ def test_the_same_file_runs_on_slurm(tmp_path: Path) -> None:
     assert "expected better luck" in done.stderr and "5 results, 1 failed" in done.stdout
     assert sorted(lines(log, "begin")) == [11.0, 12.0, 13.0, 14.0, 15.0, 16.0]
     records = [json.loads(f.read_text()) for f in (out / "results").glob("*/study.json")]
-    # computed by a job of the cluster
+    # all results were computed by a job of the cluster
     assert len(records) == 5 and all(int(r["machine"]["slurm_job_id"]) > 0 for r in records)
 
 

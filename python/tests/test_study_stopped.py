@@ -51,7 +51,7 @@ def test_a_signal_ends_the_study(running: Running, number: int, to_group: bool) 
     ours = running.left()
     ended_before = _processor_time_of_ended_processes()
     at_signal = sum(psutil.Process(running.process.pid).cpu_times()[:4])
-    for _ in range(2):  # coreutils' timeout sends one to the process and one to its group
+    for _ in range(2):  # the `timeout` of coreutils sends one signal to the process and one to its group
         (os.killpg if to_group else os.kill)(running.process.pid, number)
     _, said = running.process.communicate(timeout=LONG)
     worked = _processor_time_of_ended_processes() - ended_before - at_signal

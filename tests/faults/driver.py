@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Campaigns with failing calls of NVIDIA's driver: memory, launches, waits, copies; failing kernels, and a lost device."""
+"""Campaigns with failing calls of NVIDIA's driver (memory, launches, waits, copies), failing kernels, and a lost GPU."""
 import ctypes
 import re
 import shutil
@@ -15,12 +15,13 @@ def stepped(setting):
 
 
 def tiles(setting):
-    """Runs on one device, whose tiles wait for one another on the chip."""
+    """Makes faults in a run on one GPU that steps in tiles: blocks of threads that keep their part of the
+    specimen on the chip and wait for one another."""
     faults(setting, "tiles", ["tiles.toml", "--method", "explicit", "--precision", "mixed", "--devices", "0"], "cuda, ", "tiles on the chip")
 
 
 def team(setting):
-    """Runs on two devices, whose tiles wait for one another: if one device fails, the other must end."""
+    """Makes faults in a run on two GPUs whose tiles wait for one another. If one GPU fails, the second must end."""
     faults(setting, "team", ["tiles.toml", "--method", "explicit", "--precision", "mixed", "--devices", "0,1"],
            "cuda devices 0 and 1, ", "tiles on the chip")
 
@@ -30,10 +31,10 @@ def harmonic(setting):
 
 
 def faults(setting, name, arguments, *solver):
-    """Makes single calls of the driver fail, makes kernels fail, and makes all calls from a launch on fail. Tests a
-    sample of each kind.
+    """Makes single calls of the driver fail, makes kernels fail, and makes every call after a certain launch fail. Tests a
+    random sample of the faults of each kind.
 
-    `solver` are words that the program must print about the solver, so that the intended one is tested."""
+    `solver` are words that the program must print about its solver. They show that the intended solver runs."""
     library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")
     whole = setting.clear("whole")
     outcome = setting.run(command(whole, arguments))
@@ -89,7 +90,7 @@ def trial(setting, library, what, arguments, kind, at, expected):
     outcome = setting.run(command(out, arguments), preloaded(library, report, kind, at))
     hit = report.read_text().split() if report.exists() else []
     if "hit" not in hit:
-        return  # fewer calls than before
+        return  # the program makes fewer calls than the census counted
     what += f", {hit[hit.index('hit') + 1]}"
     complaints = []
     if outcome.code == 0:  # the fault had no effect: the call was repeated, or not needed

@@ -23,8 +23,8 @@ enum { memory, launch, together, graph, wait_, copy, other, kinds };
 static const char* const kind_names[kinds] = {"memory", "launch", "together", "graph", "wait", "copy", "other"};
 enum { out_of_memory = 2, not_initialised = 3, not_found = 500, device_unavailable = 46, launch_out_of_resources = 701, launch_failed = 719 };
 
-// All functions of the driver take integers and pointers and return a code, so one function type serves all of them. A
-// function ignores the arguments that it does not take.
+// All functions of the driver take integers and pointers and return a code. So one function type with many arguments
+// serves all functions: each function ignores the arguments that it does not have.
 typedef intptr_t W;
 typedef int (*Function)(W, W, W, W, W, W, W, W, W, W, W, W, W, W);
 #define TAKEN W a, W b, W c, W d, W e, W f, W g, W h, W i, W j, W k, W l, W m, W n

@@ -321,7 +321,7 @@ int __libc_start_main(int (*main_function)(int, char**, char**), int argc, char*
   trace = getenv("FAULT_TRACE");
   stacks = getenv("FAULT_STACKS");
   void* room[2];
-  if (stacks || trace) backtrace(room, 2);  // the first call loads a library
+  if (stacks || trace) backtrace(room, 2);  // the first call of backtrace() loads a library, which allocates memory
   if (stacks) {
     stack_hashes = mmap(NULL, sizeof(uint64_t) * most_stacks, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   }

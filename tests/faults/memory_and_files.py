@@ -54,7 +54,7 @@ def trial(setting, campaign, command, kind, at, number=errno.EIO, limit=0):
                        {"LD_PRELOAD": setting.library, "FAULT_KIND": kind, "FAULT_AT": str(at), "FAULT_BYTES": str(limit), **({} if limit else SPARED),
                         "FAULT_ERRNO": str(number), "FAULT_FOLDER": str(out), "FAULT_REPORT": str(report), "FAULT_TRACE": str(trace)})
     if "hit" not in (report.read_text() if report.exists() else ""):
-        return  # fewer calls than before
+        return  # the program makes fewer calls than the census counted
     what = f"{command.name}, {f'{limit} bytes' if limit else f'{kind} {at}'}"
     complaints = []
     if kind == "memory":
@@ -69,7 +69,9 @@ def trial(setting, campaign, command, kind, at, number=errno.EIO, limit=0):
         crashes = outcome.code == -signal.SIGSEGV and "H5Fclose failed" in outcome.err
         if outcome.code not in (0, 1) and not crashes:
             complaints.append(f"exit code {outcome.code}, expected 1")
-        # Some faults have no effect: the rest of a short write is written, and HDF5 tries to open a file before it makes it.
+        # Some faults do no harm, so no message is needed. After a short write the program writes the remaining bytes. A
+        # command may succeed although a file was not removed. HDF5 first tries to open a file that does not exist, and
+        # then creates it.
         elif not said and not (outcome.code == 0 and (kind in ("short", "remove") or (kind == "open" and "HDF5" in what))):
             complaints.append("file or reason not said")
     complaints += left_behind(out, setting.older, setting.new, outcome, kind)
@@ -103,7 +105,8 @@ def memory(setting):
 
 
 def starting(setting, ways, count):
-    """Makes allocations fail that come before any command. The command line makes them, equally for all commands."""
+    """Makes allocations fail that the program makes before any command, while it reads its arguments. They are the same for
+    all commands."""
     for at in range(1, count + 1) if setting.every else setting.sample(ways, 40):
         outcome = setting.run(["--version"], {"LD_PRELOAD": setting.library, "FAULT_KIND": "memory", "FAULT_AT": str(at),
                                            "FAULT_TRACE": str(setting.folder / "trace.txt")})

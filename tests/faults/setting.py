@@ -66,7 +66,8 @@ def scene(specimen, solver="density_scaling = 1e6", output=""):
 SPARED = {"FAULT_SPARE": "libhdf5_serial.so"}
 
 Outcome = collections.namedtuple("Outcome", "code out err")
-Command = collections.namedtuple("Command", "name arguments older")  # older: arguments of the older result
+# older: arguments of the command that makes the older result
+Command = collections.namedtuple("Command", "name arguments older")
 
 
 class Setting:
@@ -93,7 +94,8 @@ class Setting:
                   "full": scene("t8.csv", output=everything + 'format = "vtp"'),
                   "hdf5": scene("t8.csv", output=everything),
                   "device": scene("t8.csv", "density_scaling = 1e4", "checkpoint = 0.02"),
-                  "tiles": scene("t8.csv", "density_scaling = 1e2", "checkpoint = 0.02"),  # short steps, taken in blocks
+                  # short steps, so they are taken in blocks, after which the states of the laws are updated
+                  "tiles": scene("t8.csv", "density_scaling = 1e2", "checkpoint = 0.02"),
                   "stepped": scene("t8.csv", f"density_scaling = {self.scaling()}", "checkpoint = 0.05")}
         for name, text in scenes.items():
             (folder / f"{name}.toml").write_text(text)
@@ -114,7 +116,7 @@ class Setting:
             self.failed[campaign] += 1
             alike = (campaign, what.split(",")[0], *complaints, where.split(" < ")[0])
             self.alike[alike] += 1
-            if self.alike[alike] <= 2:  # the file that --out names contains all
+            if self.alike[alike] <= 2:  # the file that --out names contains all complaints
                 said = f" | code {outcome.code}: {outcome.err.strip()[-300:]!r}" if outcome else ""
                 print(f"FAILED {campaign}: {what}: {'; '.join(complaints)}{said}{where and ' | in ' + where}", flush=True)
 

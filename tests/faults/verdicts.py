@@ -60,7 +60,7 @@ def differences(found, expected, of_what):
 
 
 def damaged(folder, killed=False):
-    """Returns which files are damaged or were not removed, independent of the result that they belong to."""
+    """Returns the files that are damaged, and temporary files that were not removed. Does not compare with any result."""
     out = []
     for path in folder.rglob("*"):
         if not path.is_file():

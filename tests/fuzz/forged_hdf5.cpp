@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forged_hdf5.cpp  Makes an HDF5 file from a recipe. Each byte of the recipe makes one decision; after the end of the
-// recipe all decisions are 0.
+// forged_hdf5.cpp  Makes an HDF5 file from a recipe, which is a sequence of random bytes. Each byte decides one
+// property of the file. After the end of the recipe every decision is 0.
 #include "tests/fuzz/forged_hdf5.hpp"
 
 #include <H5Cpp.h>
@@ -66,7 +66,7 @@ H5::DataSpace space_by(Recipe& recipe, std::size_t rank) {
   return rank == 0 ? H5::DataSpace(H5S_SCALAR) : H5::DataSpace(static_cast<int>(rank), size);
 }
 
-/// Writes zeros if the values are few and not pointers.
+/// Writes zeros to a dataset or an attribute if it has few values and they are not pointers.
 template <class Values>
 void fill(const Values& values, const H5::DataType& type) {
   const double bytes =

@@ -9,7 +9,7 @@
 namespace macadam::fuzz {
 namespace {
 
-constexpr int with_gzip = 15 + 16;  // bits of the window; 16 more select the gzip header
+constexpr int with_gzip = 15 + 16;  // window of 2^15 bytes; adding 16 selects the gzip header
 
 std::string stream_of(std::string_view text, int level) {
   z_stream z{};

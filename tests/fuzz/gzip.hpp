@@ -9,14 +9,14 @@
 
 namespace macadam::fuzz {
 
-/// Returns the text that the bytes unpack to, as far as they are valid; at most 64 KiB.
+/// Returns the text that the gzip bytes unpack to, up to the first invalid byte and at most 64 KiB.
 std::string unpacked(std::string_view bytes);
 
 /// Returns the text as one gzip stream, or as two streams in sequence.
 std::string packed(const std::string& text, Random& random);
 
-/// Returns a beginning of the text, followed by one piece of it that is repeated up to some megabytes, which compress
-/// to almost nothing.
+/// Returns the beginning of the text, followed by one piece of the text that is repeated up to some megabytes. The
+/// repetitions compress to almost nothing.
 std::string repeated(const std::string& text, Random& random);
 
 }  // namespace macadam::fuzz

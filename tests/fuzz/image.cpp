@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// image.cpp  Fuzz target: an image of a scan, in the format of the program's name. Reads the header and the voxels.
+// image.cpp  Fuzz target: an image of a scan, in the format that the name of the program states. Reads header and
+// voxels.
 #include "host/tools/ct/images/image_slices.hpp"
 #include "tests/fuzz/forged_hdf5.hpp"
 #include "tests/fuzz/mutate.hpp"

@@ -16,7 +16,8 @@ using Random = std::minstd_rand;
 /// Returns a random number below `end`.
 std::size_t below(Random& random, std::size_t end);
 
-/// Returns the text after one mutation by libFuzzer, which does not know the form; at most `most` bytes.
+/// Returns the text after one mutation by libFuzzer, which does not know the form of the text. The result has at most
+/// `most` bytes.
 std::string changed_bytes(std::string text, std::size_t most);
 
 /// Returns the text after a few changes of lines (removed, copied, exchanged) and cells (emptied, copied, inserted,
@@ -25,8 +26,8 @@ std::string changed_bytes(std::string text, std::size_t most);
 std::string changed_cells(std::string_view text, Random& random, std::string_view separators,
                           const std::vector<std::string>& words);
 
-/// Implements LLVMFuzzerCustomMutator for a text of cells: a third of the calls change bytes, the others change lines
-/// and cells.
+/// Implements LLVMFuzzerCustomMutator for a text of cells: a third of the calls change bytes, the remaining calls
+/// change lines and cells.
 std::size_t mutate_cells(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed,
                          std::string_view separators, const std::vector<std::string>& words);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// specimen.cpp  Fuzz target: a specimen as CSV or, with another mutator, as CSV compressed with gzip.
+// specimen.cpp  Fuzz target: a specimen as CSV. With a second mutator, the same source is the target for CSV in gzip
+// files.
 #include "macadam/specimen.hpp"
 
 #include "tests/fuzz/gzip.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface.cpp  Fuzz target: a surface, in the format of the program's name.
+// surface.cpp  Fuzz target: a surface, in the format that the name of the program states.
 #include "host/shapes/files/surface_files.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/fuzz/target.hpp"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// target.cpp  Runs one input and checks the rules for every reader. It may throw only errors of Macadam, whose messages
-// name the file. It may take at most one second per kilobyte, but at least one second is allowed. It may use at most 64
-// MB plus a hundred times the size of the input. A violation aborts the program, which libFuzzer reports as a finding.
+// target.cpp  Runs a reader with one input and checks the rules that hold for every reader. The reader may throw only
+// errors of Macadam, whose messages name the file. It may take one second per kilobyte of the input, and one second for
+// a smaller input. It may use 64 MB plus a hundred times the size of the input. A violation aborts the program, which
+// libFuzzer reports as a finding.
 #include "tests/fuzz/target.hpp"
 
 #include <cxxabi.h>
@@ -24,7 +25,7 @@ namespace {
 constexpr std::int64_t fixed_bytes = 64 << 20, bytes_a_byte = 100;
 std::int64_t live = 0, peak = 0, limit = 0, largest_peak = 0;
 bool counting = false;
-double slowest = 0;  // [s]
+double slowest = 0;  // longest time of an input so far [s]
 
 template <class... Values>
 [[noreturn]] void finding(const char* words, Values... values) {
@@ -53,8 +54,8 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Checks one line of a message: it begins with the file, states what was found and what was expected, and has no
-/// control characters.
+/// Checks one line of an error message. The line must begin with the file, state what was found and what was expected,
+/// and have no control characters.
 void check_line(const std::string& line) {
   static const std::string name = file_name();
   const bool printable =
@@ -65,8 +66,8 @@ void check_line(const std::string& line) {
     finding("a message that is not 'FILE:LINE: WHAT: found F, expected E' in a line: %s", line.c_str());
 }
 
-/// Checks a message. A laboratory table may have several faults: each of the first ten has one line, and a last line
-/// counts the others.
+/// Checks an error message. A laboratory table may have several faults: each of the first ten faults has a line of its
+/// own, and a last line counts the remaining faults.
 void check_message(const std::string& message) {
   std::istringstream lines(message);
   int count = 0;

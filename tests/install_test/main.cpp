@@ -25,7 +25,7 @@ macadam::Specimen make_specimen() {
   return specimen;
 }
 
-/// Returns whether an error thrown inside the library is caught by its type outside of it.
+/// Returns whether an error that the library throws is caught by its type in this program.
 bool catches_errors() {
   try {
     macadam::tessellate({});

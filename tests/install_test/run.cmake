@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs a build, then builds and runs an outside project, the tutorial and the installed program:
+# Installs a build. Then builds and runs a project that uses the installed library, the tutorial, and the installed
+# program:
 #   cmake -D BUILD=<build folder> -D WORK=<scratch folder> -D COMPILER=<C++ compiler> -D NUMBER=<version> -P run.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -31,7 +32,8 @@ string(FIND "${page}" "${said}" at)
 if(at EQUAL -1)
   message(FATAL_ERROR "examples/tutorial/README.md: expected the tutorial's output, found another:\n    ${said}")
 endif()
-foreach(example own_law own_loading)  # a user's own laws and loads; the programs fail if results differ from closed forms
+# the examples with a user's own laws and loads fail if their results differ from closed forms
+foreach(example own_law own_loading)
   run(${CMAKE_COMMAND} -S ${examples}/${example} -B ${WORK}/${example} -G Ninja
       -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${WORK}/prefix)
   run(${CMAKE_COMMAND} --build ${WORK}/${example})

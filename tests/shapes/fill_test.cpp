@@ -44,8 +44,8 @@ bool every_sphere_has_a_cell(const MultiSphere& cluster) {
   return particles_without_cell(in_box(cluster, -far, far)).empty();
 }
 
-/// The number of spheres in an icosahedron agrees with the published numbers within the range of porosities that fit
-/// them.
+/// The number of spheres in an icosahedron agrees with published numbers. A range of porosities would give the
+/// published numbers; the tolerance covers this range.
 TEST(Fill, IcosahedronTakesAsManySpheresAsThePublishedOne) {
   const Surface icosahedron = subdivided_icosahedron(6.295e-3);
   const std::pair<double, double> published[] = {{0.5e-3, 1568}, {2e-3, 24}};
@@ -141,8 +141,8 @@ TEST(Fill, FewerThanLeastBecomeOneSphere) {
 TEST(Fill, ThinPlateTakesOneEvenLayer) {
   const double side = 10e-3, thick = 1.1e-3;
   const Surface plate = test::box_surface(side, side, thick);
-  // Spheres of the first radius just fit between the faces. The second radius is too large; the spheres protrude from
-  // both faces equally.
+  // Spheres of the first radius just fit between the faces of the plate. Spheres of the second radius are too large, so
+  // they protrude from both faces equally.
   for (const double radius : {0.5e-3, 0.7e-3}) {
     const MultiSphere cluster = fill_shape(plate, of_radius(radius, radius));
     ASSERT_GT(cluster.size(), 20u);
@@ -154,7 +154,7 @@ TEST(Fill, ThinPlateTakesOneEvenLayer) {
       ++quarter[(c.x > side / 2 ? 1 : 0) + (c.y > side / 2 ? 2 : 0)];
     }
     const double mean = static_cast<double>(cluster.size()) / 4;
-    // random positions would scatter by √n, here 0.2 to 0.3 of the mean
+    // if the positions were random, these numbers would scatter by √n, here 0.2 to 0.3 of the mean
     for (int n : quarter) EXPECT_NEAR(n, mean, 0.2 * mean);
   }
 }
@@ -239,7 +239,8 @@ TEST(FillReport, ASphereThatComesOutOfItsCube) {
   const FillReport r = measure_fill(test::box_surface(1, 1, 1), {{{0.5, 0.5, 0.5}}, {radius}});
   EXPECT_NEAR(r.outside, out, 5e-5);
   EXPECT_NEAR(r.covered, 4 * pi / 3 * radius * radius * radius - out, 5e-5);
-  // A larger sphere leaves no corner uncovered, so the largest deviation is its protrusion.
+  // A larger sphere covers all corners of the cube. So the largest deviation is the distance by which the sphere
+  // protrudes.
   const FillReport large = measure_fill(test::box_surface(1, 1, 1), {{{0.5, 0.5, 0.5}}, {1}});
   EXPECT_NEAR(large.deviation_largest, 0.5, 1e-14);
   EXPECT_NEAR(large.covered, 1, 1e-12);

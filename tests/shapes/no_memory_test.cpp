@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// no_memory_test.cpp  If an allocation fails at any moment, std::bad_alloc is thrown. It is not reported as a faulty
-// file, does not shorten a file, and does not end the process.
+// no_memory_test.cpp  Tests that std::bad_alloc is thrown if an allocation fails at any moment. The failure must not be
+// reported as a faulty file, must not shorten a file, and must not end the process.
 #include <gtest/gtest.h>
 #include <omp.h>
 #include <unistd.h>
@@ -37,8 +37,8 @@ void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return a
 namespace macadam::test {
 namespace {
 
-/// Runs `work` repeatedly and lets a different allocation fail each time: all of them, or `tries` of them if there are
-/// more. Each failure must be std::bad_alloc.
+/// Runs `work` repeatedly and makes one allocation fail in each run. If there are at most `tries` allocations, each of
+/// them fails once; otherwise `tries` of them. Each failure must be std::bad_alloc.
 void expect_bad_alloc(const std::string& what, const std::function<void()>& work, int tries = 100) {
   work();  // creates objects that are made only once and kept
   counted = 0;

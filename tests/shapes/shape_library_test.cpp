@@ -62,7 +62,7 @@ void expect_same(const Surface& a, const Surface& b) {
 
 using Property = std::function<double(const ShapeMeasure&)>;
 
-/// Returns whether EN 933-3 and EN 933-4 apply to a shape; they begin at 4 mm.
+/// Returns whether EN 933-3 and EN 933-4 apply to a shape; these standards apply to particles from 4 mm on.
 bool standardised(const ShapeMeasure& m) { return m.d_intermediate >= 4e-3; }
 bool any(const ShapeMeasure&) { return true; }
 
@@ -146,7 +146,7 @@ TEST(ShapeLibrary, OtherSeedsHaveTheRangesOfTable1AsWell) {
     RandomStream random(seed, 0);
     const std::vector<ShapeMeasure> targets = draw_library_targets(random, shipped_shapes);
     for (const ShapeProperty& p : shape_properties()) {
-      if (std::string(p.name) == "A") continue;  // a property of surfaces only
+      if (std::string(p.name) == "A") continue;  // A is a property of surfaces; the drawn targets have none
       const auto [low, mean, high] = p.paper;
       const Spread spread = spread_of(p, targets);
       EXPECT_NEAR(p.per_unit * spread.min / low, 1, 0.05) << p.name << ", seed " << seed;
@@ -156,8 +156,8 @@ TEST(ShapeLibrary, OtherSeedsHaveTheRangesOfTable1AsWell) {
   }
 }
 
-// Stones are stretched to their lengths in the last step. Their sphericity should be within 0.8 % of its target; most
-// stones achieve this.
+// The generator stretches a stone to its lengths in the last step. Most stones then have a sphericity within 0.8 % of
+// their target.
 TEST(ShapeLibrary, StonesAreWhatTheyWereToBe) {
   constexpr int shapes = 12;
   RandomStream random(1, 0);
@@ -245,8 +245,8 @@ TEST(ShapeLibrary, DimensionsHaveTheStatisticsOfTable1) {
   }
 }
 
-/// A row of Table 2 in [1]: a property and its correlations with the properties of earlier rows. SI and Fl count only
-/// from 4 mm on.
+/// A row of Table 2 in [1]: a property of shapes and its correlations with the properties of earlier rows. The
+/// properties SI and Fl are defined only for shapes of at least 4 mm.
 struct Correlations {
   const char* name;
   const Property& property;
@@ -285,8 +285,9 @@ TEST(ShapeLibrary, CorrelationsAreThoseOfTable2) {
       const double errors = fisher_errors(ours, paper, values(a.property, counts).size());
       SCOPED_TRACE(fmt::format("{} and {}: {:.2f}, paper {:.2f}", a.name, b.name, ours, paper));
       const std::string pair = std::string(b.name) + ' ' + a.name;
-      // One in twenty samples would be farther off. Fl divides by a sieve size, and the classes in [1] are wider than
-      // those with which its Fl must have been computed; see the next test.
+      // The difference of one correlation in twenty would exceed two standard errors by chance. Fl divides by a sieve
+      // size. The sieve classes in [1] are wider than the classes with which the Fl in [1] must have been computed; see
+      // the next test.
       EXPECT_LT(std::abs(errors), pair == "F Fl" ? 2.5 : 2);
       // The generator pairs its target values until all correlations are met within 0.1, and makes stones that match
       // their targets to one per cent. SI is 1/(F·E); its correlation with F depends on how F and E of the few shapes
@@ -296,7 +297,7 @@ TEST(ShapeLibrary, CorrelationsAreThoseOfTable2) {
     }
   }
   EXPECT_EQ(pairs, 55);
-  EXPECT_LT(squares / pairs, 1);  // two samples of one population have a mean of 1
+  EXPECT_LT(squares / pairs, 1);  // for two samples of one population the mean of the squares is 1
 }
 
 TEST(ShapeLibrary, FlakinessGoesWithFlatnessByTheSievesOfTheStandard) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // shape_measure_test.cpp  Compares dimensions, volumes and indices of shapes with closed forms and with a calliper in
-// random directions.
+// random directions. D^L, D^I and D^S are the long, intermediate and short dimension: the longest chord, the longest
+// chord perpendicular to it, and the longest chord perpendicular to these two.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -63,10 +64,10 @@ TEST(Stabbing, AnIntervalHoldsWhatIsBeyondItsEndsByTheToleranceAndNoMore) {
 }
 
 TEST(Dimensions, OfABox) {
-  // D^L = (a, b, c). A chord perpendicular to it is a difference (w1, w2, w3) of two points with |w1| ≤ a, |w2| ≤ b,
-  // |w3| ≤ c and w1·a + w2·b + w3·c = 0. The longest one is at a corner of this polygon. If b² + c² ≤ a², it is (−(b² +
-  // c²)/a, b, c) with length √(b² + c²)·D^L/a. The direction perpendicular to both is (0, −c, b); along it the height c
-  // limits the chord to c/b·√(b² + c²).
+  // D^L = (a, b, c). A chord perpendicular to D^L is a difference (w1, w2, w3) of two points with |w1| ≤ a, |w2| ≤ b,
+  // |w3| ≤ c and w1·a + w2·b + w3·c = 0. These conditions describe a polygon, and the longest chord is at one of its
+  // corners. If b² + c² ≤ a², this chord is (−(b² + c²)/a, b, c) with length √(b² + c²)·D^L/a. The direction
+  // perpendicular to both chords is (0, −c, b). Along this direction the height c limits the chord to c/b·√(b² + c²).
   for (const auto& edges : {std::array{6., 4., 3.}, {5., 4., 1.}, {2., 1.2, 1.1}}) {
     const double a = edges[0], b = edges[1], c = edges[2];
     const double l = std::hypot(a, b, c), across = std::hypot(b, c);
@@ -80,8 +81,9 @@ TEST(Dimensions, OfABox) {
 }
 
 TEST(Dimensions, OfACubeWhoseFourLongAxesTie) {
-  // Perpendicular to a space diagonal, the longest chord is a face diagonal (1, −1, 0). Perpendicular to both, along
-  // (1, 1, −2), the longest chord of the cube ends where two coordinates have changed by half of the third.
+  // Perpendicular to a space diagonal, the longest chord is a face diagonal (1, −1, 0). Perpendicular to these two
+  // diagonals, along (1, 1, −2), the longest chord of the cube ends where two coordinates have changed by half of the
+  // change of the third.
   in_all_poses(box_surface(1, 1, 1), [](const ShapeMeasure& m) {
     expect_lengths(m, std::sqrt(3.0), std::sqrt(2.0), std::sqrt(1.5));
     EXPECT_NEAR(dot(m.axis_long, m.axis_intermediate), 0, rounding);
@@ -91,8 +93,8 @@ TEST(Dimensions, OfACubeWhoseFourLongAxesTie) {
 }
 
 TEST(Dimensions, OfARegularTetrahedron) {
-  // Opposite edges are perpendicular, so D^L = D^I = 1. Perpendicular to both is the line through their midpoints,
-  // 1/√2.
+  // Opposite edges are perpendicular, so D^L = D^I = 1. Perpendicular to these two edges is the line through their
+  // midpoints, of length 1/√2.
   in_all_poses(tetrahedron(), [](const ShapeMeasure& m) {
     expect_lengths(m, 1, 1, std::sqrt(0.5));
     EXPECT_NEAR(m.volume, 1 / std::sqrt(72.0), rounding);
@@ -103,9 +105,10 @@ TEST(Dimensions, OfARegularTetrahedron) {
 }
 
 TEST(Dimensions, OfATriangularPrism) {
-  // Side 1, height 2. D^L = (1, 0, 2). Differences of two points are (d, t) with d in the hexagon of the triangle's
-  // edges. Perpendicular to D^L, t = −d_x/2, and d_x² + d_y² + d_x²/4 is largest at the corner (1, 0) of the hexagon:
-  // D^I = √1.25. Perpendicular to both is y, along which the triangle is √0.75 high.
+  // The triangle has side 1, the prism height 2, and D^L = (1, 0, 2). The difference of two points is (d, t): d lies in
+  // the hexagon whose corners are the edges of the triangle, and t is along the height. For a chord perpendicular to
+  // D^L, t = −d_x/2. Its squared length d_x² + d_y² + d_x²/4 is largest at the corner (1, 0) of the hexagon, so D^I =
+  // √1.25. Perpendicular to both chords is y, along which the triangle is √0.75 high.
   in_all_poses(prism({{0, 0}, {1, 0}, {0.5, std::sqrt(0.75)}}, 2), [](const ShapeMeasure& m) {
     expect_lengths(m, std::sqrt(5.0), std::sqrt(1.25), std::sqrt(0.75));
     EXPECT_NEAR(m.volume, std::sqrt(0.75), rounding * 10);
@@ -125,7 +128,7 @@ TEST(Dimensions, ATunnelDoesNotStopTheCalliper) {
 }
 
 TEST(Dimensions, OfASphereHaveTheKnownLimitOfTheWorkingSphericity) {
-  for (int level = 1; level <= 3; ++level) {  // every level has three pairs of points on perpendicular axes
+  for (int level = 1; level <= 3; ++level) {  // the points of every level include three pairs on perpendicular axes
     const ShapeMeasure m = measure_shape(icosphere(level));
     expect_lengths(m, 2, 2, 2);
     EXPECT_NEAR(m.sphericity_working(), 12.8 / (3 + 6 * std::sqrt(3.0)), 1e-12);  // 0.956
@@ -200,7 +203,8 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
         found = std::max(found, length);
       }
     }
-    EXPECT_GT(found, 0.95 * m.d_short);  // 3,200 lines, about 1/50 of the size apart, some at the edges of dents
+    // the 3,200 lines are about 1/50 of the size apart, so they miss the longest line
+    EXPECT_GT(found, 0.95 * m.d_short);
     // D^I: lines in all directions perpendicular to D^L, through random points of the facets.
     double across = 0;
     for (int k = 0; k < 20000; ++k) {
@@ -213,7 +217,8 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
       EXPECT_LE(length, m.d_intermediate * (1 + rounding));
       across = std::max(across, length);
     }
-    EXPECT_GT(across, 0.92 * m.d_intermediate);  // here the lines must also be close to the right angle
+    // looser than above, because here a line must also have nearly the right direction
+    EXPECT_GT(across, 0.92 * m.d_intermediate);
     double longest = 0;
     for (const Vec3d& p : s.points) {
       for (const Vec3d& q : s.points) longest = std::max(longest, norm(p - q));
@@ -236,12 +241,12 @@ TEST(Dimensions, DoNotDependOnPoseOrScale) {
                                : std::string(property.column).ends_with("_m") ? 1
                                                                               : 0;
       const double expected = property.value(m) * std::pow(scale, dimension);
-      // a centre at a distance of 7 sizes costs a digit, V is a sum of 320 terms
+      // rounding: a centre at a distance of 7 sizes costs a digit, and V is a sum of 320 terms
       EXPECT_NEAR(property.value(t), expected, 1e-12 * expected) << property.column;
     }
     EXPECT_NEAR(norm(t.centroid - pose(m.centroid)), 0, 1e-13 * scale);
     EXPECT_NEAR(t.radius_bounding, scale * m.radius_bounding, 1e-12 * scale);
-    // ill-conditioned if few points determine the sphere
+    // this centre is ill-conditioned if few points determine the bounding sphere
     EXPECT_NEAR(norm(t.centre_bounding - pose(m.centre_bounding)), 0, 1e-7 * scale);
   }
 }

@@ -75,7 +75,7 @@ TEST_F(ShapesCommand, MeasuresAFolderIntoTables) {
   EXPECT_TRUE(contains(shapes("measure stones/b.off --out tables").out, "--scale 1e-3"));
 }
 
-/// All faulty shapes of a folder are named in one message; with --repair those that can be repaired are measured.
+/// One message names all faulty shapes of a folder. With --repair the command measures the shapes that it can repair.
 TEST_F(ShapesCommand, FaultyShapesAreNamedAllAtOnceAndRepairedWhenAsked) {
   stone("good.off", tetrahedron());
   stone("open.off", open_box());

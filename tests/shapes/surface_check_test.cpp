@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_check_test.cpp  Every kind of fault of a surface, made on purpose, is found at the right place, and repaired
-// if that is possible.
+// surface_check_test.cpp  Makes every kind of fault of a surface on purpose. The check must find each fault at the
+// right place, and the repair must mend it if that is possible.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -111,7 +111,7 @@ bool pierces(const Surface& s, const std::array<std::int32_t, 3>& f, const std::
 
 TEST(CheckSurface, SelfIntersectingNamesAllThatCut) {
   Surface s = icosphere(1);
-  s.points[3] = -1.5 * s.points[3] + Vec3d{0.01, 0.02, 0.03};  // pushed through the opposite side
+  s.points[3] = -1.5 * s.points[3] + Vec3d{0.01, 0.02, 0.03};  // moves the point through the opposite side
   std::set<std::int32_t> expected;
   for (std::size_t f = 0; f < s.facets.size(); ++f) {
     for (std::size_t g = 0; g < s.facets.size(); ++g) {
@@ -204,8 +204,8 @@ TEST(CheckSurface, PiecesInsideAnother) {
 }
 
 TEST(CheckSurface, DegenerateInAnyPose) {
-  // A point is placed on an edge, and one of the two facets at the edge is divided there. The facet between them has no
-  // area.
+  // A point is placed on an edge, and one of the two facets at the edge is divided there. A flat facet without area
+  // closes the gap between the two halves and the facet that is not divided.
   Surface s = box_surface(1, 1, 1);
   const auto flat = static_cast<std::int32_t>(s.facets.size());
   const auto [a, b, c] = s.facets[0];

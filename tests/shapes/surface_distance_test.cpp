@@ -32,8 +32,8 @@ TEST(SurfaceDistance, IsExactInAndAroundABox) {
 TEST(SurfaceDistance, KnowsInsideFromOutsideAtAReentrantEdge) {
   const SurfaceDistance distance(test::l_surface(3, 1, 1));
   at_random_points(3, [&](const Vec3d& p) {
-    // Outside, the distance from a union is that from the nearer part. Inside, the depth in the deeper part is a lower
-    // bound.
+    // Outside, the distance from the union of two boxes is the distance from the nearer box. Inside, the depth in the
+    // box in which the point lies deeper is a lower bound of the depth in the union.
     const double union_of_two = std::max(test::depth_in_box(p, 3, 1, 1), test::depth_in_box(p, 1, 3, 1));
     const double depth = distance.depth(p);
     ASSERT_EQ(depth > 0, union_of_two > 0) << p.x << " " << p.y << " " << p.z;
@@ -70,7 +70,7 @@ TEST(SurfaceDistance, BeyondTheReachGivesALowerBound) {
       ASSERT_GT(found, reach);
     }
   });
-  EXPECT_GT(bounded, 100);  // otherwise limiting the reach would save nothing
+  EXPECT_GT(bounded, 100);  // otherwise limiting the reach of the search would save nothing
 }
 
 }  // namespace

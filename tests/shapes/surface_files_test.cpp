@@ -228,7 +228,8 @@ TEST_F(SurfaceFiles, BrokenOnesAreInputErrorsWithTheCulprit) {
   }
 }
 
-/// A word is one number: it is neither split into two, nor is a remainder ignored.
+/// A word must be a number as a whole: the reader neither splits it into two numbers nor ignores characters after the
+/// number.
 TEST_F(SurfaceFiles, WhatIsNoNumberIsNamedWithItsLine) {
   for (const std::string bad : {"1.5.5", "1,5", "0x1", "1.5f", "--1", "+-1", "1e", "1.5-2"}) {
     const std::string found = fmt::format(": found \"{}\"", bad);
@@ -284,9 +285,9 @@ TEST_F(SurfaceFiles, UnwritableOnesAreRunErrors) {
   EXPECT_THROW(write_surface(folder_ / "stone.step", tetrahedron()), InputError);
 }
 
-/// A file that is truncated at any byte (every one near its end) is refused, unless only white space is missing. OBJ
-/// has no counts, and the last digits of a number may be missing; in this case the remaining surface must not count as
-/// good, unless it has all facets.
+/// A file that is truncated is refused, unless only white space is missing. Near the end of the file every byte is
+/// tried as the end. OBJ files have no counts, and the last digits of a number may be missing unnoticed. In this case
+/// the remaining surface must not count as good, unless it has all facets.
 TEST_F(SurfaceFiles, CutAnywhereTheyNeverPass) {
   const Surface s = tetrahedron();
   for (const auto& [ending, bytes] : all_formats(s)) {

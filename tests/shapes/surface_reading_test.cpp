@@ -200,7 +200,7 @@ TEST_F(SurfaceReading, JoiningDoesNotChain) {
   for (int k = 1; k <= 10; ++k) fan.facets.push_back({0, k, k + 1});
   write_surface(folder_ / "fan.off", fan);
   const Surface r = read_surface(folder_ / "fan.off");
-  ASSERT_EQ(r.points.size(), 7u);  // six of the eleven points in a row, and the apex
+  ASSERT_EQ(r.points.size(), 7u);  // six of the eleven points in a row are left, and the apex
   for (int k = 0; k <= 5; ++k) EXPECT_EQ(r.points[1 + k].x, fan.points[1 + 2 * k].x);
   EXPECT_EQ(r.facets.size(), 5u);
   EXPECT_TRUE(r.reading.starts_with("joined 5 points at open edges")) << r.reading;

@@ -125,9 +125,9 @@ TEST(RepairSurface, DropsSpecksButDoesNotChooseBetweenBodies) {
 }
 
 TEST(RepairSurface, WrapsWhatCutsItself) {
-  // Two unit cubes that overlap by half have a union of volume 1.5. The wrap lies about 1/1000 of the diagonal (1.8)
-  // outside of an area of 8, which adds 0.014. It also rounds edges and fills concave ones at a scale of 1/40 of the
-  // diagonal.
+  // Two unit cubes that overlap by half have a union of volume 1.5 and area 8. The wrap lies outside of the union, at a
+  // distance of about 1/1000 of the diagonal (1.8), which adds 0.014 to the volume. The wrap also rounds edges and
+  // fills concave edges at a scale of 1/40 of the diagonal.
   const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
   EXPECT_FALSE(check_surface(s).self_intersecting.empty());
   const SurfaceRepair repair = repaired(s, 1.52, 0.03, true);
@@ -136,7 +136,8 @@ TEST(RepairSurface, WrapsWhatCutsItself) {
   EXPECT_NEAR(repair.area_before, 12, 1e-12);
 }
 
-/// A wrap that changes the volume is refused without `wrap`. The message states both volumes.
+/// A wrap (a new skin around the surface) that changes the volume is refused without `wrap`. The message states the
+/// volumes before and after.
 TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
   const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
   try {
@@ -151,8 +152,8 @@ TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
   }
 }
 
-/// Two neighbouring points are exchanged, so that eight facets intersect. The wrap has the same volume and area within
-/// the limit, so it needs no permission.
+/// Two neighbouring points are exchanged, so that eight facets intersect. The wrap changes volume and area by less than
+/// the limit, so the repair may wrap without `wrap`.
 TEST(RepairSurface, WrapsASmallFaultUnasked) {
   Surface s = mapped(icosphere(4), [](const Vec3d& p) { return 5.0 * p; });
   std::swap(s.points[s.facets[100][0]], s.points[s.facets[100][1]]);
@@ -218,8 +219,8 @@ TEST(RepairSurface, IsGoodAsItIsReadBack) {
   fs::remove_all(folder);
 }
 
-/// Two points of a good surface are equal as floats, so facets between them would vanish in an STL file. The repair
-/// takes this into account.
+/// Two points of a good surface differ as doubles but are equal as floats, so facets between them would vanish in an
+/// STL file. The repair takes the float numbers of STL into account.
 TEST(RepairSurface, IsGoodInTheFilesOwnPrecision) {
   const Surface s = prism({{0, 0}, {1, 0.5}, {1, 0.5 + 1e-9}, {0.5, 1}}, 1);
   SurfaceRepair repair;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// soak.cpp  Repeats runs for hours in one process, and interrupts and resumes many of them. Every run must give the
-// same bits each time, and neither memory nor the number of open files may grow.
+// soak.cpp  Repeats runs for hours in one process, and interrupts and resumes many of them. Each run must give the same
+// bits every time. Neither the memory of the process nor the number of its open files may grow.
 //
 // usage: soak SECONDS [cpu|cuda] [TABLE.csv]
 #include <fmt/chrono.h>
@@ -50,7 +50,7 @@ Held held_now() {
   return out;
 }
 
-/// A run that is repeated, and the output that it must give each time.
+/// A run that is repeated, and its first output, which every repetition must give.
 struct Case {
   Scene scene;
   fs::path out;
@@ -135,7 +135,7 @@ int soak(double seconds, const std::string& backend, const std::string& table) {
   fmt::print("{}", head);
   const auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  soak.round();  // after this round every code path has its buffers
+  soak.round();  // after this round every part of the program has allocated its buffers
   std::vector<Held> rows;
   for (double next = 0; elapsed() < seconds || rows.size() < 4;) {
     soak.round();
@@ -150,8 +150,8 @@ int soak(double seconds, const std::string& backend, const std::string& table) {
     std::fflush(stdout);
   }
   fs::remove_all(folder);
-  // The use of resources varies from moment to moment and with the fragmentation of the heap. So the maximum of the
-  // last third is compared with the maximum before it.
+  // Memory, open files and threads vary from moment to moment, and memory also varies with the fragmentation of the
+  // heap. So the test compares the maximum of the last third of the run with the maximum before it.
   const auto most = [&](std::size_t from, std::size_t to, auto of) {
     double all = 0;
     for (std::size_t k = from; k < to; ++k) all = std::max(all, static_cast<double>(of(rows[k])));

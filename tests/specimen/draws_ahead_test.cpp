@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// draws_ahead_test.cpp  Attempts on many threads take the same numbers from a random stream as attempts one after
-// another.
+// draws_ahead_test.cpp  Tests that threads which make attempts in parallel take the same numbers from a random stream
+// as one thread that makes one attempt after another.
 #include "host/spheres/draws_ahead.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-/// The numbers of the successful attempts that a search finds, and then the next number of the stream.
+/// The random numbers of the successful attempts of a search, followed by the next number of the stream.
 using Found = std::vector<double>;
 
 /// An attempt uses two random numbers; it succeeds if their product exceeds a limit.
@@ -46,7 +46,7 @@ class SearchesOf : public testing::TestWithParam<int> {
 };
 INSTANTIATE_TEST_SUITE_P(Threads, SearchesOf, testing::Values(1, 2, 3, 16));
 
-/// first_good() finds the same attempt as a loop, for any number of threads.
+/// For any number of threads, first_good() finds the same successful attempt as a loop over single attempts.
 TEST_P(SearchesOf, TheFirstGoodTry) {
   for (const double limit : {0.0, 0.5, 0.9, 0.999, 1.0})
     for (const std::int64_t most : {1, 7, 1000}) {
@@ -66,7 +66,7 @@ TEST_P(SearchesOf, TheFirstGoodTry) {
     }
 }
 
-/// each_good() finds the same successful attempts as a loop, for any number of threads.
+/// For any number of threads, each_good() finds the same successful attempts as a loop over single attempts.
 TEST_P(SearchesOf, ManyGoodTries) {
   for (const int wanted : {1, 3, 500})
     for (const double limit : {0.0, 0.5, 0.9}) {

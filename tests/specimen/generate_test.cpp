@@ -100,8 +100,8 @@ TEST(Generate, SameBitsForAnyNumberOfThreads) {
   omp_set_num_threads(threads);
 }
 
-/// The generator tessellates to check that every sphere has a cell. It returns these cells, so that nothing tessellates
-/// again; they must equal a new tessellation.
+/// The generator computes a tessellation to check that every sphere has a cell. It returns these cells, so that the
+/// caller need not compute them again. They must equal a new tessellation.
 TEST(Generate, HandsOnTheCellsOfTheSpecimenAsItIs) {
   const auto same = [](const Facet& a, const Facet& b) {
     return a.a == b.a && a.b == b.b && a.area == b.area && norm(a.centroid - b.centroid) == 0;
@@ -155,7 +155,8 @@ TEST(Generate, CompositionIsWhatWasAsked) {
     EXPECT_LE(r, k == 2 ? 0.001 : 0.00475);
   }
   for (int k = 0; k < 3; ++k) {
-    // Bisection ends at 1e-13 of the class, and the sums of some hundred terms round to less than that.
+    // The bisection for the sizes ends at 1e-13 of the volume of the class, and the sums of some hundred terms round to
+    // less than that.
     EXPECT_NEAR(sums[k], asked[k], 1e-12) << k;
     EXPECT_NEAR(g.composition[k].fraction, sums[k], 1e-12) << k;
     EXPECT_NEAR(g.composition[k].fraction_asked, asked[k], 1e-12) << k;
@@ -164,8 +165,9 @@ TEST(Generate, CompositionIsWhatWasAsked) {
 }
 
 TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
-  // The count must give the volume of the mean cube. Mean cubes of diameters between a and b are (b³−a³)/(3 ln(b/a))
-  // for log-uniform, (b⁴−a⁴)/(4(b−a)) for uniform, and 2a²b²/(a+b) for equal volume per diameter (density ∝ d⁻³).
+  // The count must give the volume of spheres with the mean cube of their diameters. For diameters between a and b the
+  // mean cube is (b³−a³)/(3 ln(b/a)) if they are log-uniform, (b⁴−a⁴)/(4(b−a)) if they are uniform, and 2a²b²/(a+b) if
+  // every diameter has the same volume (density ∝ d⁻³).
   const double a = 0.001, b = 0.003, mastic_min = 0.0005, mastic_max = 0.001;
   const std::pair<SizeLaw, double> laws[] = {{SizeLaw::log_uniform, (b * b * b - a * a * a) / (3 * std::log(b / a))},
                                              {SizeLaw::uniform, (std::pow(b, 4) - std::pow(a, 4)) / (4 * (b - a))},
@@ -184,8 +186,8 @@ TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
         (std::pow(mastic_max, 4) - std::pow(mastic_min, 4)) / (4 * (mastic_max - mastic_min));
     EXPECT_NEAR(g.composition[1].fraction, 300 * 4 * std::numbers::pi / 3 * mean_radius_cube / spec.box.volume(),
                 1e-12);
-    // Sizes are stratified samples: the number below any size is within one sphere of the law, and adjusting the sizes
-    // to the exact volume changes it by less than one more.
+    // Sizes are stratified samples, so the number of spheres below any size differs from the size law by at most one.
+    // Adjusting the sizes to the exact volume changes this number by less than one more.
     const double middle = law == SizeLaw::log_uniform ? std::sqrt(a * b)
                           : law == SizeLaw::uniform   ? (a + b) / 2
                                                       : std::sqrt(2 / (1 / (a * a) + 1 / (b * b)));
@@ -195,8 +197,8 @@ TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
   }
 }
 
-/// Three spheres of the largest size have the volume of 3.49 mean spheres. Three spheres of the smallest size have the
-/// volume of 2.54 mean spheres. The number must be three in both cases.
+/// Three spheres of the largest size have the volume of 3.49 mean spheres, and three spheres of the smallest size have
+/// the volume of 2.54 mean spheres. Both round to three, which the number of spheres must be.
 TEST(ClassRequest, ThreeOfOneSizeAreThree) {
   for (const double largest : {0.001, 0.0047, 0.0125, 1.0}) {
     ClassRequest request{"", {SizeLaw::uniform, 0.9 * largest, largest}, 1, {}, {}};
@@ -222,9 +224,9 @@ TEST(Generate, MasticByCountSolvesForTheSolidVolume) {
 TEST(Generate, MasticIsSpreadEvenly) {
   const Specimen s = generate_specimen(small_mix()).specimen;
   EXPECT_TRUE(particles_without_cell(s).empty());
-  // Of 440 random points in this box, a dozen pairs are closer than 0.2 of the sum of their radii. Evenly spread
-  // spheres at porosity 0.05 keep a distance of about 0.9 of this sum, and somewhat less if they are squeezed between a
-  // wall and an aggregate.
+  // If the 440 spheres were at random positions, a dozen pairs would be closer than 0.2 of the sum of their radii.
+  // Evenly spread spheres at porosity 0.05 keep a distance of about 0.9 of this sum. Spheres that are squeezed between
+  // a wall and an aggregate keep somewhat less.
   double closest = 1;
   for (std::size_t i = 0; i < s.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -278,7 +280,7 @@ TEST(Generate, MasticOnlyAggregatesOnlySingleParticle) {
 TEST(Generate, AClassWithoutRoomSaysHowMuchHadRoom) {
   SpecimenSpec spec = small_mix();
   spec.box = {{0.016, 0.016, 0.016}};
-  // 56 % of the box with spheres of nearly one size is more than random sequential placement reaches
+  // spheres of nearly one size must fill 56 % of the box, which is more than random sequential placement reaches
   spec.aggregate = {{0.0047, 0.005, {}, 40}};
   spec.mastic.reset();
   spec.attempts = 30'000;
@@ -296,11 +298,11 @@ TEST(Generate, AClassWithoutRoomSaysHowMuchHadRoom) {
   EXPECT_LT(percent, 100.0 * placed / 40 * std::pow(5 / 4.7, 3));
 }
 
-/// Counts the attempts that are clear of the large aggregate, because `taken` is called only for these. The centre of
-/// the small sphere may be anywhere in 9.8³ mm³, of which 448 mm³ are clear, so each of the first 20,000 attempts is
-/// clear with probability 0.476. Later attempts are made only in cells of 0.2 mm that are not fully taken. No such cell
-/// is nearer to the middle than 4.9 mm minus a diagonal, so the cells have at most 604 mm³, and an attempt is clear
-/// with probability 0.74.
+/// A large aggregate fills most of the box. The test counts the attempts at a small sphere that do not overlap it
+/// (`taken` is called only for these). The centre of the small sphere may be anywhere in 9.8³ mm³, of which 448 mm³ are
+/// clear of the aggregate. So each of the first 20,000 attempts is clear with probability 0.476. Later attempts are
+/// made only in cells of 0.2 mm that are not fully taken. Each such cell is at least 4.9 mm minus its diagonal from the
+/// middle, so these cells have at most 604 mm³. An attempt in them is clear with probability 0.74.
 TEST(Placement, LaterTriesAreWhereThereMayBeRoom) {
   Specimen specimen;
   specimen.box.size = {0.01, 0.01, 0.01};
@@ -313,8 +315,8 @@ TEST(Placement, LaterTriesAreWhereThereMayBeRoom) {
   EXPECT_LE(clear, 20'000 * (0.476 + 1) + 400);
 }
 
-/// Half-way between two equal overlapping aggregates, a sphere has no force on it and no cell. It must get another
-/// position.
+/// A sphere half-way between two equal aggregates that overlap has no force on it and no cell. The generator must give
+/// it another position.
 TEST(Mastic, WithoutACellGetsAnotherPlace) {
   Specimen s;
   s.box.size = {1, 1, 1};
@@ -367,7 +369,8 @@ TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
 TEST(Relax, AggregatesAloneMoveApart) {
   Specimen s{{{1, 1, 1}}, {{0.4, 0.5, 0.5}, {0.6, 0.5, 0.5}}, {0.2, 0.2}, {Phase::aggregate, Phase::aggregate}, {0, 1}};
   relax(s, false, [](double) {});
-  // The relaxation stops when the energy stalls; of the overlap of 0.2, at most a thousandth of a radius remains.
+  // The overlap is 0.2 at the start. The relaxation stops when the energy stalls; then at most a thousandth of a radius
+  // is left of the overlap.
   EXPECT_LT(largest_aggregate_overlap(s), 2e-4);
   EXPECT_NEAR(s.centre[0].x + s.centre[1].x, 1, 1e-12) << "both give way alike";
   EXPECT_LT(s.centre[1].x - s.centre[0].x, 0.5) << "and stop soon after";
@@ -447,10 +450,12 @@ TEST(GenerateLarge, PaperSpecimen) {
   double total = 0;
   for (const CompositionRow& row : g.composition) {
     EXPECT_EQ(row.count, row.count_asked) << row.name;
-    EXPECT_NEAR(row.fraction, row.fraction_asked, 1e-10) << row.name;  // rounding of 34,164 terms of one sign
+    // rounding of a sum of 34,164 terms, all of one sign
+    EXPECT_NEAR(row.fraction, row.fraction_asked, 1e-10) << row.name;
     total += row.fraction;
   }
-  EXPECT_NEAR(total, 1.017, 0.001);  // from the mean volumes: 0.1227 + 0.0941 + 0.1738 + 0.1374 + 0.4891
+  // the sum of the fractions that follow from the mean volumes: 0.1227 + 0.0941 + 0.1738 + 0.1374 + 0.4891
+  EXPECT_NEAR(total, 1.017, 0.001);
   expect_sound_aggregates(g.specimen);
   EXPECT_TRUE(particles_without_cell(g.specimen).empty());
 }

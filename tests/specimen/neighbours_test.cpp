@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// neighbours_test.cpp  Compares lists of neighbours with lists made by comparing all pairs: content and order, after
-// every kind of move.
+// neighbours_test.cpp  Compares the lists of neighbouring spheres with lists made by comparing all pairs of spheres.
+// After every kind of move, content and order must be equal.
 #include "host/spheres/neighbours.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 constexpr double skin = 0.02;
 const Box box{{1, 1.5, 0.8}};
 
-/// Returns spheres with radii over a factor of thirty; a third of them have equal radii.
+/// Returns spheres whose radii differ by up to a factor of thirty; a third of the spheres have equal radii.
 std::vector<Ball> spheres(int n, RandomStream& random) {
   std::vector<Ball> balls;
   for (int i = 0; i < n; ++i) {
@@ -25,8 +25,8 @@ std::vector<Ball> spheres(int n, RandomStream& random) {
   return balls;
 }
 
-/// Returns the list of sphere i in the order that the header documents, of all spheres nearer than `gap`, by comparing
-/// all pairs.
+/// Returns the neighbours of sphere i that are nearer than `gap`, found by comparing all pairs. They are in the order
+/// that the header documents.
 std::vector<std::int32_t> by_hand(const std::vector<Ball>& balls, const std::vector<std::int32_t>& number, int i,
                                   double gap) {
   std::vector<std::pair<std::pair<int, int>, int>> row;
@@ -72,8 +72,8 @@ TEST_P(NeighboursOf, AreThoseOfAllPairsInOrder) {
   }
 }
 
-/// In each round most spheres move a little and some move far; in every fifth round all move far enough to need new
-/// lists. Spheres before `first` do not move. The numbers are in mixed order.
+/// In each round most spheres move a little and some move far. In every fifth round all spheres move so far that new
+/// lists are needed. Spheres before `first` do not move. The numbers of the spheres are in mixed order.
 TEST_P(NeighboursOf, HoldAllThatTouchAfterManyMoves) {
   RandomStream random(4, 0);
   constexpr int n = 1500, first = 200;

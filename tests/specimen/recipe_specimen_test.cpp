@@ -47,9 +47,9 @@ struct Body {
   double size, volume;
 };
 
-/// Expects that particles between the sieves of each class have the requested volume and mass in the box, within the
-/// smallest particle of the class, so that one particle more or less would not be better. Every particle must be in a
-/// class.
+/// Expects that the particles between the sieves of each class have the requested volume and mass. The tolerance is the
+/// smallest particle of the class: one particle more or less would not bring the class nearer to the request. Every
+/// particle must be in a class.
 void expect_classes(const Scene& scene, const std::vector<Body>& bodies, double mastic) {
   const MixVolumes asked = volumes_of(*scene.recipe);
   const double box = scene.specimen.box.volume();
@@ -58,8 +58,8 @@ void expect_classes(const Scene& scene, const std::vector<Body>& bodies, double 
   for (const MixClass& c : asked.classes) {
     double volume = 0, smallest = box;
     for (const Body& b : bodies) {
-      // A diameter may equal a sieve size. It is twice the radius, which is half of an earlier diameter, so it may
-      // differ by rounding.
+      // A diameter may equal a sieve size. It is twice a radius that was computed as half of a diameter, so it may
+      // differ from the sieve size by rounding.
       if (b.size < c.sieve_min * (1 - 1e-12) || b.size > c.sieve_max * (1 + 1e-12)) continue;
       ++counted, volume += b.volume, smallest = std::min(smallest, b.volume);
     }

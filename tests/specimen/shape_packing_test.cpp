@@ -22,7 +22,8 @@ TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
   std::vector<ShapeTemplate> shapes;
   for (const Surface& s : shape_library()) shapes.push_back(shape_template(s));
   const SpecimenSpec recipe = test::design_formulation();
-  // The number of spheres is rounded, so eight begin at 7.5; the mean cube of radii of 1 to 2 mm is 3.75 mm³.
+  // The number of spheres is rounded to an integer, so a volume for 7.5 spheres gives eight. The mean cube of the radii
+  // between 1 and 2 mm is 3.75 mm³.
   const double eight = 7.5 * 3.75 * sphere_volume(2e-3);
   const auto is_sphere = [&](int shape, double size) { return aggregate_volume(shapes[shape], size, false) < eight; };
   const ShapeComposition composition = compose_shapes(recipe, shapes, is_sphere);
@@ -40,7 +41,8 @@ TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
   const auto size = [&](std::size_t i) {
     return p.aggregate[i].pose.scale * shapes[p.aggregate[i].shape].d_intermediate;
   };
-  std::vector<Surface> surface;  // for a sphere only its centre; `radius` is its radius
+  // the aggregates that are single spheres have only their centre here, and their radius in `radius`
+  std::vector<Surface> surface;
   std::vector<double> radius;
   for (const PlacedAggregate& a : p.aggregate) {
     radius.push_back(a.sphere ? size(surface.size()) / 2 : 0);
@@ -51,8 +53,8 @@ TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
       EXPECT_GT(std::min({x.x, x.y, x.z}), radius[i]) << i;
       EXPECT_GT(std::min({0.05 - x.x, 0.05 - x.y, 0.08 - x.z}), radius[i]) << i;
     }
-  // Independent check of overlap: every eighth point of an aggregate must be outside of the aggregates near it, by
-  // solid angles. shape_placement_test checks edges against facets.
+  // Checks overlap independently of the packing: by solid angles, every eighth point of an aggregate must be outside of
+  // the aggregates near it. The edges and facets are checked in shape_placement_test.
   std::size_t looked = 0;
   for (std::size_t i = 0; i < surface.size(); ++i)
     for (std::size_t j = 0; j < surface.size(); ++j) {
@@ -78,7 +80,7 @@ TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
     double n = 0;
     for (const PlacedAggregate& a : p.aggregate)
       if (a.size_class == size_class) quarter[std::min(3, static_cast<int>(a.pose.centre.z / 0.02))] += 1, n += 1;
-    // A random count with mean n/4 has the standard deviation √(3n)/4; four of these are allowed.
+    // A random count with mean n/4 has the standard deviation √(3n)/4. The tolerance is four standard deviations.
     for (double count : quarter) EXPECT_NEAR(count, n / 4, std::sqrt(3 * n)) << "class " << size_class;
   }
 }

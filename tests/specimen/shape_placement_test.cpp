@@ -54,7 +54,7 @@ void expect_sound(const Box& box, const ShapePlacement& p, const std::vector<Sha
     std::vector<Vec3d> points = test::placed_surface(a, shapes).points;
     if (a.sphere) points = {a.pose.centre};
     for (const Vec3d& x : points) {
-      // 1e-15 m is a few roundings of a position in a box of some centimetres.
+      // 1e-15 m is a few rounding errors of a position in a box of some centimetres.
       EXPECT_GE(std::min({x.x, x.y, x.z}), r - 1e-15) << i;
       EXPECT_GE(std::min({box.size.x - x.x, box.size.y - x.y, box.size.z - x.z}), r - 1e-15) << i;
     }
@@ -74,8 +74,8 @@ std::string message_of(const Run& run) {
   return "(accepted)";
 }
 
-/// The overlap check agrees with a brute-force test of every edge against every facet, also if one particle is inside
-/// the other.
+/// The overlap check agrees with a brute-force test of every edge of one particle against every facet of the second.
+/// This must also hold if one particle is inside the second.
 TEST(ShapeBody, OverlapAgreesWithEveryEdgeAgainstEveryFacet) {
   const std::vector<ShapeTemplate> shapes = stones();
   std::vector<std::unique_ptr<ShapeGeometry>> geometries;
@@ -132,7 +132,8 @@ TEST(DistanceField, PointsStraightOutOfTheFacesOfABox) {
     out[axis] = k % 2 ? 1 : -1;
     p[axis] = k % 2 ? 2 + beyond : -beyond;
     const DistanceField::Value v = field.value({p[0], p[1], p[2]});
-    // Nodes store floats below 0.5 with a rounding error of 1.5e-8. Slopes are their differences over 0.1.
+    // Nodes store distances below 0.5 as floats, with a rounding error of 1.5e-8. A slope is the difference of two
+    // nodes divided by their distance, 0.1.
     EXPECT_NEAR(v.distance, beyond, 2e-8) << k;
     EXPECT_LT(norm(v.outward - Vec3d{out[0], out[1], out[2]}), 1e-6) << k;
   }
@@ -187,9 +188,9 @@ TEST(ShapeComposition, CountsAreKept) {
   EXPECT_EQ(c.row[0].count, 17);
 }
 
-/// For the logarithmic size law between a and b, the mean cube of the sizes from c to d, times the fraction of these
-/// sizes, is (d³ − c³)/(3 ln(b/a)). Here sizes below √(a·b) become spheres, whose volume is much smaller than that of
-/// stones.
+/// For the logarithmic size law between a and b, sizes from c to d contribute (d³ − c³)/(3 ln(b/a)) to the mean cube of
+/// all sizes. Here aggregates of sizes below √(a·b) become spheres. The volume of these spheres is much smaller than
+/// that of stones.
 TEST(ShapeComposition, TheNumberFollowsFromTheMeanVolumeOfSpheresAndStones) {
   std::vector<ShapeTemplate> shapes = stones();
   for (ShapeTemplate& t : shapes) t.sphere_size = 0.5;
@@ -231,8 +232,8 @@ TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {
   }
 }
 
-/// A contact pushes both particles with the same force. The larger of two similar aggregates (four times the size) has
-/// about 16 times the mass in this relaxation: it moves 16 times less, and rotates still less.
+/// A contact pushes both particles with the same force. One of two similar aggregates is four times as large as the
+/// second and has about 16 times the mass in this relaxation. So it moves 16 times less, and rotates still less.
 TEST(ShapePlacement, PackedStonesGiveWayByTheirMasses) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));
   const ShapeGeometry geometry(shape);
@@ -310,11 +311,12 @@ std::vector<MultiSphere> dumbbells(const ShapeComposition& c, const std::vector<
   return out;
 }
 
-/// If overlap is tested with spheres in place of surfaces, the spheres keep their distance, and surfaces may interlock.
-/// So more aggregates fit than with surfaces.
+/// If overlap is tested with the spheres of the aggregates in place of their surfaces, the spheres keep their distance,
+/// and surfaces may interlock. So more aggregates fit than if overlap is tested with surfaces.
 TEST(ShapePlacement, TestedBySpheresTheyInterlock) {
   const std::vector<ShapeTemplate> shapes = stones();
-  const SpecimenSpec spec = small_mix(0.7);  // too much for surfaces, see FailedInsertionSaysHowFarItGot
+  // more than fits if overlap is tested with surfaces, see FailedInsertionSaysHowFarItGot
+  const SpecimenSpec spec = small_mix(0.7);
   const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
   constexpr double spacing = 1e-4;
   ShapePlacementSpec how;
@@ -363,7 +365,7 @@ TEST(ShapePlacement, SurfacesKeepTheSpacing) {
       const PlacedAggregate &a = p.aggregate[i], &b = p.aggregate[j];
       if (i == j || b.sphere) continue;
       const double reach = a.sphere ? a.pose.scale * shapes[a.shape].d_intermediate / 2 : 0;
-      // the grid has 40 cells along a shape, and samples are within 0.003 of D^I
+      // tolerance: the grid of distances has 40 cells along a shape, and samples are within 0.003 of D^I
       const double rough = a.sphere ? 1e-12 : 0.03 * b.pose.scale * shapes[b.shape].d_intermediate;
       for (const Vec3d& x : a.sphere ? std::vector{a.pose.centre} : placed[i].points)
         EXPECT_GT(test::signed_distance(placed[j], x) - reach, how.spacing - rough) << i << " " << j;
@@ -439,14 +441,14 @@ TEST(ShapePlacement, DirectionsStayEvenAndClassesMixed) {
     double height = 0, count = 0;
     for (const PlacedAggregate& a : p.aggregate)
       if (a.size_class == 0) height += a.pose.centre.z, count += 1;
-    // The mean height of n uniformly distributed particles has the standard deviation L/√(12·n); four of these are
-    // allowed.
+    // The mean height of n uniformly distributed particles has the standard deviation L/√(12·n). The tolerance is four
+    // standard deviations.
     EXPECT_NEAR(height / count, 0.015, 4 * 0.03 / std::sqrt(12 * count)) << seed;
   }
 }
 
-/// Two balls of 8 mm fit into a cube of 12.62 mm. In a smaller cube they reach their full size only with overlaps of
-/// about 2 gaps, which does not count as packed.
+/// Two balls of 8 mm fit into a cube of 12.62 mm. In a smaller cube the balls reach their full size only if they
+/// overlap by about twice the allowed gap, which does not count as packed.
 TEST(ShapePlacement, FullSizeWithOverlapsIsNoPacking) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));
   const ShapeGeometry geometry(shape);

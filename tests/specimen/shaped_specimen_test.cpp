@@ -114,7 +114,7 @@ TEST_P(ShapedSpecimen, MasticLeavesTheShapesAndFillsThePorosity) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (s.phase[i] == Phase::mastic) solid += 4 * M_PI / 3 * std::pow(s.radius[i], 3);
   }
-  // the tolerance is one sphere, because their number is an integer
+  // the number of spheres is an integer, so the volume may be off by one sphere
   const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);
   EXPECT_NEAR(solid, 0.95 * s.box.volume(), sphere);
   EXPECT_TRUE(particles_without_cell(s).empty());
@@ -180,8 +180,8 @@ TEST(ConvexHull, SidesAreDividedByTheirCornersAlone) {
   EXPECT_EQ(convex_hull(points), expected);
 }
 
-// Mastic spheres stay outside of the clusters. A contact of mastic with a sphere of a cluster is like any other, so
-// that both yield equally; still no mastic sphere gets inside.
+// Mastic spheres stay outside of the clusters. In a contact of mastic with a sphere of a cluster both spheres yield
+// equally, as in any other contact. Still no mastic sphere gets inside a cluster.
 TEST_P(ShapedSpecimen, MasticStaysOutsideTheClusters) {
   const Specimen& s = made_.specimen;
   std::map<std::int32_t, std::vector<Vec3d>> clusters;
@@ -288,8 +288,8 @@ TEST(ShapedSpecimens, SingleSpheresFollowTheirRule) {
   }
 }
 
-/// If overlap is tested with spheres, spheres of different aggregates do not overlap and keep the spacing, and all are
-/// in the box.
+/// If overlap of aggregates is tested with their spheres, spheres of different aggregates do not overlap and keep the
+/// spacing. All spheres are in the box.
 TEST(ShapedSpecimens, MayBeTestedByTheirSpheres) {
   for (const double spacing : {0.0, 2e-4}) {
     SpecimenSpec spec = recipe(ShapeSpec::Library::icosahedron);
@@ -311,7 +311,8 @@ TEST(ShapedSpecimens, MayBeTestedByTheirSpheres) {
   }
 }
 
-/// Measures how far the mastic reaches below the surfaces of clusters, which are nearly balls; hold_out reduces it.
+/// Measures how far mastic reaches below the surfaces of clusters, which are nearly balls. The option hold_out must
+/// reduce this depth.
 TEST(ShapedSpecimens, HoldMasticOut) {
   const ShapeMeasure m = measure_shape(subdivided_icosahedron());
   // radius of the ball of equal volume, over D^I
@@ -328,7 +329,8 @@ TEST(ShapedSpecimens, HoldMasticOut) {
     return sum;
   };
   const double free = depth(0), held = depth(10);
-  // with hold_out = 10 the surface is ten times as stiff as a sphere, but several spheres share a surface
+  // With hold_out = 10 the surface is ten times as stiff as a sphere. The depth is reduced by less, because several
+  // spheres share a surface.
   EXPECT_LT(held, 0.7 * free);
   EXPECT_LT(depth(1), free);
 }

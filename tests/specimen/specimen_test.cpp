@@ -63,7 +63,7 @@ TEST(LoadedSpecimen, SectionIsWidthTimesDepthAndGaugeLengthIsTheHeight) {
 
 TEST_F(SpecimenCsv, RoundTripIsExact) {
   Specimen s = two_spheres();
-  // these need 17 digits, 17 digits, and a subnormal number
+  // two of these numbers need 17 digits, and one is subnormal
   s.centre.push_back({1.0 / 3 * 0.05, std::nextafter(0.05, 0), 5e-324});
   s.radius.push_back(0.1 + 0.2);
   s.phase.push_back(Phase::aggregate);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// block_length_test.cpp  Tests the number of steps per block. A block is a set fraction of the shortest time scale of
-// laws and load, and ends at observations if that costs little.
+// block_length_test.cpp  Tests the number of time steps per block. A block is a group of steps, at the end of which the
+// viscoelastic states are updated. It lasts a set fraction of the shortest time scale of laws and load, and ends at
+// observations if that costs little.
 #include "kernels/step/block_length.hpp"
 
 #include <gtest/gtest.h>
@@ -34,13 +35,13 @@ Laws lasting() {
   return out;
 }
 
-/// By default a block lasts 1/4000 of the shortest time, which may belong to the load, to a law, or to the rotation of
-/// contacts in updated geometry.
+/// By default a block of steps lasts 1/4000 of the shortest time scale. This may be a time scale of the load, of a law,
+/// or of the rotation of contacts in updated geometry.
 TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   StepperOptions options = options_of_10_hz();
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 250);
   Laws slow = lasting();
-  slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // relaxation time of 0.01 s, times 2π
+  slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // its time scale is 2π times the relaxation time of 0.01 s
   EXPECT_EQ(block_steps(options, facts_of(slow), size), 157);
   // The time scale of the geometry is 4e-3 / (1e-4·20π/s) = 0.64 s, longer than that of the load.
   options.geometry = Geometry::updated;
@@ -52,8 +53,8 @@ TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
 }
 
-/// With elastic laws and fixed geometry nothing changes within a block, so it may be longer. With a single law that has
-/// a memory, or with updated geometry, it must be short.
+/// With elastic laws and fixed geometry nothing changes within a block, so the block may be longer. If only one law has
+/// a memory, or if the geometry is updated, the block must be short.
 TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   StepperOptions options = options_of_10_hz();
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), kernels::longest_block);
@@ -63,7 +64,7 @@ TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   options.blocks = 200;
   options.dt *= 10;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 500);
-  // without a memory a block could be longer here too, but then rounding would be larger
+  // without a memory a block could be longer than 500 steps, but then rounding errors would be larger
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 500);
   options.blocks = 20000;
   options.dt /= 10;
@@ -78,13 +79,13 @@ TEST(BlockLength, FollowsTheNumberOfBlocks) {
   StepperOptions options = options_of_10_hz();
   options.blocks = 8000;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 125);
-  options.blocks = 1e6 / 3.9;  // blocks of three steps are not worth while, so steps are not grouped
+  options.blocks = 1e6 / 3.9;  // blocks of three steps would not save time, so the steps are not grouped
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
-  options.blocks = 10;  // gives the longest block, whose sums are still accurate in single precision
+  options.blocks = 10;  // gives the longest block for which sums over its steps are still accurate in single precision
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), kernels::longest_block);
 }
 
-/// A block is shortened to a divisor of the observation interval unless that makes it much shorter.
+/// A block is shortened so that its length divides the observation interval, unless that makes the block much shorter.
 TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   StepperOptions options = options_of_10_hz();
   const auto steps = [&](std::int64_t observed_every) {
@@ -96,13 +97,13 @@ TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   EXPECT_EQ(steps(212), 212);
   EXPECT_EQ(steps(424), 212);
   EXPECT_EQ(steps(600), 200);
-  EXPECT_EQ(steps(251), 250);  // a prime number of steps has no useful divisor
+  EXPECT_EQ(steps(251), 250);  // 251 steps is a prime number, so no useful length divides it
   EXPECT_EQ(steps(100), 200);  // two observations per block
   EXPECT_EQ(steps(1), 250);
 }
 
-// When the number of steps changes, the ending block updates its state for its own length (1 step), and the next block
-// is prepared for the new length (50 steps).
+// The number of steps per block changes from 1 to 50. The block that ends must update its state for its own length, 1
+// step. The next block must be prepared for the new length, 50 steps.
 TEST(BlockLength, MayChangeFromABlockToTheNext) {
   const laws::GeneralisedKelvin law = mastic_am1();
   constexpr double dt = 1e-5;

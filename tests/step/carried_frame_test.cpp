@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // carried_frame_test.cpp  Compares the series that rotate a contact's frame from step to step with closed forms. The
-// series are meant for the small rotations of a step. The rotations here are so large that the first omitted term is
-// visible, and so is any other error.
+// series are meant for the small rotations of a time step. The rotations in this test are so large that the first
+// omitted term of a series is visible. Any other error of this size would be visible too.
 #include "kernels/contact/carried_frame.hpp"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,9 @@ TEST(CarriedFrame, InverseRootIsASeriesOfFiveTerms) {
   }
 }
 
-// The series for the divisor omits the term e⁴/32, which multiplies a vector along the sum of the normals, of length 2.
-// Of an error in length only the square is left, because the last step restores unit length.
+// The series for the divisor omits the term e⁴/32. The term multiplies a vector along the sum of the normals, whose
+// length is about 2. An error of the length itself enters only by its square, because the last operation restores unit
+// length.
 TEST(CarriedFrame, ATangentIsSwungWithItsNormal) {
   for (const double about : {0.0, 1.0, 2.0}) {  // tangents in all directions
     const Vec3d tangent = turned(s, n, about);
@@ -44,7 +45,8 @@ TEST(CarriedFrame, ATangentIsSwungWithItsNormal) {
 
 TEST(CarriedFrame, ATangentIsSpunAboutItsNormal) {
   for (const double angle : {-0.2, -0.01, 0.0, 0.01, 0.2}) {
-    const double left_out = std::pow(angle, 4) / 24;  // omitted term of the cosine; the sine's error is smaller
+    // omitted term of the series for the cosine; the error of the sine is smaller
+    const double left_out = std::pow(angle, 4) / 24;
     EXPECT_LE(norm(spun(s, n, angle) - turned(s, n, angle)), 1.01 * left_out + rounding) << angle;
   }
 }

@@ -35,8 +35,8 @@ struct Motion {
   std::vector<Vec3d> velocity, spin;
 };
 
-/// Returns random velocities of up to `speed` in each direction, and spins that give points on the surface about the
-/// same speed.
+/// Returns random velocities of up to `speed` in each direction. The spins are such that points on a particle's surface
+/// get about the same speed.
 Motion random_motion(const TestScene& scene, unsigned seed, double speed) {
   std::mt19937 random(seed);
   const auto component = [&] { return speed * (2 * (static_cast<double>(random()) / 4294967296.0) - 1); };
@@ -91,8 +91,8 @@ INSTANTIATE_TEST_SUITE_P(All, FreeAssembly,
                                           testing::Values(Geometry::updated, Geometry::fixed)),
                          name_of);
 
-// Leapfrog conserves both momenta exactly if forces and moments of every contact balance: because x moves along v, the
-// change of Σ x × m·v is Σ x × F alone.
+// Leapfrog conserves linear and angular momentum exactly if the forces and moments of every contact balance. The
+// angular momentum Σ x × m·v changes by Σ x × F alone, because x moves along v.
 TEST_P(FreeAssembly, MomentaStayOverAHundredThousandSteps) {
   const std::int64_t steps = long_tests ? 100'000 : 5'000;
   const bool displaced = std::get<Geometry>(GetParam()) == Geometry::updated;
@@ -109,8 +109,8 @@ TEST_P(FreeAssembly, MomentaStayOverAHundredThousandSteps) {
     ASSERT_GT(largest(state.force), 0);
     const Momenta after = momenta(scene, state, displaced);
 
-    // A step rounds the velocity of each of n particles by up to ε·v, and the increments Δt·F/m, which are not larger
-    // than v, by about the same. This is a random walk of 2·ε·√(steps·n) times the momentum of a particle.
+    // A step rounds the velocity of each of n particles by up to ε·v, and the increments Δt·F/m, which are at most v,
+    // by about the same. The errors add up as a random walk of 2·ε·√(steps·n) times the momentum of a particle.
     const double particle = speed * *std::max_element(scene.inertia.mass.begin(), scene.inertia.mass.end());
     const double walk = 2 * rounding * std::sqrt(static_cast<double>(steps * scene.specimen.size()));
     EXPECT_LT(norm(after.linear - before.linear), walk * particle);
@@ -180,14 +180,16 @@ TEST_P(FreeAssembly, EnergyOfElasticContactsStays) {
     elastic_share = std::max(elastic_share, elastic / first);
     now = next;
   }
-  EXPECT_GT(elastic_share, 0.3);  // kinetic and elastic energy are exchanged
-  // Fixed geometry is linear: each step rounds by a few ε of the energy, a random walk. Updated geometry rotates
-  // normals and lever arms by angles of the order of the strain, 1e-6, and so changes the stiffness and the energy.
+  // a large fraction of the energy was elastic, so kinetic and elastic energy are exchanged
+  EXPECT_GT(elastic_share, 0.3);
+  // With fixed geometry the motion is linear: each step rounds by a few ε of the energy, and the errors add up as a
+  // random walk. Updated geometry rotates normals and lever arms by angles of about the strain, 1e-6. This changes the
+  // stiffness and the energy by a similar fraction.
   EXPECT_LT(error, options.geometry == Geometry::fixed ? 10 * rounding * std::sqrt(steps) : 10 * strain);
 }
 
-/// An assembly that moves rigidly, by motions prescribed step by step, has no contact forces. Particles cannot be fixed
-/// because all move; instead their masses are so large that forces do not change the motion.
+/// An assembly that moves rigidly, as prescribed for each step, has no contact forces. Particles cannot be fixed here,
+/// because all move. Instead their masses are so large that forces do not change their motion.
 class RigidMotion : public FreeAssembly {
  protected:
   TestScene heavy_assembly() const {
@@ -255,8 +257,8 @@ TEST_P(RigidMotion, AFullTurnCreatesNoForce) {
   const ParticleState end = stepper->particles();
   ASSERT_LT(largest(end.displacement), 1e-12);  // it is back at the start
   // In a step the particles rotate by θ, but their centres move along the chord 2·sin(θ/2)·d, which is shorter than the
-  // arc. This gives a slip of d·θ³/24 per step, and over all steps a strain of angle·θ²/24 = 2.6e-8. A contact has the
-  // force of this strain times α = 0.3. A particle has about fourteen contacts, in many directions.
+  // arc. This causes a slip of d·θ³/24 per step. Over all steps the slip is a strain of angle·θ²/24 = 2.6e-8. A contact
+  // has the force of this strain times α = 0.3. A particle has about fourteen contacts, in many directions.
   const double strain = angle * step_angle * step_angle / 24;
   EXPECT_LT(force, 14 * 0.3 * strain * force_scale(scene));
   EXPECT_LT(moment, 14 * 0.3 * strain * force_scale(scene) * 1.5e-3);  // lever arms of up to 1.5 mm

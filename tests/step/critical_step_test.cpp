@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// critical_step_test.cpp  Compares the computed time step with the true limit 2/ω_max. It must not be above the limit,
-// and at most a factor √2 below it.
+// critical_step_test.cpp  Compares the computed critical time step with the true stability limit 2/ω_max. The computed
+// step must not exceed the limit, and must be at least the limit divided by √2.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -25,8 +25,9 @@ double computed_limit(const TestScene& scene, const StepperOptions& options = {}
 
 Laws elastic_laws() { return same_law(laws::Elastic{3e10, 0.3}); }
 
-/// Returns the same contacts with other points: the midpoints of the sides of every fan triangle, each with a third of
-/// its area. This quadrature is exact for second moments, so per-point stiffnesses equal those of the polygon.
+/// Returns the same contacts with other points: the midpoints of the sides of every triangle of the fan, each with a
+/// third of the triangle's area. This quadrature is exact for second moments, so stiffnesses of the points equal those
+/// of the polygon.
 ContactNetwork with_exact_points(const ContactNetwork& network) {
   ContactNetwork out = network;
   out.point_s.clear(), out.point_t.clear(), out.point_area.clear();
@@ -50,9 +51,9 @@ ContactNetwork with_exact_points(const ContactNetwork& network) {
   return out;
 }
 
-// The energy of a contact is at most twice the sum of the energies of moving each of its ends alone, so ω_max² ≤ 2·max
-// λ(M_i⁻¹·K_ii), and the computed step is safe. Moving only one particle shows ω_max² ≥ max λ(M_i⁻¹·K_ii), so the
-// computed step is at least 1/√2 of the true limit.
+// The energy of a contact is at most twice the sum of two energies: those of moving each of its ends alone. So ω_max² ≤
+// 2·max λ(M_i⁻¹·K_ii), and the computed step is safe. Moving only one particle shows that ω_max² ≥ max λ(M_i⁻¹·K_ii).
+// So the computed step is at least 1/√2 of the true limit.
 TEST(CriticalStep, IsBelowTheTrueLimitAndAboveItsRootHalf) {
   const unsigned seed = test_seed() + 99;
   double sum = 0;
@@ -65,8 +66,8 @@ TEST(CriticalStep, IsBelowTheTrueLimitAndAboveItsRootHalf) {
     const double computed = computed_limit(scene);
     if (spec.quadrature == Quadrature::exact) scene.network = with_exact_points(scene.network);
     const double share = computed / true_limit(scene);
-    // A backward stable eigenvalue solver has a relative error of about n roundings in ω_max², the largest of n
-    // eigenvalues. The step depends on its root, so it has half of that.
+    // A backward stable eigenvalue solver has a relative error of about n rounding errors in ω_max², the largest of n
+    // eigenvalues. The step depends on the square root of ω_max², so its relative error is half of that.
     const double rounding =
         0.5 * static_cast<double>(6 * scene.specimen.size()) * std::numeric_limits<double>::epsilon();
     EXPECT_LE(share, 1 + rounding);
@@ -76,8 +77,8 @@ TEST(CriticalStep, IsBelowTheTrueLimitAndAboveItsRootHalf) {
   fmt::print("computed step over true limit, mean of 10: {:.3f}\n", sum / 10);
 }
 
-/// Lumped points have larger second moments than the polygon, so their rotational stiffness is larger and the step
-/// shorter.
+/// Lumped contact points have larger second moments than the polygon. So their rotational stiffness is larger and the
+/// critical step is shorter.
 TEST(CriticalStep, LumpedPointsAreStifferThanThePolygon) {
   NetworkSpec exact;
   exact.quadrature = Quadrature::exact;
@@ -95,7 +96,7 @@ TEST(CriticalStep, ScalesWithDensityAndLocalDamping) {
   EXPECT_NEAR(computed_limit(scene, options) / (std::sqrt(1000.0 / 1.3) * limit), 1, 1e-12);
 }
 
-/// Reducing the mass and inertia of one particle makes it the one that limits the step; the result names it.
+/// If the mass and inertia of one particle are reduced, this particle limits the step, and the result must name it.
 TEST(CriticalStep, NamesTheParticleThatSetsIt) {
   TestScene scene = make_scene(random_specimen(2));
   const double before = computed_limit(scene);
@@ -118,7 +119,7 @@ TEST(Inertia, IsThatOfSolidSpheres) {
   }
 }
 
-// Tests steppers at the limit: they are stable just below the computed step, and unstable above the true one.
+// Tests steppers near the limit: they must be stable just below the computed step, and unstable above the true limit.
 
 using Case = std::tuple<Backend, ContactForm, Geometry, bool /* AM1, else elastic */, bool /* local damping */>;
 
@@ -179,8 +180,8 @@ TEST_P(AtTheLimit, StableJustBelowTheComputedOne) {
   const auto stepper = shaken(options);
   const double start = kinetic_energy(stepper->particles());
   // Leapfrog conserves H = ½·v(k−½)·M·v(k+½) + ½·q·K·q. H is at least the kinetic energy at the half step times 1 −
-  // (ω_max·Δt/2)². At the start q = 0, so H is the initial kinetic energy; dashpots and damping only reduce it. One
-  // hundredth more allows for the change of geometry.
+  // (ω_max·Δt/2)². At the start q = 0, so H is the initial kinetic energy. Dashpots and damping only reduce H. The
+  // factor 1.01 allows for the change of geometry.
   const double half_phase = options.dt / true_limit(scene_);
   const double bound = 1.01 * start / (1 - half_phase * half_phase);
   const int steps = long_tests ? 20'000 : 2'000;
@@ -196,8 +197,8 @@ TEST_P(AtTheLimit, BlowsUpAboveTheTrueOneAndNamesAParticle) {
   StepperOptions options = this->options();
   options.dt = 1.02 * true_limit(scene_);
   const auto stepper = shaken(options);
-  // An unstable mode grows by e^{2·arcosh(1.02)} = 1.49 per step. In about fifty steps it grows from 1e-3 m/s to a
-  // radius per step.
+  // Above the limit a mode grows by e^{2·arcosh(1.02)} = 1.49 per step. In about fifty steps its velocity grows from
+  // 1e-3 m/s to one radius per step.
   stepper->advance(3000);
   const std::int64_t particle = stepper->first_divergent();
   EXPECT_GE(particle, 0);

@@ -16,8 +16,9 @@ namespace {
 template <class P>
 class PacketWidth : public testing::Test {
  protected:
-  /// A stepper with the other packet width (4 or 8). If the library is compiled for this machine, it has the width of
-  /// this machine. If it contains code for several processors, this file is compiled for the oldest of them.
+  /// A stepper whose packets of contacts have the other width: 8 if the width of this file is 4, and 4 if it is 8. If
+  /// the library is compiled for this machine, this file has the packet width of this machine. If the library contains
+  /// code for several processors, this file is compiled for the oldest of them.
   using OtherExec = kernels::ExecCpu<P, Law, 12 - kernels::packet_width<P>>;
 
   static void expect_same(const TestScene& scene, StepperOptions options) {
@@ -60,7 +61,7 @@ TYPED_TEST(PacketWidth, DoesNotShowWhereBondsBreak) {
   laws[static_cast<std::size_t>(PairType::mm)] = mastic_am1();
   const TestScene scene = make_scene(random_specimen(11), {}, laws);
   StepperOptions options = shaking_options(scene);
-  options.form = ContactForm::points;  // only this form can step breaking bonds
+  options.form = ContactForm::points;  // only the contact form `points` allows bonds that break
   this->expect_same(scene, options);
 }
 

@@ -47,7 +47,8 @@ std::vector<Row> committed(const std::string& name) {
 
 double number(const Row& row, const std::string& key) { return std::stod(row.at(key)); }
 
-/// A comparison with double precision: the larger of the relative difference of |E*| and the difference of φ [rad].
+/// A comparison of a result with double precision. `off` is the larger of the relative difference of |E*| and the
+/// difference of φ [rad].
 struct Comparison {
   std::string precision, scene;
   RoundingScale scale;
@@ -67,9 +68,10 @@ std::vector<Comparison> study() {
   return out;
 }
 
-/// Returns the comparisons of the drift study in accuracy.csv and of the runs with `tolerance`. They are compared with
-/// double precision at the same settings, or otherwise with the harmonic solution of the same inertia. The number of
-/// layers equals the precision study's. Inertia 0 makes the estimate smaller, so the test is stricter.
+/// Returns the comparisons of the drift study in accuracy.csv and of the runs with `tolerance`. Each result is compared
+/// with double precision at the same settings or, if there is none, with the harmonic solution of the same inertia. The
+/// numbers of layers are those of the precision study. Inertia 0 makes the estimated error smaller, so the test is
+/// stricter.
 std::vector<Comparison> drift() {
   std::map<std::string, double> layers;
   for (const Comparison& c : study()) layers[c.scene] = c.scale.layers;
@@ -105,7 +107,7 @@ std::vector<Comparison> drift() {
 std::vector<Comparison> all() {
   std::vector<Comparison> out = study();
   for (const Comparison& c : drift()) out.push_back(c);
-  // The full specimen at true mass on a device, about 40 layers, against the harmonic solution.
+  // The full specimen at true mass on a GPU, with about 40 layers of particles, compared with the harmonic solution.
   for (const Row& r : committed("whole-tests-h200-2026-11-21.csv")) {
     if (r.at("scene") != "true mass") continue;
     out.push_back({r.at("precision"),
@@ -128,7 +130,7 @@ TEST(Rounding, IsEstimatedAboveEveryMeasurement) {
   EXPECT_EQ(found.size(), 2u);
 }
 
-// The ranges that the program reports as measured are those in the files, rounded.
+// The program prints the ranges in which rounding was measured. They must be the ranges in the files, rounded.
 TEST(Rounding, TheMeasuredRangeIsThatOfTheFiles) {
   for (const auto& [precision, told] : {std::pair{"single", single_measured}, {"mixed", mixed_measured}}) {
     SCOPED_TRACE(precision);
@@ -169,7 +171,7 @@ TEST(Rounding, WhatLiesBeyondTheMeasurementsIsNamed) {
 
 class PlannedPrecision : public testing::Test {
  protected:
-  /// Returns the scene of t8 at 20 Hz with this tolerance.
+  /// Returns the scene of the specimen t8 at 20 Hz with this tolerance.
   static Scene asked(double tolerance) {
     Scene scene;
     scene.specimen.file = MACADAM_TEST_DATA "/t8.csv";

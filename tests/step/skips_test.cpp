@@ -27,8 +27,8 @@ class Skips : public BackendTest<Case> {
   static double difference(const ParticleState& a, const ParticleState& b) {
     return std::max(relative_difference(a.displacement, b.displacement), relative_difference(a.velocity, b.velocity));
   }
-  /// Returns the tolerance for 500 steps: 6e-8 per step if the geometry is in single precision, and a few times more if
-  /// the states are too.
+  /// Returns the tolerance after 500 steps. If the geometry is in single precision, each step has a rounding error of
+  /// 6e-8; if the states are in single precision too, a few times more.
   double rounding() const {
     return std::get<Precision>(GetParam()) == Precision::double_ ? 1e-11
            : std::get<Precision>(GetParam()) == Precision::mixed ? 3e-5
@@ -48,13 +48,13 @@ Laws elastic_laws() {
   return laws;
 }
 
-// Compares laws without Kelvin units with laws whose units never move.
+// Compares laws without Kelvin units with laws that have Kelvin units which never move.
 TEST_P(Skips, KelvinUnitsThatAreAbsent) {
   const TestScene scene = make_scene(random_specimen(21));
   StepperOptions options = shaking_options(scene);
   options.geometry = Geometry::updated;
   const Laws laws = elastic_laws();
-  // The sums are the same, but a compiler may fuse a product and a sum in one of the versions.
+  // The summed terms are the same, but in one of the versions the compiler may fuse a product and a sum.
   EXPECT_LT(difference(shaken(scene, laws, options), shaken(scene, general_laws(laws, 3), options)), rounding());
 }
 
@@ -70,7 +70,7 @@ TEST_P(Skips, ShearWhereAlphaIsZero) {
   }
 }
 
-// Compares f = E·x of the current displacements with f summed over the steps.
+// Compares forces f = E·x computed from the current displacement x with forces summed over the steps.
 TEST_P(Skips, StatesOfElasticContacts) {
   const TestScene scene = make_scene(random_specimen(23));
   StepperOptions options = shaking_options(scene);
@@ -103,7 +103,7 @@ TEST_P(Skips, RotationsThatNothingExcites) {
     options.skip_rotations = true;
     const ParticleState without = shaken(scene, laws, options);
     options.skip_rotations = false;
-    // If rotations are not skipped, moments of rounding rotate the particles slightly.
+    // If rotations are not skipped, moments from rounding errors rotate the particles slightly.
     EXPECT_LT(difference(without, shaken(scene, laws, options)), rounding()) << to_string(geometry);
     EXPECT_EQ(largest(without.spin), 0);
   }
@@ -162,7 +162,8 @@ class TinyFacets : public testing::TestWithParam<double> {
 };
 INSTANTIATE_TEST_SUITE_P(AreaMin, TinyFacets, testing::Values(0.001, 0.01, 0.026, 0.1));
 
-/// The reported fraction of the area of dropped facets equals its definition.
+/// The fraction of the area that the network reports as dropped equals the area of the dropped facets over the area of
+/// all facets.
 TEST_P(TinyFacets, TheShareIsThatOfTheirAreas) {
   const Solved whole = solve(t8(), am1_laws(), std::nullopt), less = solve(t8(), am1_laws(), GetParam());
   const auto area = [](const ContactNetwork& network) {
@@ -177,11 +178,12 @@ TEST_P(TinyFacets, TheShareIsThatOfTheirAreas) {
               1e-12);  // rounding of a sum of a thousand terms
 }
 
-/// Loss of modulus by dropped facets. Let a be the bilinear form of the whole network, d that of the dropped contacts,
-/// and u and v the motions with and without them. Then E = a(u, v) and E − ΔE = a(u, v) − d(u, v), because each motion
-/// is in equilibrium in its own network. So the loss is d(u, v), computed with the matrices of the reference
-/// implementation. Elastic contacts minimize energy; therefore the loss is at least what the dropped contacts carry in
-/// u and at most what they would carry in v.
+/// Computes the loss of modulus by dropped facets in a second way. Let a be the bilinear form of the whole network, d
+/// the bilinear form of the dropped contacts, u the motion of the whole network and v the motion without the dropped
+/// contacts. Each motion is in equilibrium in its own network, so the moduli are E = a(u, v) and E − ΔE = a(u, v) −
+/// d(u, v). So the loss is d(u, v), computed with the matrices of the reference implementation. Elastic contacts
+/// minimize energy. Therefore the loss is at least what the dropped contacts carry in u, and at most what they would
+/// carry in v.
 TEST_P(TinyFacets, TheLossIsWhatTheyCarry) {
   Laws elastic = am1_laws();
   for (auto& law : elastic) law = laws::Elastic{std::abs(chain_stiffness(*law, 1)), 0.1};
@@ -190,7 +192,7 @@ TEST_P(TinyFacets, TheLossIsWhatTheyCarry) {
     const BilinearForm d = bilinear_form(dropped(whole, less), laws, whole.scene.specimen.size(), 20);
     const Box& box = whole.scene.specimen.box;
     const Complex loss = whole.modulus - less.modulus, carried = modulus_of(d(whole.motion, less.motion), box);
-    // Both moduli have errors of the harmonic solver's residual, 1e-11, times some condition.
+    // The error of both moduli is the residual of the harmonic solver, 1e-11, times a condition number.
     const double rounding = 1e-9 * std::abs(whole.modulus);
     EXPECT_LT(std::abs(loss - carried), rounding);
     EXPECT_GT(std::abs(loss), 100 * rounding);  // the loss is large enough to compare
@@ -203,14 +205,15 @@ TEST_P(TinyFacets, TheLossIsWhatTheyCarry) {
       EXPECT_GE(loss.real(), with - rounding);
       EXPECT_LE(loss.real(), without + rounding);
     }
-    // The area fraction is known beforehand and predicts the loss within a factor of about three, because contacts of
-    // different stiffness and distance have similar fractions of small facets.
+    // The fraction of the area is known before the solution. It predicts the loss within a factor of about three,
+    // because contacts of all stiffnesses and distances have similar fractions of small facets.
     EXPECT_GT(std::abs(loss / whole.modulus) / less.scene.network.dropped_share, 0.3);
     EXPECT_LT(std::abs(loss / whole.modulus) / less.scene.network.dropped_share, 3);
   }
 }
 
-// With one point per facet, the point form has three chains and the condensed form six; both give the same motion.
+// With one point per facet, a contact in the form `points` has three chains of springs and dashpots, and a contact in
+// the condensed form has six. Both forms must give the same motion.
 TEST(OnePoint, PointsAndCondensedAgree) {
   NetworkSpec spec;
   spec.quadrature = Quadrature::one_point;

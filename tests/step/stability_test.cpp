@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stability_test.cpp  Runs the cases of bench/stability with reduced effort. Every row must be within its stated
-// bounds.
+// stability_test.cpp  Runs the cases of bench/stability (checks of the stability of time stepping) with reduced effort.
+// Every row must be within its stated bounds.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_state_test.cpp  A stepper that is set to the state of another continues with the same bits.
+// stepper_state_test.cpp  Tests that a stepper (the object that advances particles in time) continues with the same
+// bits when it is set to the state of another stepper.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ class StepperState : public BackendTest<Case> {
   std::unique_ptr<Stepper> stepper(const StepperOptions& options) const {
     return make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
   }
-  /// Returns options that use every feature of a boundary on the same specimen.
+  /// Returns options for the same specimen that use every feature of a boundary.
   StepperOptions pushed() const {
     StepperOptions out = options_;
     const double area = scene_.specimen.box.size.x * scene_.specimen.box.size.y;
@@ -35,7 +36,7 @@ class StepperState : public BackendTest<Case> {
     return out;
   }
 
-  /// Compares the steps of a whole device with those of a part of its multiprocessors.
+  /// Compares steps on a whole GPU with steps on some of its multiprocessors.
   void compare_sizes(const TestScene& scene, StepperOptions options) const {
     std::tie(options.precision, options.form, options.geometry) =
         std::tie(options_.precision, options_.form, options_.geometry);
@@ -65,7 +66,8 @@ class StepperState : public BackendTest<Case> {
 
 INSTANTIATE_TEST_SUITE_P(All, StepperState, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
 
-// Several samples from one call equal single steps and observations. A device takes such samples without stopping.
+// If one call takes several samples, they equal the observations of a stepper that stops at each sample. A GPU takes
+// such samples without stopping.
 TEST_P(StepperState, SamplesAreObservationsOneByOne) {
   const auto check = [&](const char* what, const StepperOptions& options) {
     SCOPED_TRACE(what);
@@ -115,7 +117,7 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
     first->advance(277);  // longer than any block of steps, so that arrays of a block are not zero
     const std::vector<StateArray> state = first->state();
     EXPECT_FALSE(same_bits(state, whole->state()));
-    second->advance(5);  // its earlier state must not matter
+    second->advance(5);  // the state that `second` has before set_state() must not matter
     second->set_state(state);
     EXPECT_TRUE(same_bits(second->state(), state));
     EXPECT_EQ(second->observe().top_force(), first->observe().top_force());
@@ -161,8 +163,8 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
   check("bonds, many of them broken", options_);
 }
 
-// A device with fewer multiprocessors has other tiles, or streams them. It gives the same bits and can continue the
-// state of another. Elastic scenes have kernels of their own.
+// A GPU with fewer multiprocessors divides the specimen into other tiles, or streams the tiles from memory. It must
+// give the same bits, and must be able to continue the state of a whole GPU. Elastic scenes have kernels of their own.
 TEST_P(StepperState, IsThatOfADeviceOfAnySize) {
   if (backend_ != Backend::cuda) GTEST_SKIP() << "of devices alone";
   for (const Laws& laws : {am1_laws(), elastic_laws()}) {
@@ -182,8 +184,8 @@ std::vector<std::complex<double>> some_motion(std::size_t particles) {
   return out;
 }
 
-// Makes steppers from used ones, as a run does for consecutive frequencies. With other steps, masses, loads and starts,
-// each must behave like a new stepper.
+// Makes steppers from used ones, as a run does for consecutive frequencies. The used stepper had other steps, masses,
+// loads and starts. The result must behave like a new stepper.
 TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   StepperOptions slow = slow_options(scene_);
   std::tie(slow.precision, slow.form, slow.geometry) = std::tie(options_.precision, options_.form, options_.geometry);
@@ -202,7 +204,8 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   started.boundary = moving_top(at_once);
   const StartState start = steady_start(scene_.network, scene_.laws, some_motion(scene_.specimen.size()), at_once);
   started.start = &start;
-  started.observed_every = 60;  // blocks end at these samples, although the start is one step before
+  // blocks of steps end at these samples, although the run starts one step before a sample
+  started.observed_every = 60;
   StepperOptions resting = slow;
   resting.boundary = {};
   const StepperOptions pushed = this->pushed();
@@ -211,7 +214,7 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   struct Use {
     const char* name;
     const StepperOptions* options;
-    /// whether the processor reuses the stepper; a device reuses less if it steps in blocks before or after
+    /// whether the CPU reuses the stepper; a GPU reuses less of it if the use before or after steps in blocks
     bool kept;
   };
   std::unique_ptr<Stepper> used;

@@ -15,7 +15,8 @@ using Case = StepperCase;
 
 class StepperAgainstReference : public BackendTest<Case> {
  protected:
-  /// Steps both and compares all motions and wall forces, relative to their largest values.
+  /// Advances the reference stepper and the tested stepper, and compares all motions and wall forces relative to their
+  /// largest values.
   void compare(const TestScene& scene, StepperOptions options, std::int64_t steps) {
     const double tolerance = this->tolerance(steps);
     const auto& [backend, precision, form, geometry] = GetParam();
@@ -41,9 +42,10 @@ class StepperAgainstReference : public BackendTest<Case> {
               tolerance);
   }
 
-  /// Rounding of the geometry changes every stiffness by about ε, hence the phase of a mode by ε·ω·t ≤ ε·steps (the
-  /// step is half of the critical one, so ωΔt ≤ 1). Sums of about ten terms make this ten times as large. In double
-  /// precision the reference contributes too: it computes d from absolute coordinates, which are five to ten times d.
+  /// Rounding of the geometry changes every stiffness by the fraction ε, hence the phase of a mode by ε·ω·t ≤ ε·steps
+  /// (the step is half of the critical one, so ωΔt ≤ 1). Sums of about ten terms make this ten times as large. In
+  /// double precision the error of the reference counts too: the reference computes the distance d from absolute
+  /// coordinates, which are five to ten times d.
   double tolerance(std::int64_t steps) const {
     const double rounding = std::get<Precision>(GetParam()) == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24;
     return rounding * static_cast<double>(std::max<std::int64_t>(steps, 100));
@@ -90,7 +92,7 @@ TEST_P(StepperAgainstReference, DampingScalingAndLateralWalls) {
   compare(scene, options, long_tests ? 300 : 100);
   options.damping_kind = Damping::local;
   options.damping = 0.3;
-  // The sign of a velocity component that is zero except for rounding may differ, so only a few steps can be compared.
+  // A velocity component that would be zero may get either sign by rounding, so only a few steps can be compared.
   compare(scene, options, 20);
 }
 
@@ -103,7 +105,7 @@ TEST_P(StepperAgainstReference, SlowLoadUnderWaves) {
   compare(scene, options, long_tests ? 300 : 100);
 }
 
-/// On a device with two multiprocessors the tiles are full: all registers for contacts are in use.
+/// On a GPU with two multiprocessors the tiles are full: all registers for contacts are in use.
 TEST_P(StepperAgainstReference, ElasticContactsUnderSlowLoad) {
   const TestScene scene = make_scene(random_specimen(19, 8, 8, 9), {}, elastic_laws());
   StepperOptions options = slow_options(scene);
@@ -112,7 +114,8 @@ TEST_P(StepperAgainstReference, ElasticContactsUnderSlowLoad) {
   compare(scene, options, long_tests ? 600 : 100);
 }
 
-/// If a stepper for laws with memory is reused for laws without, the states that it keeps must not affect the result.
+/// A stepper for laws with memory is reused for laws without memory. The states that it keeps must not affect the
+/// result.
 TEST_P(StepperAgainstReference, LawsOfAnotherKindThanThoseOfTheUsedStepper) {
   const auto& [on, precision, form, geometry] = GetParam();
   const Backend backend = on;  // clang 16 cannot capture structured bindings
@@ -121,7 +124,7 @@ TEST_P(StepperAgainstReference, LawsOfAnotherKindThanThoseOfTheUsedStepper) {
   options.form = form;
   options.precision = precision;
   options.geometry = geometry;
-  // these laws are softer, so a time step that is stable for the other laws is stable for them too
+  // the new laws are softer, so a time step that is stable for the old laws is stable for the new laws too
   const Laws elastic = elastic_laws();
   Laws slippery = elastic;
   std::get<laws::Elastic>(*slippery[static_cast<std::size_t>(PairType::mm)]).alpha = 0;
@@ -147,7 +150,7 @@ TEST_P(StepperAgainstReference, LawsOfAnotherKindThanThoseOfTheUsedStepper) {
 INSTANTIATE_TEST_SUITE_P(All, StepperAgainstReference, all_stepper_cases(),
                          [](const auto& info) { return name_of_case(info); });
 
-/// Large finite rotations: the rotating contact frames must follow them, not only small strains.
+/// The particles rotate by large angles, and the frames of the contacts must follow these rotations.
 TEST_P(StepperAgainstReference, FreeAssemblyThatTumbles) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;
@@ -196,7 +199,7 @@ TEST(Stepper, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-/// Two runs, one of them in pieces, give the same bits on every backend.
+/// A run that is divided into several calls gives the same bits as a run in one call, on every backend.
 TEST_P(StepperAgainstReference, SameBitsHoweverTheRunIsCut) {
   const auto& [backend, precision, form, geometry] = GetParam();
   const TestScene scene = make_scene(random_specimen(17, 8, 8, 9));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// thread_choice_test.cpp  Tests the choice between all threads and one, given measured times of steps: it must take the
+// thread_choice_test.cpp  Tests the choice between stepping with all threads and with one thread, given measured times
+// of steps. The faster choice must win, and changes must be noticed.
 // faster and notice changes.
 #include "kernels/cpu/thread_choice.hpp"
 

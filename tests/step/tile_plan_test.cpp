@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tile_plan_test.cpp  Executes the plan of tiles in plain loops. Every load must be added once, and in the same order
-// for any division into tiles.
+// tile_plan_test.cpp  Executes the plan of tiles (the parts of a specimen that a GPU steps) in plain loops. Every load
+// of a contact must be added to its particles once, and in the same order for any division into tiles.
 #include "kernels/layout/tile_plan.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace macadam::kernels {
 namespace {
 
-/// Returns a random load for each contact; its end B gets the negative.
+/// Returns a random load for each contact: the load on its end A. Its end B gets the negative load.
 std::vector<float> some_loads(const ContactNetwork& network) {
   std::mt19937 random(5);
   std::vector<float> out;
@@ -120,8 +120,8 @@ TEST(TilePlan, EveryLoadArrivesAndInOneOrderForAnyTiles) {
   expect_every_load_arrives(test::make_scene(test::random_specimen(3, 7, 6, 8)));
 }
 
-// A sphere of 4 mm among spheres of about 1 mm touches about seventy of them. All have lower numbers, so each contact
-// has its own cell in the list of the large sphere.
+// A sphere of 4 mm among spheres of about 1 mm touches about seventy spheres. All of them have lower numbers than the
+// large sphere, so each contact has its own cell in the list of the large sphere.
 TEST(TilePlan, LoadsArriveInRowsOfAnyLength) {
   const Specimen small = test::random_specimen(3, 7, 6, 8);
   const Vec3d middle = 0.5 * small.box.size;
@@ -162,10 +162,10 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   for (const Tile& tile : plan.tile) cells += tile.cells, inner += tile.inner;
   EXPECT_GT(inner, 0u);
   for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
-  // Each contact has a cell for its end B. Two contacts of a couple share one cell for their ends A. The last couple of
-  // a particle may have only one contact.
+  // Each contact has its own load cell for its end B. Two contacts of a couple share one cell for their ends A. The
+  // last couple of a particle may have only one contact.
   EXPECT_LE(cells, (3 * scene.network.contacts.size() + scene.specimen.size()) / 2);
-  // At most the last double packet of a warp per tile, and its last packet, are partly empty.
+  // In each tile, at most the last double packet of every warp and the last packet are partly empty.
   EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::couple + 1));
 }
 
@@ -182,7 +182,7 @@ TEST(TilePlan, EvenTilesTouchAboutAsManyContactsEach) {
     }
     return static_cast<double>(most * plan.tile.size()) / static_cast<double>(all);
   };
-  EXPECT_LT(fullest(true), 1.05);  // one particle more or less is about 2 %
+  EXPECT_LT(fullest(true), 1.05);  // one particle more or less changes the number of contacts of a tile by about 2 %
   EXPECT_LT(fullest(true), fullest(false));
 }
 

@@ -110,15 +110,15 @@ TEST_F(RandomNetwork, EveryFacetIsAContactInOrder) {
   EXPECT_EQ(network.point_s.size(), network.point_area.size());
 }
 
-/// The lever arms put the reference point x0 into the plane of the facet, and equal the arms of Eq. 5–7.
+/// The lever arms put the reference point x0 into the plane of the facet, and equal the lever arms of Eq. 5–7.
 TEST_F(RandomNetwork, ArmsPutTheReferencePointOnTheFacetsPlane) {
   int outside = 0;
   for (std::size_t k = 0; k < network.contacts.size(); ++k) {
     const Contact& c = network.contacts[k];
     const Facet& f = tessellation.facets[k];
     const Vec3d x0 = specimen.centre[c.a] + c.arm_a * c.n;
-    // The error of a vertex is ε times the size of the box, divided by the flatness of its tetrahedron. The flatness is
-    // at least 1e-3 in double precision.
+    // The error of a vertex is ε times the size of the box, divided by the flatness of its tetrahedron. Tetrahedra
+    // solved in double precision have a flatness of at least 1e-3.
     for (const Vec3d& v : tessellation.polygon(f)) EXPECT_NEAR(dot(v - x0, c.n), 0, 1e-12);
     if (c.b < 0) {
       EXPECT_EQ(c.arm_b, 0);
@@ -135,7 +135,8 @@ TEST_F(RandomNetwork, ArmsPutTheReferencePointOnTheFacetsPlane) {
   EXPECT_GT(outside, 0) << "the specimen should contain a centre outside its own cell";
 }
 
-/// Point areas add up to the facet's area, and their first moments about x0 to the facet's first moments.
+/// The areas of a contact's points add up to the area of the facet. Their first moments about x0 add up to the first
+/// moment of the facet.
 TEST_F(RandomNetwork, PointAreasAndFirstMoments) {
   for (std::size_t k = 0; k < network.contacts.size(); ++k) {
     const Contact& c = network.contacts[k];
@@ -144,8 +145,8 @@ TEST_F(RandomNetwork, PointAreasAndFirstMoments) {
     ASSERT_EQ(c.point_end - c.point_begin, f.vertex_end - f.vertex_begin + 1);
     double area = 0, s = 0, t = 0, reach = 0;
     for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) {
-      // Rounding may leave a facet slightly non-convex; then a triangle of the fan can have a negative area of about ε
-      // of the facet's.
+      // Rounding may leave a facet slightly non-convex. Then a triangle of the fan can have a negative area of about ε
+      // times the area of the facet.
       EXPECT_GT(network.point_area[j], -1e-12 * c.area);
       area += network.point_area[j];
       s += network.point_area[j] * network.point_s[j];
@@ -189,7 +190,7 @@ TEST_F(RandomNetwork, LumpedMomentsAreThoseOfThePoints) {
 TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
   spec.quadrature = Quadrature::exact;
   const ContactNetwork exact = build_network(specimen, tessellation, spec);
-  // strips per side of each triangle; the midpoint rule has a relative error of 1/m² of the facet's squared extent
+  // the midpoint rule with m strips per side of each triangle has an error of 1/m² of the squared extent of the facet
   constexpr int m = 40;
   double difference = 0, total = 0;
   for (std::size_t k = 0; k < exact.contacts.size(); k += 7) {
@@ -200,7 +201,7 @@ TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
     const auto cell = [&](double area, double x, double y) {
       ss += area * x * x, st += area * x * y, tt += area * y * y;
     };
-    // Uses a fan from vertex 0, unlike the code under test, which uses a fan about the centroid.
+    // Divides the polygon into a fan of triangles from vertex 0. The code under test uses a fan about the centroid.
     for (std::size_t v = 1; v + 1 < n; ++v) {
       const double us = s[v] - s[0], ut = t[v] - t[0], ws = s[v + 1] - s[0], wt = t[v + 1] - t[0];
       const double area = 0.5 * (us * wt - ws * ut) / (m * m);
@@ -280,7 +281,7 @@ TEST_F(RandomNetwork, Filters) {
   EXPECT_EQ(static_cast<std::int64_t>(n.contacts.size()), particle_facets + on_walls - wide - small);
 }
 
-/// A limit for one pair type replaces the limit of the network for this pair type only.
+/// A filter limit that is set for one pair type replaces the limit of the network, for this pair type only.
 TEST_F(RandomNetwork, LimitsOfOnePair) {
   const auto left = [&](const NetworkSpec& s) { return build_network(specimen, tessellation, s).count; };
   const auto filtered = [&](auto set) {
@@ -330,14 +331,15 @@ TEST(ContactNetwork, CubicLattice) {
   const ContactNetwork network = build_network(s, t);
   EXPECT_EQ(network.contacts.size(), static_cast<std::size_t>(3 * n * n * (n - 1) + 2 * n * n));
   EXPECT_EQ(network.count[static_cast<int>(PairType::mw)], 2 * n * n);
-  constexpr double relative = 1e-12;  // coordinates of four spacings are accurate to ε, and so are their products
+  // coordinates up to four lattice spacings are accurate to ε, and so are their products
+  constexpr double relative = 1e-12;
   for (const Contact& c : network.contacts) {
     EXPECT_NEAR(c.distance, c.b < 0 ? a / 2 : a, relative * a);
     EXPECT_NEAR(c.arm_a, a / 2, relative * a);
     EXPECT_NEAR(c.area, a * a, relative * a * a);
     ASSERT_EQ(c.point_end - c.point_begin, 5U);
-    // Each corner has a third of two triangles of a²/4; the centroid has a third of all four. The lumped second moment
-    // is 4·(a²/6)·(a/2)² = a⁴/6; the exact one is a⁴/12.
+    // Each corner has a third of the area of two triangles of a²/4, and the centroid has a third of all four triangles.
+    // So the lumped second moment is 4·(a²/6)·(a/2)² = a⁴/6; the exact one is a⁴/12.
     for (std::uint32_t j = c.point_begin; j < c.point_begin + 4; ++j)
       EXPECT_NEAR(network.point_area[j], a * a / 6, relative * a * a);
     EXPECT_NEAR(network.point_area[c.point_begin + 4], a * a / 3, relative * a * a);

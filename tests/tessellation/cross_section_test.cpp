@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cross_section_test.cpp  The cells of a cross section fill the box's section without gap or overlap, wherever the
-// plane lies.
+// cross_section_test.cpp  Tests that the cells of a cross section fill the section of the box without gap or overlap,
+// wherever the plane lies.
 #include "macadam/cross_section.hpp"
 
 #include <gtest/gtest.h>
@@ -61,8 +61,8 @@ void expect_partition(const Specimen& s, const CrossSection& section, double tol
   EXPECT_NEAR(sum / area, 1, tolerance);
 }
 
-// Tolerance of areas. The error of an area is a few ε times the length of the edges of cells. The total length of all
-// edges is about n sides of the box, for n cells per side.
+// Tolerance of areas. The error of an area is a few ε times the length of the edges of the cells. If there are n cells
+// along a side of the box, all edges together are about n sides long.
 constexpr double rounding = 1e-13;
 
 TEST(CrossSection, OneParticleShowsTheWholeRectangle) {
@@ -78,7 +78,8 @@ TEST(CrossSection, OneParticleShowsTheWholeRectangle) {
   }
 }
 
-/// Two spheres part at the plane of equal power, and a section across it has the corresponding areas.
+/// Two spheres part at the plane of equal power distance. In a section across this plane, their polygons have the areas
+/// that follow from its position.
 TEST(CrossSection, TwoParticlesPartAtTheWeightedPlane) {
   Specimen s;
   s.box.size = {1, 1, 1};
@@ -90,7 +91,8 @@ TEST(CrossSection, TwoParticlesPartAtTheWeightedPlane) {
   ASSERT_EQ(across.cells.size(), 2U);
   EXPECT_NEAR(across.cells[0].area, x, 1e-15);
   EXPECT_NEAR(across.cells[1].area, 1 - x, 1e-15);
-  // The facet itself belongs to the cell above it. A plane close to the facet belongs to the cell in which it lies.
+  // A plane in the facet itself shows the cell above it. A plane close to the facet shows the cell in which the plane
+  // lies.
   for (const auto& [position, owner] : std::map<double, int>{{x - 1e-6, 0}, {x, 1}, {x + 1e-6, 1}, {0, 0}, {1, 1}}) {
     const CrossSection along = cut(s, t, {'x', position});
     ASSERT_EQ(along.cells.size(), 1U) << position;
@@ -99,8 +101,8 @@ TEST(CrossSection, TwoParticlesPartAtTheWeightedPlane) {
   }
 }
 
-// On lattices, planes pass through facets, edges and corners, where more cells than usual meet and rounding decides.
-// The parameter shifts the centres.
+// On lattices, planes pass through facets, edges and corners. There more cells than usual meet, and rounding decides
+// which cell owns a point. The parameter of the test shifts the centres at random.
 class LatticeSection : public testing::TestWithParam<double> {
  protected:
   static constexpr double a = 7e-3;  // not exactly representable in binary
@@ -121,8 +123,8 @@ class LatticeSection : public testing::TestWithParam<double> {
   }
 
   static void expect_every_eighth(const Specimen& s, const Tessellation& t) {
-    // If a facet almost parallel to the plane meets another one, a shift δ of a centre opens or overlaps strips
-    // of width δ.
+    // A facet almost parallel to the plane may meet another such facet. If the shift of a centre is δ, the two open or
+    // overlap in strips of width δ.
     const double tolerance = rounding + 10 * GetParam();
     for (const char axis : {'x', 'y', 'z'}) {
       const double length = s.box.size.*component(axis);
@@ -162,7 +164,7 @@ TEST_P(LatticeSection, FaceCentredCubic) {
 }
 
 TEST_P(LatticeSection, LargeSlabsOverSmallCells) {
-  // Facets of one large cell with many small ones lie in the plane or are tilted by rounding.
+  // Facets between one large cell and many small cells lie in the plane, or are tilted against it by rounding.
   Specimen s = lattice({5, 5, 2}, {{0.5, 0.5, 0.5}});
   s.box.size.z = 10 * a;
   add(s, {2.5 * a, 2.5 * a, 6 * a}, 0.4 * a);
@@ -172,8 +174,8 @@ TEST_P(LatticeSection, LargeSlabsOverSmallCells) {
 class RandomSection : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(RadiusRatio, RandomSection, testing::Values(1.0, 5.0, 50.0));
 
-/// At random points of the plane, the particle of smallest power distance (by brute force) owns the polygon that
-/// contains the point.
+/// Chooses random points of the plane. By brute force it finds the particle of smallest power distance; the polygon
+/// that contains the point must belong to this particle.
 TEST_P(RandomSection, EveryPointBelongsToThePolygonOfTheNearestInPower) {
   const Specimen s = random_box(400, GetParam(), 5);
   const Tessellation t = tessellate(s);
@@ -203,7 +205,8 @@ TEST_P(RandomSection, EveryPointBelongsToThePolygonOfTheNearestInPower) {
   }
 }
 
-/// Planes through vertices of the tessellation, and on the walls, where the polygons must equal the wall facets.
+/// Cuts the tessellation at planes through its vertices, and at the walls, where the polygons must equal the facets of
+/// the walls.
 TEST_P(RandomSection, ThroughVerticesAndOnWalls) {
   const Specimen s = random_box(200, GetParam(), 6);
   const Tessellation t = tessellate(s);

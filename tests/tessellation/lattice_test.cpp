@@ -17,7 +17,8 @@ namespace {
 using test::add, test::facets_of, test::expect_invariants, test::expect_order_and_orientation, test::empty_box,
     test::facet_tolerance;
 
-// In lattices every vertex is shared by more than four cells and, with decimal coordinates, only up to rounding.
+// In a lattice every vertex is shared by more than four cells. If the coordinates are decimal, this holds only up to
+// rounding.
 
 /// `unit` 1 gives coordinates that are exact in binary. `unit` 1e-3 converts millimetres to metres, with rounding.
 struct Lattice : ::testing::TestWithParam<double> {
@@ -126,8 +127,8 @@ TEST_P(Lattice, ParticlesOnTheBoxBoundary) {
   expect_invariants(s, t);
 }
 
-/// Rounding may add or remove a vertex in the middle of an edge, and with it a contact point. The polygons must not
-/// depend on the unit.
+/// Rounding may add or remove a vertex in the middle of an edge, and with the vertex a contact point. The polygons must
+/// be the same in metres and in millimetres.
 TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
   const std::vector<std::vector<Vec3d>> bases{
       {{0.5, 0.5, 0.5}},
@@ -163,8 +164,8 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
         const auto p = t.polygon(t.facets[f]), q = exact.polygon(exact.facets[f]);
         ASSERT_EQ(p.size(), q.size()) << "lattice " << b << ", unit " << unit << ", facet " << f;
         EXPECT_NEAR(t.facets[f].area, exact.facets[f].area * unit * unit, facet_tolerance * unit * unit);
-        // Returns the second moment about the centroid as the points of the contact give it: the sum over the fan
-        // triangles of a third of the area times Σ|x|².
+        // Returns the second moment about the centroid as the points of the contact give it: for each triangle of the
+        // fan, a third of its area times Σ|x|² over its corners.
         const auto moment = [](const Facet& facet, const auto& polygon) {
           double sum = 0;
           for (std::size_t v = 0; v < polygon.size(); ++v) {

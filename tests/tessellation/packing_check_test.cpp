@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// packing_check_test.cpp  Tests that specimens that do not fill their box, or overfill it, give a warning before a run.
+// packing_check_test.cpp  Tests that a specimen that does not fill its box, or overfills it, gives a warning before a
+// run.
 #include "macadam/tessellation.hpp"
 
 #include <numbers>
@@ -28,7 +29,8 @@ Specimen touching(int nx, int ny, int nz, double radius = 0.5) {
   return out;
 }
 
-/// Returns spheres of radius 1 m at random positions without overlap; they are the fraction `fill` of a cube.
+/// Returns spheres of radius 1 m at random positions in a cube without overlap. They fill the fraction `fill` of the
+/// cube.
 Specimen random_spheres(double fill, std::size_t number, unsigned seed) {
   std::mt19937 random(seed);
   const double edge = std::cbrt(static_cast<double>(number) * 4 * std::numbers::pi / 3 / fill);
@@ -86,7 +88,8 @@ TEST(PackingCheck, DiametersForRadiiFillTooMuch) {
       "spheres fill 419 % of the box of 3 x 3 x 3 m, expected at most 150 %; the column radius may hold diameters");
 }
 
-// Spheres of one aggregate overlap; they count at most the volume of their cells.
+// Spheres of one aggregate overlap. The check counts at most the volume of a sphere's cell, so the overlap is not
+// counted twice.
 TEST(PackingCheck, ClustersOfOverlappingSpheresAreNoFault) {
   Specimen s = few_clusters(1);
   EXPECT_TRUE(warnings_of(s).empty()) << testing::PrintToString(warnings_of(s));
@@ -96,8 +99,8 @@ TEST(PackingCheck, ClustersOfOverlappingSpheresAreNoFault) {
   EXPECT_TRUE(warnings_of(one).empty()) << testing::PrintToString(warnings_of(one));
 }
 
-// The smallest fill is just above the limit for sparse boxes. Cells of such packings reach up to 6 radii, or 1.8 mean
-// spacings.
+// The smallest of these fractions is just above the limit for sparse boxes. In such packings a cell reaches up to 6
+// radii, or 1.8 mean spacings, from its sphere.
 TEST(PackingCheck, LoosePackingsAreNoFault) {
   for (const double fill : {0.101, 0.15, 0.25}) {
     for (const unsigned seed : {test_seed(), test_seed() + 1}) {
@@ -107,8 +110,8 @@ TEST(PackingCheck, LoosePackingsAreNoFault) {
   }
 }
 
-// A layer of large spheres lies below a layer of small ones. The gaps between the large spheres are many mean spacings
-// wide, which is not a fault.
+// A layer of large spheres lies below a layer of small spheres. The gaps between the large spheres are many mean
+// spacings wide. This is not a fault.
 TEST(PackingCheck, LayersOfDifferentSizesAreNoFault) {
   Specimen s = touching(4, 4, 2);
   for (int z = 0; z < 10; ++z)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file power_diagram_test.cpp  A triangulation computed in parts equals the whole one bit by bit. Searches for near
-/// sites agree with a comparison of all sites.
+/// \file power_diagram_test.cpp  Tests that a triangulation computed in parts equals, bit by bit, the triangulation
+/// computed as a whole, and that searches for near sites agree with a comparison of all sites.
 #include "host/tessellation/power_diagram.hpp"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ namespace {
 
 using test::add;
 
-/// Returns spheres at random positions in a box that is not a cube. One in fifty is up to ten times as large, so that
-/// it hides other spheres and reaches far beyond a part.
+/// Returns spheres at random positions in a box that is not a cube. One sphere in fifty is up to ten times as large as
+/// the others, so that it hides other spheres and reaches far beyond a part.
 Specimen random_spheres(int number, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0, 1);
@@ -47,7 +47,8 @@ Specimen lattice(int cells) {
   return s;
 }
 
-/// Returns two distant groups of spheres with nothing between them, so that a part needs data from far away.
+/// Returns two distant groups of spheres with nothing between them, so that each part of the triangulation needs data
+/// from far away.
 Specimen two_crowds(int number) {
   Specimen s = random_spheres(number, 5);
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -79,7 +80,8 @@ TEST(PowerDiagram, PartsGiveTheWholeOfSpheresOfManySizes) {
 }
 TEST(PowerDiagram, PartsGiveTheWholeOfALattice) { expect_same_in_parts(lattice(5)); }
 TEST(PowerDiagram, PartsGiveTheWholeOfCrowdsFarApart) { expect_same_in_parts(two_crowds(600)); }
-/// Large spheres among small ones: a part may need sites on the far side of a large sphere, outside of its reach.
+/// Large spheres lie among small spheres. A part may then need sites on the far side of a large sphere, beyond the
+/// reach of the part's own spheres.
 TEST(PowerDiagram, PartsGiveTheWholeOfBoulders) {
   Specimen s = random_spheres(3000, 13);
   for (std::size_t i = 0; i < s.size(); ++i) s.radius[i] = i < 6 ? 0.25 : std::min(s.radius[i], 0.03);
@@ -90,7 +92,8 @@ TEST(PowerDiagram, PartsGiveTheWholeOfAPlane) {
   for (Vec3d& p : s.centre) p.z = 0.8;
   expect_same_in_parts(s);
 }
-/// Dual points overflow here, so nearness cannot be decided and all sites must be included.
+/// The coordinates of dual points overflow here, so the search cannot decide which sites are near, and must include all
+/// sites.
 TEST(PowerDiagram, PartsGiveTheWholeOfCentresThatNearlyCoincide) {
   for (const double distance : {1e-12, 1e-200, 5e-324}) {
     Specimen s = random_spheres(200, 14);
@@ -131,9 +134,9 @@ TEST(PowerDiagram, TetrahedraAreInOrderAndKnowTheirNeighbours) {
   }
 }
 
-/// At a dual point no site has less power than the four corners. The tolerance is the rounding error of squared lengths
-/// up to the bounding sites, about 100 m² · 1e-16, times 1e3 for the flattest tetrahedron that is solved in double
-/// precision.
+/// At a dual point no site has less power than the four corners of the tetrahedron. The tolerance is the rounding error
+/// of squared lengths, times 1e3 for the flattest tetrahedron that is solved in double precision. Lengths reach up to
+/// the bounding sites, so the rounding error is about 100 m² · 1e-16.
 TEST(PowerDiagram, NobodyIsInsideADualSphere) {
   const Specimen s = random_spheres(400, 9);
   const WeightedSites sites(s);
@@ -146,7 +149,7 @@ TEST(PowerDiagram, NobodyIsInsideADualSphere) {
   }
 }
 
-/// The tree finds the same sites as a comparison of all of them.
+/// The tree finds the same sites as a comparison of all sites.
 TEST(SiteTree, FindsWhomALookAtEverybodyFinds) {
   const Specimen s = random_spheres(500, 10);
   const WeightedSites sites(s);

@@ -48,7 +48,8 @@ inline void expect_order_and_orientation(const Tessellation& t) {
   }
 }
 
-/// Returns area and number of corners of the facets of one particle, by the particle or wall on the other side.
+/// Returns area and number of corners of each facet of one particle. The key is the number of the particle or wall on
+/// the opposite side of the facet.
 inline std::map<int, std::pair<double, std::size_t>> facets_of(const Tessellation& t, int particle) {
   std::map<int, std::pair<double, std::size_t>> out;
   for (const Facet& f : t.facets)

@@ -115,8 +115,8 @@ TEST(Tessellation, CoplanarAndCosphericalCentres) {
 }
 
 TEST(Tessellation, ThinFacetsAreKeptAndRoundingIsNot) {
-  // One corner of a square of centres is pushed in by δ. Its cell touches the cell of the opposite corner in a strip
-  // between (½, ½ − δ) and (½ − δ, ½), the points equidistant from three corners.
+  // One corner of a square of centres is pushed in by δ. The cell of this corner then touches the cell of the opposite
+  // corner in a strip from (½, ½ − δ) to (½ − δ, ½). The ends of the strip are equidistant from three corners.
   for (const double delta : {1e-3, 1e-6, 1e-8, 0.0, 1e-14}) {
     Specimen s = empty_box({2, 2, 1});
     for (const Vec3d& p : {Vec3d{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.5, 1.5, 0.5}, {1.5 - delta, 1.5 - delta, 0.5}})
@@ -192,8 +192,8 @@ TEST(Tessellation, HiddenParticlesAreNamed) {
 }
 
 TEST(Tessellation, SheetsOfRoundingAreNotCells) {
-  // With R_a² − R_b² = d² (exact in binary) the facets a–b and b–c coincide, so b's cell has no thickness. The loop
-  // also tests radii of b that are larger by rounding, and one that opens a cell.
+  // With R_a² − R_b² = d² (exact in binary) the facets a–b and b–c coincide, so the cell of b has no thickness. The
+  // loop also tests radii of b that are larger by a rounding error, and one radius with which b has a cell.
   for (const double more : {0.0, 1e-15, -1e-15, 1e-13, 1e-6}) {
     Specimen s = empty_box({1, 1, 1});
     add(s, {0.25, 0.5, 0.5}, 0.3125);
@@ -225,7 +225,8 @@ INSTANTIATE_TEST_SUITE_P(RadiusRatio, RandomSpecimen, ::testing::Values(1.0, 5.0
 TEST_P(RandomSpecimen, FacetsBelongToTheirTwoParticles) {
   const Specimen s = random_specimen(400, 0.004, 0.004 * GetParam(), 11);
   const Tessellation t = tessellate(s);
-  expect_invariants(s, t, 1e-9);  // the smallest distances between random centres are 1e-2 of the spacing or less
+  // loose tolerance: the smallest distances between random centres are 1e-2 of the spacing or less
+  expect_invariants(s, t, 1e-9);
   expect_order_and_orientation(t);
   std::vector<std::uint8_t> hidden(s.size(), 0);
   for (const auto i : t.hidden) hidden[i] = 1;
@@ -241,7 +242,7 @@ TEST_P(RandomSpecimen, FacetsBelongToTheirTwoParticles) {
   }
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> u(0, 1);
-  for (int k = 0; k < 2000; ++k) {  // the owner of every point has a cell
+  for (int k = 0; k < 2000; ++k) {  // the particle that owns a point must have a cell
     const Vec3d x{u(engine), 0.7 * u(engine), 1.3 * u(engine)};
     std::size_t owner = 0;
     for (std::size_t i = 1; i < s.size(); ++i)

@@ -86,12 +86,12 @@ class FullSpecimen : public ::testing::Test {
 TEST_F(FullSpecimen, Invariants) {
   EXPECT_TRUE(tessellation->hidden.empty());
   const TessellationInvariants i = measure_invariants(*specimen, *tessellation);
-  // Sums of 2e5 positive terms with a relative error of a few ε each are accurate to 1e-15 to 1e-14. The test requires
+  // Sums of 2e5 positive terms with a relative error of a few ε each are accurate to 1e-14 or better. The test requires
   // 1e-12.
   EXPECT_LT(i.volume, 1e-12);
   EXPECT_LT(i.walls, 1e-12);
-  // The bound is ε times the size of the box over the smallest distance between two centres, 1e-16 · 100, divided by
-  // the smallest flatness of tetrahedra, 1e-3.
+  // The bound is ε times the size of the box over the smallest distance between two centres (1e-16 · 100), divided by
+  // the smallest flatness of tetrahedra (1e-3).
   EXPECT_LT(i.closure, 1e-11);
   EXPECT_LT(i.flatness, 1e-11);
   EXPECT_LT(i.power, 1e-11);

@@ -71,7 +71,7 @@ TEST(Voids, HaveTheCellsOfParticlesAndNoContacts) {
   }
 }
 
-// Without shear stiffness the columns of a lattice are parallel springs; a void interrupts one of nine.
+// Without shear stiffness the nine columns of a lattice are parallel springs. A void interrupts one column.
 TEST(Voids, CutAColumnOfALattice) {
   const Laws laws = same_law(laws::Elastic{2e10, 0});
   for (const std::size_t particle : {4U, 22U, 26U}) {  // at the bottom wall, in the middle, at an edge
@@ -92,7 +92,7 @@ TEST(Voids, MakeASpecimenSofterInEverySolver) {
   EXPECT_GT(e, 0.5 * e_full);
   for (const LinearMethod linear : {LinearMethod::iterative, LinearMethod::direct}) {
     Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {.linear = linear}, 1);
-    EXPECT_NEAR(harmonic.solve(1).top.e_star_pa / e, 1, 1e-8);  // the solvers have different residuals
+    EXPECT_NEAR(harmonic.solve(1).top.e_star_pa / e, 1, 1e-8);  // the residuals of the two solvers are different
   }
 }
 
@@ -110,7 +110,7 @@ TEST_P(VoidsInSteps, AgreeWithTheReference) {
   options.precision = std::get<Precision>(GetParam());
   const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
   reference->advance(100), stepper->advance(100);
-  // Rounding accumulates over 100 steps.
+  // The tolerance allows for rounding errors that accumulate over 100 steps.
   const double loose = options.precision == Precision::double_ ? 1e-9 : 1e-3;
   EXPECT_LT(relative_difference(stepper->particles().displacement, reference->particles().displacement), loose);
 }
@@ -198,7 +198,7 @@ void expect_sound(const SpecimenSpec& spec, const GeneratedSpecimen& made, doubl
   for (std::size_t i = 0; i < s.size(); ++i) solid += s.phase[i] == Phase::mastic ? volume_of(s.radius[i]) : 0;
   const double box = spec.box.volume();
   EXPECT_NEAR(air / box, fraction, volume_of(0.0012) / box);
-  // The porosity refers to the volume without voids. The tolerance is the volume of the last sphere.
+  // The porosity is the fraction of pores in the volume without voids. The tolerance is the volume of the last sphere.
   EXPECT_NEAR(solid / box, 0.95 * (1 - fraction), volume_of(0.001) / box);
   EXPECT_EQ(made.composition.back().name, "voids");
   EXPECT_EQ(made.composition.back().count, static_cast<std::int64_t>(s.voids.size()));
@@ -281,7 +281,7 @@ TEST_F(VoidScenes, TakeTheAirVoidsOfARecipe) {
   const Scene some = scene(recipe, "[specimen.voids]\nradius = [\"0.6 mm\", \"1 mm\"]\nfraction = \"3 %\"\n");
   EXPECT_NEAR((1 - *some.specimen.mastic->porosity) * 0.97, 0.96, 1e-12);
   const MixVolumes asked = volumes_of(*all.recipe);
-  for (const Scene& s : {all, some}) {  // the solid volumes equal the mix design's, with or without voids
+  for (const Scene& s : {all, some}) {  // with or without voids, the solid volumes are those of the mix design
     const GeneratedSpecimen made = generate_specimen(s.specimen);
     const double rounding = volume_of(0.001) / s.specimen.box.volume();
     EXPECT_NEAR(made.composition[0].fraction, asked.classes[0].volume, rounding);

@@ -43,7 +43,7 @@ TEST_F(BenchCommand, WritesWhatItTimedAsGoogleBenchmarkDoes) {
     EXPECT_EQ(number, 3) << name;
     EXPECT_HAS(outcome.out, name);
   }
-  std::vector<double> shares;  // time of the two parts of a step over the time of the whole step
+  std::vector<double> shares;  // time of the two parts of a step divided by the time of the whole step
   for (const json& entry : all["benchmarks"]) {
     if (!std::string(entry["name"]).starts_with("step/") || entry["run_type"] == "aggregate") continue;
     const double step = entry["real_time"].get<double>(), contacts = entry["contacts"];
@@ -53,15 +53,15 @@ TEST_F(BenchCommand, WritesWhatItTimedAsGoogleBenchmarkDoes) {
     EXPECT_GT(parts, 0) << entry;
     shares.push_back(parts / step);
   }
-  // Other work on the machine disturbs a repetition of 2 ms, so a single ratio means nothing. The median of all ratios
-  // does.
+  // Other work on the machine disturbs a repetition of 2 ms, so a single ratio is not reliable. The test uses the
+  // median of all ratios.
   ASSERT_EQ(shares.size(), 2u * 3 * 2 * 3);  // scenes × precisions × geometries × repetitions
   std::ranges::nth_element(shares, shares.begin() + shares.size() / 2);
   EXPECT_GT(shares[shares.size() / 2], 0.2);
   EXPECT_LT(shares[shares.size() / 2], 5);
 }
 
-/// The preparation row lists its four parts, which add up to its time.
+/// The row of the preparation lists the times of its four parts, which add up to the time of the row.
 TEST_F(BenchCommand, TimesWhatComesBeforeAStep) {
   const Outcome outcome =
       bench("lattice:500 --only preparation --precision double --geometry fixed --json " + path("now.json"));
@@ -143,8 +143,8 @@ TEST(BenchComparison, TakesNoiseForNoise) {
   EXPECT_TRUE(bench::compare(row({1}), {{.name = "b", .label = "", .seconds = {1}, .counters = {}}}).empty());
 }
 
-// A face-centred lattice is a normal network: twelve contacts per inner particle, walls at two ends, and every contact
-// in the rows.
+// The face-centred lattice of the benchmark is a normal contact network: an inner particle has twelve contacts, walls
+// are at two ends, and the rows list every contact.
 TEST(BenchLattice, IsANetwork) {
   const bench::BenchCase lattice = bench::lattice(4000, true);
   const std::size_t n = lattice.specimen.size();

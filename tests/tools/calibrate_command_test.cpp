@@ -91,7 +91,7 @@ TEST_F(CalibrateCommand, OnlyTheValuesOfTheTextChange) {
 }
 
 /// Finds the modulus that bench/results/aggregate-cube.csv lists for this cube. The listed modulus was found by the
-/// secant method from two solutions.
+/// secant method from two solves of the cube.
 TEST_F(CalibrateCommand, TheCubeOfAggregateGivesItsInnerModulus) {
   const std::string cube = MACADAM_EXAMPLES "/aggregate_cube";
   const Outcome outcome = macadam(fmt::format(
@@ -101,7 +101,7 @@ TEST_F(CalibrateCommand, TheCubeOfAggregateGivesItsInnerModulus) {
   EXPECT_NEAR(found()["parameters"][0]["value"].get<double>() / 105.45e9, 1, 1e-4);
 }
 
-/// A generated specimen is calibrated over several seeds; the calibrated scene keeps the first.
+/// A specimen that is generated from seeds is calibrated with several seeds. The calibrated scene keeps the first seed.
 TEST_F(CalibrateCommand, GeneratedSpecimensTakeSeeds) {
   write(folder_ / "scene.toml",
         "[specimen]\nbox = [0.008, 0.008, 0.011]\n[specimen.mastic]\nradius = [0.75e-3, 1e-3]\nporosity = 0.05\n"

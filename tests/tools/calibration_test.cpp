@@ -21,7 +21,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Returns the scene of the 175 particles of t8 with the laws of binder AM1, of which two follow temperature.
+/// Returns the scene of the small specimen t8 (175 particles) with the contact laws of binder AM1. Two of these laws
+/// depend on temperature.
 Scene t8_scene(bool inertia = false) {
   Scene scene;
   scene.file = "t8";
@@ -68,7 +69,7 @@ CalibrationOptions freeing(const std::vector<std::string>& names) {
   return out;
 }
 
-/// Multiplies the moduli and viscosities of a pair's law by `delta`.
+/// Multiplies the moduli and viscosities of the law of a pair type by `delta`.
 void scale(Scene& scene, PairType pair, double delta) {
   auto& law = std::get<laws::GeneralisedKelvin>(*scene.laws[static_cast<std::size_t>(pair)]);
   law.E_m *= delta, law.C_m *= delta;
@@ -84,7 +85,7 @@ std::string message_of(const std::function<void()>& f) {
 }
 #define EXPECT_SAYS(what, part) EXPECT_NE(message_of(what).find(part), std::string::npos) << message_of(what)
 
-/// Cases: with or without inertia, on each backend.
+/// Runs the tests with and without inertia, on each backend.
 class Truth : public testing::TestWithParam<std::tuple<bool, Backend>> {
  protected:
   static Scene t8() {
@@ -99,7 +100,8 @@ INSTANTIATE_TEST_SUITE_P(Calibration, Truth, testing::Combine(testing::Bool(), t
                                   to_string(std::get<1>(info.param));
                          });
 
-/// Four parameters are recovered to 1e-6 from exact data, for both misfits, within a dozen solutions.
+/// Calibration recovers four parameters to 1e-6 from exact data, for both misfits, with at most a dozen solves of the
+/// model.
 TEST_P(Truth, IsRecovered) {
   Scene truth = t8();
   scale(truth, PairType::ma, 1.68);
@@ -137,7 +139,7 @@ TEST_P(Truth, OfClustersIsRecovered) {
   EXPECT_NEAR(c.parameters[1].value / 1.125e11, 0.6, 0.6e-6);
 }
 
-/// Two factors on moduli are recovered in fewer than seven solutions.
+/// Calibration recovers two factors on moduli with fewer than seven solves of the model.
 TEST_P(Truth, OfTwoFactorsTakesFewTrials) {
   Scene truth = t8();
   scale(truth, PairType::ma, 1.68);
@@ -179,9 +181,9 @@ TEST(Calibration, DeviationsAreThoseOfNoise) {
   }
 }
 
-/// A parameter has the value 3 and one or two measurements, which are proportional to it. If the data state no
-/// deviations, the misfit, here 50, gives the scale of the errors, provided that there are more measurements than
-/// parameters.
+/// The model has one parameter with the value 3, and one or two measurements that are proportional to it. If the data
+/// state no standard deviations, calibration takes the scale of the errors from the misfit, here 50. It can do so only
+/// if there are more measurements than parameters.
 TEST(Calibration, DeviationsFollowTheMisfitWhereNoneAreStated) {
   const auto deviation = [](bool stated, std::size_t measurements) {
     Calibration c;
@@ -213,7 +215,7 @@ TEST(Calibration, ResidualsOfThePartsAreInTheirStandardDeviations) {
   const double storage = 1e10 * std::sqrt(0.04 * 0.04 + 0.06 * 0.06),
                loss = 1e10 * std::sqrt(0.03 * 0.03 + 0.08 * 0.08);
   ASSERT_EQ(residuals.size(), 2u);
-  // The differences are a few hundredths of moduli that are accurate to about 1e-16.
+  // The residuals are differences of moduli, a few hundredths of these moduli. The moduli are accurate to about 1e-16.
   EXPECT_NEAR(residuals[0] / (3e8 / storage), 1, 1e-13);
   EXPECT_NEAR(residuals[1] / (-2e8 / loss), 1, 1e-13);
   const double expected[] = {3e9 / storage, -2e9 / storage, 1e9 / loss, 5e8 / loss};
@@ -270,12 +272,12 @@ TEST(Calibration, ASceneWithoutAFileIsRefusedBeforeFilesAreWritten) {
   fs::remove_all(out);
 }
 
-/// Only the product of A-W.E and A-W.delta enters the moduli, so calibration reports their combination as undetermined.
-/// A prior for one of them makes both known.
+/// The moduli depend only on the product of A-W.E and A-W.delta, so calibration reports that the two cannot be told
+/// apart. If one of them has a prior, both are determined.
 TEST(Calibration, WhatCannotBeToldApartIsNamed) {
   const ModulusData data = measured(t8_scene(), {0.1, 2, 20});
   CalibrationOptions known = freeing({"A-W.E", "A-W.delta", "M-M.delta"});
-  // walls contribute little to |E*|, so accurate measurements are needed
+  // contacts with walls contribute little to |E*|, so accurate measurements are needed
   known.e_star_deviation = 1e-3, known.phase_deviation = 0.05;
   const Calibration c = calibrate(t8_scene(), data, known);
   ASSERT_EQ(c.combinations.size(), 1u);
@@ -309,7 +311,8 @@ TEST(Calibration, WhatIsHardlyDeterminedIsNamedWithItsFactor) {
   EXPECT_NEAR(factor / std::exp(1.96 * c.combinations[0].deviation), 1, 0.05) << "two digits are written";
 }
 
-/// Data of a laboratory: five temperatures, six frequencies. Fewer than seven solutions keep the time short.
+/// Uses as many data as a laboratory measures: five temperatures and six frequencies. Fewer than seven solves of the
+/// model keep the time short.
 TEST(Calibration, ManyMeasurementsTakeFewSolutions) {
   Scene start = t8_scene();
   for (const PairType pair : {PairType::mm, PairType::ma})
@@ -323,8 +326,8 @@ TEST(Calibration, ManyMeasurementsTakeFewSolutions) {
   EXPECT_LT(c.solutions, 7);
 }
 
-/// A parameter at its bound counts as given. The other parameter then has the value and deviation of a calibration in
-/// which the first is fixed.
+/// A parameter at its bound counts as given. The second parameter then gets the same value and standard deviation as in
+/// a calibration in which the first parameter is fixed.
 TEST(Calibration, AParameterAtItsBoundIsAsIfGiven) {
   Scene truth = t8_scene();
   scale(truth, PairType::ma, 3), scale(truth, PairType::mm, 0.9);
@@ -341,7 +344,8 @@ TEST(Calibration, AParameterAtItsBoundIsAsIfGiven) {
   EXPECT_NEAR(bounded.parameters[1].deviation / alone.parameters[0].deviation, 1, 1e-2);
 }
 
-/// With two seeds the fit compares the mean modulus of both specimens with the target and reports their scatter.
+/// With two seeds there are two specimens. Calibration compares the mean of their moduli with the target, and reports
+/// the scatter between them.
 TEST(Calibration, SeedsAreAveraged) {
   Scene scene = t8_scene();
   scene.specimen = {};
@@ -365,7 +369,7 @@ TEST(Calibration, SeedsAreAveraged) {
   EXPECT_GT(both.points[0].e_star_scatter, 1e-4);
   const double missed = both.points[0].e_star_pa / data.points[0].e_star_pa - 1;
   EXPECT_LT(std::abs(missed), 0.03) << "walls do not follow M-M";
-  ModulusData again = data;  // the fit's own prediction must be recovered
+  ModulusData again = data;  // data that the fit itself predicted; calibration must recover them
   again.points[0].e_star_pa = both.points[0].e_star_pa, again.points[0].phase_deg = both.points[0].phase_deg;
   EXPECT_NEAR(calibrate(scene, again, options).parameters[0].value / both.parameters[0].value, 1, 1e-6);
 
@@ -417,7 +421,8 @@ TEST(Calibration, TargetsWithoutSenseAreRefused) {
   EXPECT_NE(with([](ModulusData& d) { d.points[0].phase_deg = std::nan(""); }).find("measurement 1"),
             std::string::npos);
   EXPECT_NE(with([](ModulusData& d) { d.points.clear(); }).find("measurements: found none"), std::string::npos);
-  // M-A contacts alone can neither make the specimen stiffer than all other contacts together, nor soft like a fluid.
+  // If only M-A contacts may change, the specimen can neither be stiffer than all other contacts together, nor as soft
+  // as a fluid.
   for (const double factor : {1e3, 1e-3}) {
     const std::string said = with([&](ModulusData& d) {
       for (ModulusPoint& p : d.points) p.e_star_pa *= factor;

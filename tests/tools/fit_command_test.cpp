@@ -71,7 +71,8 @@ TEST_F(FitCommand, TheCovarianceMatrixIsSquareAndHasTheDeviations) {
   ASSERT_EQ(matrix.size(), parameters.size());
   for (const auto& row : matrix) ASSERT_EQ(row.size(), matrix.size());
   for (std::size_t i = 0; i < matrix.size(); ++i) {
-    // An entry is a sum of a few terms, none of which is larger than the root of the product of both variances.
+    // An entry of the matrix is a sum of a few terms. No term is larger than the square root of the product of the two
+    // variances.
     for (std::size_t k = 0; k < i; ++k)
       EXPECT_NEAR(matrix[i][k], matrix[k][i], 1e-14 * std::sqrt(matrix[i][i] * matrix[k][k])) << i << " " << k;
     const bool logarithmic = of[i].get<std::string>().starts_with("ln ");
@@ -87,7 +88,7 @@ TEST_F(FitCommand, TheCurveReachesHalfADecadeBeyondTheData) {
   const std::vector<double> data = column("fit.csv", 3), curve = column("curve.csv", 0);  // reduced frequencies
   const auto [lowest, highest] = std::minmax_element(data.begin(), data.end());
   ASSERT_GT(curve.size(), 2u);
-  // Rounding of a few products.
+  // Each value is a product of a few factors; the tolerance is their rounding.
   EXPECT_NEAR(curve.front() / (*lowest / std::sqrt(10.0)), 1, 1e-14);
   EXPECT_NEAR(curve.back() / (*highest * std::sqrt(10.0)), 1, 1e-14);
 }
@@ -110,7 +111,7 @@ TEST_F(FitCommand, ShearModuliTakePoissonsRatio) {
   const json found = json::parse(read(folder_ / "law" / "fit.json"));
   EXPECT_NEAR(found["law"]["E_m_pa"].get<double>(), 2.5e9, 25);  // 2·(1 + 0.25)·1e9, accurate to 1e-8
   EXPECT_EQ(found["deviations"], "of the data");
-  // Three measurements with 1 % each: the mean has 1 %/√3.
+  // Each of the three measurements has a standard deviation of 1 %, so their mean has 1 %/√3.
   EXPECT_NEAR(found["parameters"][0]["standard_deviation"].get<double>(), 2.5e9 * 0.01 / std::sqrt(3.0), 1e3);
 }
 
@@ -140,8 +141,8 @@ TEST_F(FitCommand, AModelBecomesAChain) {
   }
 }
 
-/// The isotherms are far apart, so the least-squares iteration meets shifts without a finite modulus. It must not print
-/// anything about them.
+/// The isotherms are far apart, so the least-squares iteration tries shifts for which the modulus is not finite. The
+/// command must not print anything about these shifts.
 TEST_F(FitCommand, NothingIsSaidBesideTheFit) {
   data(
       "frequency_hz,temperature_c,e_star_pa,phase_deg\n"
@@ -159,15 +160,16 @@ TEST_F(FitCommand, NothingIsSaidBesideTheFit) {
     EXPECT_EQ(outcome.code, 0) << shift;
     EXPECT_EQ(outcome.err, "") << shift;
     const json found = json::parse(read(folder_ / "law" / "fit.json"));
-    // The noise is 1 %. With nine measurements a free shift has one parameter more, so the criterion chooses one unit
-    // less.
+    // The noise of the data is 1 %. There are nine measurements, and a free shift has more parameters than the
+    // Arrhenius law. So with a free shift the criterion chooses one Kelvin unit less, and the error is larger.
     EXPECT_LT(found["errors"]["e_star_rms"], std::string(shift) == "free" ? 0.05 : 0.02) << shift;
   }
   data("frequency_hz,e_star_pa,phase_deg\n1,1e9,80\n2,5e8,10\n3,2e9,89\n4,1e8,1\n5,3e9,45\n6,1e9,30\n");
   EXPECT_HAS(fit().out, "warning: the fit misses |E*| by");
 }
 
-/// If no chain approximates the fitted model to the requested error, the fit itself is still written, but no law.
+/// If no chain of Kelvin units approximates the fitted model to the requested error, the command still writes the fit,
+/// but no law.
 TEST_F(FitCommand, AModelThatNoChainReachesIsWrittenAllTheSame) {
   fs::copy_file(example, folder_ / "data.csv");
   write(folder_ / "law" / "fit.json", "{}");

@@ -15,8 +15,8 @@ namespace {
 
 const AnalogueModel binder{0, 2.4e9, 0.24, 0.62, 3.4, 2e-4, 90};
 
-/// Returns moduli over two decades at each temperature. The standard deviation of their noise is `noise` times 3 % and
-/// 1 degree.
+/// Returns moduli over two decades of frequency at each temperature, with noise. The standard deviations of the noise
+/// are `noise` times 3 % of the modulus and `noise` times 1 degree of the phase.
 ModulusData measured(const std::vector<double>& temperatures, double noise, unsigned seed, int frequencies = 7,
                      const laws::Shift& shift = laws::Wlf{13.5, 140, 20}) {
   std::mt19937_64 random(seed);
@@ -42,14 +42,14 @@ bool has_warning(const Fit& fit, const std::string& part) {
   return false;
 }
 
-/// Expects that the misfit of the larger chain is not above the misfit of the smaller chain. An element that is not
-/// needed lies at its limit, at which a spring still changes |E*| by e^-12 = 6e-6. In each residual this is 2e-4 of the
-/// standard deviation of 3 %.
+/// Expects that the misfit of the larger chain of elements is not above the misfit of the smaller chain. If the larger
+/// chain does not need an element, the parameter of this element lies at its bound. A spring at the bound still changes
+/// |E*| by the fraction e^-12 = 6e-6. This is 2e-4 of the standard deviation (3 %) of a residual.
 void expect_not_above(double larger, double smaller, std::size_t residuals, const std::string& what) {
   EXPECT_LE(std::sqrt(larger), std::sqrt(smaller) + 2e-4 * std::sqrt(static_cast<double>(residuals))) << what;
 }
 
-/// A chain with more units, or with flow, never fits worse than a chain that it contains.
+/// A chain with more Kelvin units, or with flow, never fits worse than a chain of which it is an extension.
 TEST(FitOptimum, AChainNeverFitsWorseThanOneThatItContains) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const ModulusData data = measured({-20, -5, 10, 25, 40, 55, 70}, seed % 2 ? 0.2 : 1, seed);
@@ -98,22 +98,22 @@ TEST(FitOptimum, WlfFitsNoWorseThanArrhenius) {
         if (model == FitModel::kelvin) options.units = 3, options.flow = true;
         misfits.push_back(fit_modulus(data, options).misfit);
       }
-      // the conversion from one law to the next is exact except for rounding
+      // converting one shift law to the next is exact except for rounding
       EXPECT_LE(misfits[1], misfits[0] * (1 + 1e-9)) << fmt::format("seed {} {}", seed, to_string(model));
       EXPECT_LE(misfits[2], misfits[1] * (1 + 1e-9)) << fmt::format("seed {} {}", seed, to_string(model));
     }
   }
 }
 
-/// Expects that the laws at two reference temperatures differ only in their times: those of `found` are `a` times those
-/// of `first`.
+/// Expects that the laws fitted at two reference temperatures differ only in their times: the times of `found` are `a`
+/// times the times of `first`.
 void expect_rescaled(const laws::GeneralisedKelvin& found, const laws::GeneralisedKelvin& first, double a,
                      const std::string& what) {
   ASSERT_EQ(found.units(), first.units()) << what;
   EXPECT_DOUBLE_EQ(found.E_m, first.E_m) << what;
   EXPECT_EQ(std::isfinite(found.C_m), std::isfinite(first.C_m)) << what;
-  // The logarithms of a viscosity (about 20) and of a_T are added. The sum is below 50, so its rounding error is 1e-15
-  // of 50.
+  // The fit adds the logarithms of a viscosity (about 20) and of a_T. Their sum is below 50, so its rounding error is
+  // about 1e-15·50 = 5e-14.
   if (std::isfinite(first.C_m)) { EXPECT_NEAR(found.C_m / (a * first.C_m), 1, 1e-12) << what; }
   for (std::size_t l = 0; l < first.E.size(); ++l) {
     EXPECT_DOUBLE_EQ(found.E[l], first.E[l]) << what;
@@ -129,7 +129,8 @@ TEST(FitOptimum, AnotherReferenceTemperatureRescalesTimeAndNothingElse) {
       std::optional<Fit> first;
       std::optional<KelvinConversion> first_chain;
       for (const double reference : {5.0, -10.0, 50.0, 24.3}) {
-        if (shift == ShiftKind::free && reference == 24.3) continue;  // was not measured, so a free shift cannot use it
+        // this temperature was not measured, so a free shift cannot use it as reference
+        if (shift == ShiftKind::free && reference == 24.3) continue;
         FitOptions options;
         options.model = model, options.shift = shift, options.reference_temperature = reference, options.most_units = 4;
         const Fit fit = fit_modulus(data, options);
@@ -139,7 +140,8 @@ TEST(FitOptimum, AnotherReferenceTemperatureRescalesTimeAndNothingElse) {
         const double moved = laws::log10_shift(first->shift, reference), a = std::pow(10.0, moved);
         EXPECT_EQ(fit.misfit, first->misfit) << what;
         EXPECT_EQ(fit.chosen, first->chosen) << what;
-        for (const double t : temperatures)  // at most eleven decades; each factor is rounded to 1e-16 of its logarithm
+        // a_T spans at most eleven decades; each factor is rounded to 1e-16 of its logarithm
+        for (const double t : temperatures)
           EXPECT_NEAR(laws::log10_shift(fit.shift, t), laws::log10_shift(first->shift, t) - moved, 1e-11) << what;
         if (model == FitModel::kelvin) {
           expect_rescaled(std::get<laws::GeneralisedKelvin>(fit.model), std::get<laws::GeneralisedKelvin>(first->model),
@@ -165,7 +167,8 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   const std::vector<double> nominal{0, 15, 30};
   ModulusData data = measured(nominal, 0, 1, 9);
   for (std::size_t i = 0; i < data.points.size(); ++i)
-    data.points[i].temperature_c += 0.1 * static_cast<double>(i % 5) - 0.2;  // as an instrument records them
+    // small differences, as an instrument records them
+    data.points[i].temperature_c += 0.1 * static_cast<double>(i % 5) - 0.2;
   FitOptions options;
   options.shift = ShiftKind::free;
   options.units = 4;
@@ -175,12 +178,13 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   ASSERT_EQ(table.temperatures.size(), nominal.size());
   for (std::size_t i = 0; i < nominal.size(); ++i) EXPECT_NEAR(table.temperatures[i], nominal[i], 0.2);
   EXPECT_EQ(table.log10_a_T[1], 0);
-  // log10 a_T = 13.5·(T − 15)/(…) is 1.4 and −1.2 at the nominal temperatures. The chain of four units misfits by a few
-  // per cent.
+  // At the nominal temperatures log10 a_T is 1.4 and −1.2, see WLF below. The misfit of the chain of four Kelvin units
+  // is a few per cent.
   const laws::Shift truth = laws::Wlf{13.5, 140, 20};
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}})
     EXPECT_NEAR(table.log10_a_T[i], laws::log10_shift(truth, nominal[i]) - laws::log10_shift(truth, 15), 0.1);
-  options.reference_temperature = 15.3;  // within tenths of the readings, so the isotherm gets this temperature
+  // differs by tenths of a degree from the readings, so the isotherm gets this temperature
+  options.reference_temperature = 15.3;
   const Fit named = fit_modulus(data, options);
   EXPECT_EQ(named.options.reference_temperature, 15.3);
   EXPECT_EQ(std::get<laws::ShiftTable>(named.shift).temperatures[1], 15.3);
@@ -193,7 +197,8 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   EXPECT_NO_THROW(fit_modulus(data, options)) << "one isotherm needs no shift";
 }
 
-/// A ramp of temperature has no isotherms, so a free shift is refused and a shift law is fitted.
+/// If the temperature rises steadily, there are no isotherms. So a free shift is refused, and a shift law can be
+/// fitted.
 TEST(FitOptimum, ARampOfTemperatureTakesAShiftLaw) {
   std::vector<double> ramp;
   for (int i = 0; i <= 100; ++i) ramp.push_back(0.4 * i);
@@ -211,7 +216,7 @@ TEST(FitOptimum, OneMeasurementFarOffTheFitIsNamed) {
   FitOptions options;
   options.shift = ShiftKind::wlf;
   EXPECT_FALSE(has_warning(fit_modulus(data, options), "off the fit"));
-  data.points[9].phase_deg = 85;  // 40 degrees above the others
+  data.points[9].phase_deg = 85;  // 40 degrees above the phases of all other points
   data.points[9].line = 12;
   EXPECT_TRUE(has_warning(fit_modulus(data, options),
                           "1 of 28 measurements lie more than 5 standard deviations off the fit: line 12: phase 85"));

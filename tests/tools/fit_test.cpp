@@ -50,8 +50,8 @@ double largest_difference(const Fit& fit, const Model& model, double low, double
   return out;
 }
 
-/// Adds noise with a standard deviation of 3 % in the modulus and 1 degree in the phase; `deviations` says whether the
-/// data state it.
+/// Adds noise with a standard deviation of 3 % in the modulus and 1 degree in the phase. `deviations` says whether the
+/// data state these standard deviations.
 ModulusData noisy(ModulusData data, std::mt19937_64& random, bool deviations) {
   std::normal_distribution<double> normal;
   data.deviations = deviations;
@@ -67,7 +67,7 @@ ModulusData noisy(ModulusData data, std::mt19937_64& random, bool deviations) {
 const AnalogueModel mixture{8e7, 3.5e10, 0.18, 0.56, 2.1, 0.08, 250};
 
 TEST(Fit, CurvesOfThePapersLawsComeBack) {
-  // Two of AM2's three units have the same retardation time, 0.0927 s, so two units give the same curve.
+  // Two of AM2's three Kelvin units have the same retardation time, 0.0927 s, so two units give the same curve.
   for (const auto& [law, units] : {std::pair{mastic_am1(), 3}, {mastic_am2(), 2}}) {
     const Fit fit = fit_modulus(measured(law, frequencies(1e-3, 1e3, 31)));
     EXPECT_EQ(std::get<laws::GeneralisedKelvin>(fit.model).units(), units);
@@ -91,8 +91,8 @@ TEST(Fit, BicAndNumbersOfUnitsThatAreGiven) {
   EXPECT_FALSE(std::isfinite(std::get<laws::GeneralisedKelvin>(fit_modulus(data, options).model).C_m));
 }
 
-/// AM1 has three units. If at most one is allowed, the criterion chooses one and the fit warns that it would take more.
-/// If one was requested, there is no warning.
+/// AM1 has three Kelvin units. If at most one is allowed, the criterion chooses one, and the fit warns that the
+/// criterion would choose more. If the user requests exactly one, there is no warning.
 TEST(Fit, MoreUnitsAreWantedOnlyWhereTheCriterionChoseTheMost) {
   const ModulusData data = measured(mastic_am1(), frequencies(1e-3, 1e3, 31));
   const auto warned = [&](const FitOptions& options) {
@@ -121,8 +121,8 @@ TEST(Fit, NumbersOfUnitsBeyondALawsAreRefused) {
   }
 }
 
-/// n = 20 numbers and p = 3 parameters, so n − p − 1 = 16. If no deviations are stated, the size of the errors is one
-/// more parameter.
+/// There are n = 20 numbers and p = 3 parameters, so n − p − 1 = 16. If the data state no standard deviations, the size
+/// of the errors is one more parameter.
 TEST(Fit, CriteriaAreThoseOfTheirFormulae) {
   EXPECT_DOUBLE_EQ(fitting::criterion(Criterion::aicc, 7, 20, 3, true), 7 + 6 + 24.0 / 16);
   EXPECT_DOUBLE_EQ(fitting::criterion(Criterion::bic, 7, 20, 3, true), 7 + 3 * std::log(20.0));
@@ -221,7 +221,8 @@ void expect_equal(const AnalogueModel& found, const AnalogueModel& truth) {
   EXPECT_LT(relative(found.h, truth.h), 1e-4);
   EXPECT_LT(relative(found.delta, truth.delta), 1e-4);
   EXPECT_LT(relative(found.tau, truth.tau), 1e-4);
-  EXPECT_TRUE(found.beta == truth.beta || relative(found.beta, truth.beta) < 1e-4);  // both infinite, or nearly equal
+  // both values are infinite, or they are nearly equal
+  EXPECT_TRUE(found.beta == truth.beta || relative(found.beta, truth.beta) < 1e-4);
 }
 
 TEST(Fit, ParametersOfAnaloguesComeBack) {
@@ -262,8 +263,8 @@ TEST(Fit, AChainStandsForAnAnalogueWithinTheStatedError) {
   EXPECT_HAS(message_of([&] { to_kelvin(mixture, -1, 10, 0.01); }), "-1 to 10 Hz");
 }
 
-/// A parameter between limits that are 100 apart counts as lying at a limit if it is within 1e-6 of this range from it;
-/// then it is not determined.
+/// The limits of the parameter are 100 apart. If the parameter is within 1e-6 of this range from a limit, it counts as
+/// lying at the limit, and is not determined.
 TEST(Fit, AParameterNearItsBoundIsNotDetermined) {
   const fitting::Unknowns spring;
   const auto determined = [&](double log_modulus) {
@@ -271,7 +272,7 @@ TEST(Fit, AParameterNearItsBoundIsNotDetermined) {
     target.place.omega = 1;
     target.log_modulus = log_modulus;
     const fitting::Minimum found = fitting::refine(spring, {target}, {{20, 120}}, {70});
-    // one linear unknown; the iteration ends at steps of 1e-12 of it
+    // there is one linear unknown; the iteration ends when a step is below 1e-12 of it
     EXPECT_NEAR(found.theta.at(0), log_modulus, 1e-9);
     return found.determined;
   };
@@ -281,8 +282,8 @@ TEST(Fit, AParameterNearItsBoundIsNotDetermined) {
   EXPECT_FALSE(determined(120 - 5e-5));
 }
 
-// A unit so stiff that it changes |E*| by only 1e-13 of the spring's part is not determined, whatever the standard
-// deviations of the residuals.
+// A Kelvin unit so stiff that it changes |E*| by only 1e-13 of the spring's contribution is not determined, whatever
+// the standard deviations of the residuals are.
 TEST(Fit, WhatTheDataDoNotDetermineIsMarked) {
   const fitting::Unknowns chain{FitModel::kelvin, 1, false};
   const auto undetermined = [&](double stiff, double deviation) {

@@ -28,7 +28,7 @@ void expect_the_two(const ModulusData& data, const std::string& what) {
   EXPECT_TRUE(data.temperatures) << what;
   const double frequencies[] = {1.5, 10}, moduli[] = {2.5e9, 5e9}, phases[] = {30.5, 20};
   for (std::size_t i = 0; i < 2; ++i) {
-    // Products of two or three rounded factors.
+    // Each number is a product of two or three rounded factors; the tolerance is their rounding.
     EXPECT_NEAR(data.points[i].frequency_hz / frequencies[i], 1, 1e-14) << what;
     EXPECT_NEAR(data.points[i].e_star_pa / moduli[i], 1, 1e-14) << what;
     EXPECT_NEAR(data.points[i].phase_deg, phases[i], 1e-12) << what;

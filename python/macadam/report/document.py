@@ -90,8 +90,8 @@ def _title(folders: list[Folder]) -> str:
 
 
 def _name(folder: Folder) -> str:
-    """Returns the name of the scene's file, or of its folder if the file is called scene.toml. If the folder has no
-    scene, returns its label."""
+    """Returns the name of the scene's file or, if the file is called scene.toml, the name of the folder that contains
+    the file. If the result folder names no scene, returns the label of the result folder."""
     scene = Path(str(folder.summary.get("scene") or ""))
     name = scene.parent.name if scene.stem == "scene" else scene.stem
     return name or folder.label
@@ -171,8 +171,8 @@ def _strength(f: Folder) -> str:
 
 
 def _broken(result: dict[str, Any]) -> str:
-    """Returns how many contact points broke, by pair, in a sentence; empty if no law can break. `result` has the
-    `cracks` of a test or of one frequency."""
+    """Returns a sentence that says how many contact points broke, by pair; empty if no law can break. `result` contains
+    the `cracks` of a test or of one frequency."""
     pairs = {pair: c for pair, c in (result.get("cracks") or {}).items() if c["points"]}
     if "cracks" not in result:
         return ""

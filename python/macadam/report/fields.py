@@ -20,8 +20,8 @@ from macadam.report.page import Page
 
 MOST = 4  # largest number of folders whose fields are drawn
 STRONGEST = 0.06  # fraction of the contacts that is drawn, those with the largest forces
-# For each kind of file: names of arrays, of which the first that the file has is drawn; the factor by which the numbers
-# of this array are multiplied; its label, with unit
+# For each kind of file: the names of arrays (the first one that the file has is drawn), a factor for the numbers of
+# this array, and its label with the unit
 _SHOWN = {
     "particles": (("displacement_amplitude", "displacement"), 1e6, "displacement (µm)"),
     "contacts": (("normal_force_amplitude", "normal_force"), 1.0, "normal force (N)"),
@@ -61,8 +61,8 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def cannot_draw() -> str:
-    """Returns why pictures of fields cannot be drawn on this machine; empty if they can. This is tried in a separate
-    process, because VTK ends the process if no OpenGL library can draw without a screen."""
+    """Returns why pictures of fields cannot be drawn on this machine; empty if they can. A separate process tries to
+    draw, because VTK ends its process if no OpenGL library can draw without a screen."""
     if importlib.util.find_spec("pyvista") is None:
         return "the Python package PyVista is not installed"
     line = "import pyvista as p; t = p.Plotter(off_screen=True); t.add_mesh(p.Cube()); t.screenshot(return_img=True)"
@@ -74,8 +74,8 @@ def cannot_draw() -> str:
 
 
 def _files(folder: Folder) -> dict[str, Path]:
-    """Returns one file of particles and one file of contacts, by kind: the file of the lowest frequency. If that is a
-    series of .vtp files, returns the last frame."""
+    """Returns one file of particles and one file of contacts, by kind, for the lowest frequency. If a series of .vtp
+    files was written, returns the last frame of the series."""
     chosen = {}
     for kind in _SHOWN:
         files = [p for end in ("vtkhdf", "vtp") for p in (folder.path / "fields").glob(f"{kind}*.{end}")]
@@ -119,7 +119,7 @@ def figure(
     values = (data.point_data if of_points else data.cell_data)[name]
     values = factor * (np.linalg.norm(values, axis=1) if values.ndim > 1 else np.asarray(values, float))
     (data.point_data if of_points else data.cell_data)["shown"] = values
-    # not the maximum: a few very large values would hide the others
+    # not the maximum: with a few very large values, all other values would have the same colour
     low, high = limits or (float(values.min()), float(np.quantile(values, 0.999)))
     words, box = [f"{label or name}, {Path(file).name}"], data.bounds
     if half:

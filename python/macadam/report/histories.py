@@ -15,8 +15,8 @@ from macadam.report.modulus import decades
 from macadam.report.page import Page
 
 
-# Adds a section for each kind of test in time, and one for Prony series. A kind without a drawing of its own gets the
-# general one.
+# Adds a section for each kind of test in time, and one section for Prony series. A kind of test without its own
+# drawing gets the drawing that fits every test.
 def add(page: Page, folders: list[Folder]) -> None:
     with_points = [f for f in folders if f.kind == "run" and f.in_time and f.in_time.get("points")]
     kinds = {f.in_time["kind"] for f in with_points}
@@ -41,12 +41,12 @@ def _points(folder: Folder, *keys: str) -> list[np.ndarray]:
 
 
 def _errors(folder: Folder) -> np.ndarray:
-    """Returns the relative error of each point: the point's own error in a stepped test, otherwise the error of the
-    test."""
+    """Returns the relative error of each point. In a stepped test each point has its own error; otherwise all points
+    have the error of the test."""
     error_of_test = folder.in_time.get("error") or 0
     errors = np.array([float(p.get("error") or error_of_test) for p in folder.in_time["points"]])
     if folder.in_time.get("rupture"):
-        errors[-1] = 0  # the specimen is in two pieces, without equilibrium, so the difference is not an error
+        errors[-1] = 0  # the specimen is in two pieces and not in equilibrium, so the difference is not an error
     return errors
 
 
@@ -55,7 +55,8 @@ def _is_stepped(folder: Folder) -> bool:
 
 
 def _bars(folder: Folder) -> np.ndarray:
-    """Returns the error bars of a stepped test, and NaN for other tests, whose bars would be smaller than the line."""
+    """Returns the error bars of a stepped test. Returns NaN for other tests: their bars would be smaller than the
+    line."""
     return _errors(folder) if _is_stepped(folder) else np.full(len(folder.in_time["points"]), np.nan)
 
 

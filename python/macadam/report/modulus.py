@@ -88,9 +88,9 @@ def curves(folders: list[Folder]) -> list[Curve]:
 
 
 def error(result: dict[str, Any]) -> tuple[float, float]:
-    """Returns the known error of a result: of |E*| (relative) and of the phase (degrees); NaN if it is unknown. For a
-    stepped result it is the difference from the harmonic solution, for a harmonic result the difference between the
-    reactions of the two walls, which are equal in exact equilibrium."""
+    """Returns the known error of a result: of |E*| (relative) and of the phase (degrees); NaN if it is unknown. The
+    error of a stepped result is the difference from the harmonic solution. The error of a harmonic result is the
+    difference between the reactions of the two walls, which are equal in exact equilibrium."""
     known = result.get("difference_from_harmonic") or result.get("predicted_error")
     if known and known.get("e_star") is not None:
         return abs(known["e_star"]), float(np.degrees(abs(known.get("phase_rad") or 0)))
@@ -103,8 +103,8 @@ def error(result: dict[str, Any]) -> tuple[float, float]:
 
 
 def decades(axis: Any, largest_number: int = 9) -> None:
-    """Labels a logarithmic axis with at most `largest_number` plain numbers. An axis of few decades also has labels between
-    the decades."""
+    """Labels a logarithmic axis with at most `largest_number` plain numbers, not powers of ten. An axis of few decades
+    also gets labels between the decades."""
     low, high = sorted(axis.get_view_interval())
     few = np.log10(high / low) < 2.2
     axis.set_major_locator(LogLocator(base=10, subs=(1, 2, 5) if few else (1,), numticks=largest_number))

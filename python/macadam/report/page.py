@@ -11,7 +11,8 @@ from typing import Any
 
 from macadam.report import look
 
-# The browser may load nothing from elsewhere and run no script, so the file looks the same in ten years.
+# The browser may load nothing from elsewhere and run no script. So the page will look the same
+# in ten years.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 
@@ -25,10 +26,10 @@ class Page:
     """A page with sections in the order in which they were begun. Empty sections are not written."""
 
     def __init__(self, several: bool = False) -> None:
-        self.several = several  # whether there are several folders, so that blocks show the folder's name
+        self.several = several  # whether the page has several folders; if so, each block shows the name of its folder
         self._sections: list[_Section] = []
         self._figures = 0
-        self.left_out: list[tuple[str, str, str]] = []  # folder, what, why
+        self.left_out: list[tuple[str, str, str]] = []  # entries left out of the page: folder, what, why
 
     def section(self, title: str) -> None:
         self._sections.append(_Section(title))

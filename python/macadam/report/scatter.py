@@ -37,7 +37,8 @@ def scatter(curves: list[Curve]) -> list[Seeds]:
     found = []
     for (_, _, temperature, frequency), of in groups.items():
         if len({c.folder.summary["specimen"]["seed"] for c in of}) < max(2, len(of)):
-            continue  # a single seed, or a seed that occurs twice: the runs are not all of different specimens
+            # there is a single seed, or one seed occurs twice, so not all of the runs are of different specimens
+            continue
         e_star, phase = np.array([c.e_star for c in of]), np.array([c.phase for c in of])
         at = "" if temperature is None else f", {temperature:g} °C"
         found.append(

@@ -84,7 +84,7 @@ def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
     base = np.array([to_rgb(of_class[n]) for n in _names(folder).values()] or [to_rgb(look.CLASSES[0])])
     rows = {size_class: row for row, size_class in enumerate(_names(folder))}
     of = np.array([rows.get(classes.get(b), 0) for b in body[grain]], int)
-    # golden ratio: consecutive numbers get different shades
+    # multiples of the golden ratio give consecutive numbers clearly different shades
     shade = 1 + 0.22 * ((body[grain] * 0.6180339887) % 1 - 0.5)
     colour[grain] = np.clip(base[of] * shade[:, None], 0, 1)
     return lambda rows: colour[rows]
@@ -108,9 +108,9 @@ def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarra
     """Returns the particle whose Laguerre cell contains each point (u, v) of a grid in a plane, one row per v: the
     particle with the least power distance |x − c|² − r². centre: (n, 3), u, v and the distance from the plane; metres.
 
-    A sphere's power distance is below a bound only within √(bound + r²) of its centre. So each sphere is compared only
-    with the points within that distance. If no sphere is below the bound at some point, everything is repeated with a
-    bound four times as large."""
+    The power distance of a sphere is below a bound only at points within √(bound + r²) of the centre. So each sphere is
+    compared only with the points within that distance. If at some point no sphere has a power distance below the bound,
+    everything is repeated with a bound four times as large."""
     own = radius**2 - centre[:, 2] ** 2
     bound = 0.25 * float(np.median(radius)) ** 2
     while True:
@@ -201,8 +201,8 @@ def _view() -> np.ndarray:
 
 
 def _block(folder: Folder, box: np.ndarray, paint: Paint) -> Any:
-    """Draws the block that is left after the fraction SAWN is removed from the three visible sides: three pictures of
-    cells, each sheared to the view, in the outline of the box."""
+    """Draws the block that is left after the fraction SAWN is removed from the three visible sides. The drawing
+    consists of three pictures of cells, each sheared to the direction of view, in the outline of the box."""
     turn = _view()
     corners = np.array(list(product(*([0, e] for e in box)))) @ turn.T
     low, high = corners.min(axis=0), corners.max(axis=0)

@@ -13,8 +13,8 @@ from matplotlib.collections import EllipseCollection, LineCollection
 
 from macadam.report import look
 
-# A sphere is drawn as several circles, which together look round. Numbers of each circle: its radius and its shift
-# towards the light, both divided by the sphere's radius, and its brightness.
+# A sphere is drawn as several circles, which together look round. Each circle has three numbers: its radius and
+# its shift towards the light, both divided by the radius of the sphere, and its brightness.
 _SHADES = [(1.0, 0.0, 0.42), (0.955, 0.02, 0.72), (0.82, 0.10, 0.86), (0.62, 0.20, 0.97), (0.36, 0.30, 1.08)]
 _LIGHT = np.array([-0.6, 0.8])
 _MOST = 30_000  # largest number of spheres drawn; if there are more, only the largest spheres are drawn

@@ -19,8 +19,8 @@ Error = Callable[[dict[str, Any]], tuple[float, float]]
 
 
 def add(page: Page, folders: list[Folder], error: Error) -> None:
-    """Adds tables of these folders, all of which have results over frequencies. error: returns the error of a
-    result."""
+    """Adds tables of these folders. All of them have results over frequencies. error: a function that returns the error
+    of a result."""
     if 1 < len(folders) <= ABREAST and not any(_temperatures(f)[1:] for f in folders):
         _abreast(page, folders)
         return
@@ -46,7 +46,7 @@ def _of(folder: Folder) -> str:
     return words + (". The sides are held: this is a confined modulus" if confined else "")
 
 
-# Returns the first ROWS rows, and notes on the page that the others were left out.
+# Returns the first ROWS rows. If there are more rows, notes on the page that they were left out.
 def _cut(page: Page, label: str, rows: list[Any]) -> list[Any]:
     if len(rows) > ROWS:
         page.leave_out(

@@ -35,7 +35,8 @@ def main(arguments: list[str] | None = None) -> int:
     stop = _Stop()
     before = {}
     for number in _SIGNALS:
-        if signal.getsignal(number) is not signal.SIG_IGN:  # nohup sets signals to be ignored; they stay so
+        # nohup makes the process ignore signals; such signals stay ignored
+        if signal.getsignal(number) is not signal.SIG_IGN:
             before[number] = signal.signal(number, stop)
     try:
         return _command(_options(arguments), stop)

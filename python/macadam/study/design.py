@@ -98,7 +98,7 @@ def read_design(source: str | Path | Table, version: str) -> Design:
         base,
     )
     design = Design(folder, run=table_of(asked, "run"), report=table_of(asked, "report"))
-    equal: dict[str, list[Job]] = {}  # jobs with the same scene, by a key in which 1 and 1.0 are the same
+    equal: dict[str, list[Job]] = {}  # jobs with the same scene, by a key that is the same for 1 and 1.0
     for values in points.crossed(sampled, axes | {name: list(of) for name, of in options.items()}):
         chosen = [options[name][value] for name, value in values.items() if name in options]
         factors = Changes("point", {key: value for key, value in values.items() if key not in options})
@@ -111,8 +111,8 @@ def read_design(source: str | Path | Table, version: str) -> Design:
 
 
 def _add(design: Design, job: Job, equal: list[Job]) -> None:
-    """Adds a job to the design. equal: earlier jobs with the same scene; the job then uses their result. A job with the
-    same values and experiment as one of these is not added."""
+    """Adds a job to the design. equal: earlier jobs with the same scene; the new job uses their result. If the new job
+    also has the same values and experiment as one of these earlier jobs, it is not added."""
     if any(normal(job.values) == normal(o.values) and job.experiment == o.experiment for o in equal):
         design.notes.append(f"{job.label}: this point occurs more than once in the study; it has one row in the table")
         return

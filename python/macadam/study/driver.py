@@ -141,8 +141,8 @@ def _compute_all(
     given: concurrent.futures.Executor | None,
     progress: Callable[[int, int, int], None],
 ) -> str:
-    """Computes all results in rounds: jobs that a worker left unfinished when it died are given to new workers in the
-    next round. Returns why results are missing; empty if none are."""
+    """Computes all results in rounds. If a worker dies, its unfinished jobs are given to new workers in the next round.
+    Returns why results are missing; empty if no result is missing."""
     idle = 0
     limits = None if given is not None or design.run.get("on") == "threads" else executors.patience(design.run)
     while idle < _IDLE_ROUNDS:
@@ -176,9 +176,10 @@ def _round(
     said: Callable[[], None],
     patience: tuple[float, float] | None,
 ) -> str:
-    """Submits the jobs and waits until all have ended, or until no worker has been working for longer than `patience`
-    (seconds before the first worker begins, and afterwards; None: waits forever). said: reports progress. Returns the
-    last error of a worker that died or did not start; errors of the program are in the study's folder."""
+    """Submits the jobs and waits until all have ended, or until no worker has been working for longer than `patience`:
+    two times [s], one until the first worker begins and one for afterwards; None: waits forever. said: reports
+    progress. Returns the last error of a worker that died or did not start. Errors of the program are in the study's
+    folder."""
     died = ""
     waiting = {pool.submit(compute, job) for job in jobs}
     locks = [Path(job["folder"]) / "running" / f"{job['key']}.lock" for job in jobs]
@@ -198,7 +199,8 @@ def _round(
                 return died
     except BaseException:  # also KeyboardInterrupt: jobs that still wait must not begin
         for future in waiting:
-            with contextlib.suppress(NotImplementedError):  # Parsl cannot cancel jobs; its workers end with the pool
+            # Parsl cannot cancel jobs; its workers end when the pool is closed
+            with contextlib.suppress(NotImplementedError):
                 future.cancel()
         raise
     return died

@@ -50,14 +50,15 @@ class Quantity:
         return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].size().to_numpy()
 
 
-# Coordinates at which quantities are shown: column of the table, key of [report], default value, unit. Infinity means
-# the largest value.
+# Coordinates at which quantities are shown: column of the table, key of [report], default value, unit. The default
+# infinity means the largest value in the table.
 _AT = (
     ("frequency_hz", "frequency", 10.0, "Hz"),
     ("temperature_c", "temperature", 20.0, "°C"),
     ("time_s", "", np.inf, "s"),
 )
-# column of the table, and name, unit and factor in the report; moduli of 1000 MPa or more are shown in GPa
+# column of the table, and its name, unit and factor in the report; moduli of 1000 MPa or more are shown in
+# GPa
 _SHOWN = (
     ("e_star_pa", "|E*|", "MPa", 1e-6),
     ("phase_deg", "phase angle", "°", 1.0),
@@ -127,14 +128,16 @@ class Effect:
     means: list[float]  # mean of the quantity at each level
     share: float
     errors: list[float] | None = None  # standard errors of the means, from the scatter of seeds; None: it is unknown
-    # half the 95 % interval of the change between the ends, also from the scatter of seeds
+    # half of the 95 % interval of the change between the two ends, from the scatter of seeds; None:
+    # it is unknown
     scatter: float | None = None
     within_scatter: bool = False  # whether different seeds alone can explain all differences between the means
 
     @property
     def at_ends(self) -> tuple[int, int]:
-        """The numbers of the two levels whose difference is the change: the first and the last one if the levels are
-        numbers and the means only rise or only fall, otherwise those with the smallest and the largest mean."""
+        """The indices of the two levels whose difference is the change. If the levels are numbers and the means only
+        rise or only fall, these are the first and the last level, otherwise the levels with the smallest and the
+        largest mean."""
         steps = np.diff(self.means)
         if all(isinstance(v, (int, float)) for v in self.levels) and ((steps >= 0).all() or (steps <= 0).all()):
             return 0, len(self.levels) - 1
@@ -147,10 +150,10 @@ class Effect:
         return self.means[first], self.means[last]
 
     def compare(self, variances: np.ndarray, chance: Scatter) -> None:
-        """Compares the means with the scatter of seeds by an F-test over all levels: the mean square between the levels
-        against the variance of seeds. `scatter` becomes half of Scheffé's 95 % interval of the change, which for two
-        levels is Student's interval. So the change is never larger than `scatter` if the test finds no effect.
-        variances: variance of each mean, divided by the variance of a single seed."""
+        """Compares the means with the scatter of seeds by an F-test over all levels, which compares the mean square
+        between the levels with the variance of seeds. Sets `scatter` to half of Scheffé's 95 % interval of the change
+        (for two levels this is Student's interval). So the change is never larger than `scatter` if the test finds no
+        effect. variances: variance of each mean, divided by the variance of a single seed."""
         means, freedom = np.array(self.means), len(self.means) - 1
         limit = freedom * fisher_95(freedom, chance.freedom) * chance.deviation**2
         between = (((means - np.average(means, weights=1 / variances)) ** 2) / variances).sum()
@@ -166,8 +169,9 @@ def continuous(points: pd.DataFrame, factor: str) -> bool:
 
 def _lines(points: pd.DataFrame, factors: list[str], repetitions: np.ndarray) -> dict[str, tuple[float, float]]:
     """Returns the slope of each continuous factor, and the standard error that the slope would have if every seed had a
-    standard deviation of 1. All factors are fitted together by least squares, factors with levels as 0/1 columns: the
-    values of a hypercube are not quite independent, and the effect of one factor must not be attributed to another.
+    standard deviation of 1. All factors are fitted together by least squares; a factor with levels has a column of 0
+    and 1 per level. The values of a hypercube are slightly correlated, and a fit of single factors would attribute the
+    effect of one factor to another.
     repetitions: number of seeds of each point. As in the means of levels, each point counts once."""
     smooth = [f for f in factors if continuous(points, f)]
     if not smooth:
@@ -197,10 +201,10 @@ def effects(quantity: Quantity) -> list[Effect]:
             means = [float(points["value"].mean() + slope * (e - x.mean())) for e in ends]
             effect = Effect(factor, ends, means, float(((slope * (x - x.mean())) ** 2).sum()) / total if total else 0.0)
             if chance:
-                # The means at both ends have the error of the same slope, so half of the change's variance is given to
-                # each end.
+                # The means at the two ends depend on the same slope, so their errors are not independent. Half of the
+                # variance of the change is given to each end.
                 effect.compare(np.full(2, 0.5 * (error * (ends[1] - ends[0])) ** 2), chance)
-                effect.errors = None  # a fitted line has no means at levels
+                effect.errors = None  # a fitted line has no means at single levels
             out.append(effect)
             continue
         by = points[factor]
@@ -209,7 +213,8 @@ def effects(quantity: Quantity) -> list[Effect]:
         between = float((number * (mean - points["value"].mean()) ** 2).sum())
         levels = [v.item() if isinstance(v, np.generic) else v for v in mean.index]
         effect = Effect(factor, levels, list(map(float, mean)), between / total if total else 0.0)
-        if chance:  # a level's mean is over its points, and each point's value is a mean over seeds
+        # the mean of a level is over the points of the level, and the value of each point is a mean over seeds
+        if chance:
             inverse = pd.Series(1 / repetitions, points.index).groupby(by, sort=numeric(points, factor), dropna=False)
             effect.compare(inverse.sum().to_numpy() / number.to_numpy() ** 2, chance)
         out.append(effect)
@@ -221,7 +226,7 @@ class Scatter:
     """The scatter between seeds of one point, pooled over the points that have several seeds."""
 
     deviation: float  # standard deviation, in the quantity's unit
-    relative: float  # the same, relative to each point's mean
+    relative: float  # the standard deviation as a fraction of the mean of each point
     points: int  # number of points with several seeds
     fewest: int  # smallest number of seeds of a point, 1 if a point has a single seed
     most: int  # largest number of seeds of a point

@@ -62,19 +62,20 @@ def _threads(number: int, folder: Path) -> Iterator[concurrent.futures.Executor]
         yield pool
     except BaseException:
         programs.stop(str(folder))
-        # without waiting: a thread may be blocked by the lock of a living worker
+        # does not wait for the threads: a thread may wait for a lock that a living worker holds
         pool.shutdown(wait=False, cancel_futures=True)
         raise
     pool.shutdown()
 
 
 def patience(run: dict[str, Any]) -> tuple[float, float]:
-    """Returns the longest time [s] for which no worker may be working although there are jobs: until the first worker
-    begins, and afterwards. After that time all workers are replaced. This is needed because a Parsl worker that is
-    killed while it waits for a job can block the queue for all others."""
+    """Returns the longest times [s] for which no worker may be working although there are jobs: one time until the
+    first worker begins, and one for afterwards. Then all workers are replaced. This is needed because a Parsl worker
+    that is killed while it waits for a job can block the queue for all other workers."""
     slurm = run.get("on", "local") == "slurm"
     later = float(run.get("patience", 600 if slurm else 60))
-    return (float("inf") if slurm else 5 * later), later  # jobs may wait for days before a cluster starts them
+    # before the first worker begins there is no limit on a cluster: jobs may wait there for days
+    return (float("inf") if slurm else 5 * later), later
 
 
 def threads(run: dict[str, Any]) -> int:

@@ -24,8 +24,8 @@ from typing import Any
 from macadam.study import programs
 from macadam.study.locks import locked
 
-# Number of times that a program that was killed by a signal, for example because memory ran out, is started again. If
-# it is killed once more, the job has failed.
+# A program may be killed by a signal, for example because memory ran out. It is then started again, at most this
+# number of times. If it is killed once more, the job has failed.
 KILLS = 3
 _LINES = 12  # number of lines of the program's messages that are kept
 _LIBC = ctypes.CDLL(None)  # loaded here, because loading is not safe between fork and exec
@@ -38,7 +38,8 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
     folder, key = Path(job["folder"]), job["key"]
     done, failed, work = (folder / name / key for name in ("results", "failures", "running"))
     failed = failed.with_suffix(".json")
-    # a worker of an earlier study, which was killed, may still compute the same job; the lock waits for it
+    # if an earlier study was killed, one of its workers may still be computing this job; waits for the
+    # lock until that worker has ended
     with locked(folder / "running" / f"{key}.lock", wait=True):
         if done.is_dir():
             return {"key": key, "status": "done"}
@@ -50,7 +51,8 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
         while code < 0 and kills < KILLS and not programs.stopped(job["folder"]):
             kills += 1
             code, said = _run(job, work)
-        if code != 0 and programs.stopped(job["folder"]):  # the checkpoint stays in `running`
+        # the checkpoint stays in `running`, so that the study can be continued
+        if code != 0 and programs.stopped(job["folder"]):
             return {"key": key, "status": "stopped"}
         record = {name: job[name] for name in ("key", "experiment", "values", "command")}
         record |= {"wall_s": round(time.time() - began, 3), "processor_s": round(_processor_time() - spent, 3)}
@@ -97,7 +99,7 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
         )
     except OSError as error:
         return 127, f"{job['program']}: {error.strerror}"
-    if resume and code == 2:  # this program refuses the checkpoint: begin again without it
+    if resume and code == 2:  # code 2: the program refuses the checkpoint, so the job begins again without it
         shutil.rmtree(work)
         return _run(job, work)
     return code, said

@@ -11,7 +11,8 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
-_own: set[str] = set()  # files locked by this process: a POSIX lock does not exclude threads of the same process
+# files that this process has locked; needed because a POSIX lock does not exclude other threads of the same process
+_own: set[str] = set()
 _change = threading.Condition()  # guards _own
 
 
@@ -54,7 +55,7 @@ def is_locked(file: Path) -> bool:
     except FileNotFoundError:
         return False
     try:
-        # held until the handle is closed below; others wait that long
+        # this lock is held until the handle is closed below; other processes wait until then
         fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         return False
     except (BlockingIOError, PermissionError):

@@ -22,11 +22,11 @@ from macadam.study.errors import StudyError
 # Parsl's shutdown waits without a limit for answers of its interchange (the process between the study and the workers),
 # which may have died. So the shutdown gets this many seconds; then Parsl's processes are killed.
 AFTER_INTERRUPT = 2.0
-AT_THE_END = 30.0  # longer, because scancel may be slow
+AT_THE_END = 30.0  # at the end of a study; longer, because scancel may be slow
 _BEAT = 5  # seconds between heartbeats of workers; a worker is lost after six missing heartbeats
 # Starts the interchange in its own session, so that a signal to the study's process group does not reach it. The kernel
-# kills it when the study ends in any way (prctl 1 is PR_SET_PDEATHSIG, 9 is SIGKILL). Otherwise it would wait forever
-# for a study that was killed, and its workers would wait for it.
+# kills the interchange when the study ends in any way (prctl 1 is PR_SET_PDEATHSIG, 9 is SIGKILL). Without this, the
+# interchange of a killed study would wait forever, and its workers would wait for the interchange.
 _INTERCHANGE = (
     "import ctypes, os, sys; os.setsid(); ctypes.CDLL(None).prctl(1, 9); os.execvp(sys.argv[1], sys.argv[1:])"
 )
@@ -133,7 +133,8 @@ def slurm_lines(message: str) -> list[str]:
     of Parsl may write line ends as `\\n`, and quotes around the text."""
     found = []
     for line in re.findall(r"(?:sbatch|slurmstepd): *(.*?) *(?:\\n|\n|$)", message):
-        lone = line[-1:] in ("'", '"') and line.count(line[-1]) == 1  # it closes a quote that began before the line
+        # this quote closes a quote that began before the line
+        lone = line[-1:] in ("'", '"') and line.count(line[-1]) == 1
         found.append(line[:-1] if lone else line)
     return found
 
@@ -155,7 +156,7 @@ def _end(pool: Any, executor: Any, config: Any, seconds: float) -> None:
 
 
 def _close(pool: Any) -> None:
-    with contextlib.suppress(Exception):  # errors about processes that have ended already
+    with contextlib.suppress(Exception):  # ignores errors about processes that have already ended
         pool.shutdown(wait=False)
 
 
@@ -163,7 +164,7 @@ def _groups(provider: Any) -> set[int]:
     """Returns the process groups of the workers on this machine, without that of this process."""
     found = set()
     for job in list(provider.resources.values()):
-        with contextlib.suppress(KeyError, ProcessLookupError):  # a job of Slurm; a process that has ended
+        with contextlib.suppress(KeyError, ProcessLookupError):  # ignores a job of Slurm, and a process that has ended
             found.add(os.getpgid(job["remote_pid"]))
     return found - {os.getpgrp()}
 

@@ -11,7 +11,7 @@ from typing import Any
 from macadam.study.errors import StudyError
 from macadam.study.scenes import Table, normal
 
-MOST = 1_000_000  # largest number of points: far more than anyone computes, and all are held in memory
+MOST = 1_000_000  # largest number of points: more than anyone computes, and few enough to hold all of them in memory
 
 
 def table_of(asked: Table, name: str) -> Table:
@@ -47,8 +47,8 @@ def _text(value: Any) -> str:
 
 
 def samples(asked: Table) -> list[dict[str, Any]]:
-    """Returns the points of all hypercubes and lists. Raises StudyError if a point has no value for a key of the
-    others."""
+    """Returns the points of all hypercubes and lists. Raises StudyError if a point has no value for a key for which
+    another point has one."""
     out: list[dict[str, Any]] = []
     places: list[str] = []
     for name, points in (("latin_hypercube", _hypercube), ("list", lambda block: [_flat(block)])):

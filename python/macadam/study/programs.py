@@ -62,7 +62,8 @@ def run(folder: str, line: list[str], **how: Any) -> tuple[int, str]:
     with _change:
         if folder in _stopped:
             return -signal.SIGTERM, ""
-        # in its own session: a signal from the terminal then reaches only the study, which decides what to do
+        # The program gets its own session. A signal from the terminal then reaches only the study, which
+        # decides what to do.
         program = subprocess.Popen(
             line, stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True, **how
         )

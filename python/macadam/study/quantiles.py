@@ -7,7 +7,8 @@ import functools
 
 import numpy as np
 
-_INTERVALS = 200_000  # the quantiles are then correct to five digits, up to 10,000 degrees of freedom
+# steps of the integration, for which the quantiles are correct to five digits up to 10,000 degrees of freedom
+_INTERVALS = 200_000
 
 
 @functools.lru_cache

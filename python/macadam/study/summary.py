@@ -198,16 +198,16 @@ def _level(value: Any) -> str:
 
 
 def _change_words(q: Quantity, effect: Effect) -> str:
-    """Returns the change of an effect as text: of angles in degrees, otherwise in per cent of the first of its two
-    means."""
+    """Returns the change of an effect as text: in degrees for an angle, otherwise in per cent of the mean at the first
+    of the two levels."""
     first, last = effect.ends
     text = f"{last - first:+.2g}°" if q.unit == "°" else f"{100 * (last / first - 1):+.3g} %" if first else "–"
     return text.replace("-", "−")
 
 
 def _from_to(effect: Effect) -> str:
-    """Returns the two values of the factor between which the change is, as the end of a sentence; empty if the factor
-    is a number and they are its first and last values."""
+    """Returns the two values of the factor between which the quantity changes, as the end of a sentence. Returns an
+    empty text if the factor is a number and the two values are the first and the last one."""
     first, last = effect.at_ends
     if isinstance(effect.levels[0], (int, float)) and (first, last) == (0, len(effect.levels) - 1):
         return ""

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests corrections of a scan: each removes the artefact for which it is made, and leaves differences of composition
-// alone.
+// Tests corrections of a scan. Each correction removes the artefact for which it is made, and leaves real differences
+// of composition alone.
 #include <gtest/gtest.h>
 
 #include "host/tools/ct/voxels/correction.hpp"
@@ -65,7 +65,7 @@ TEST_F(CtCorrection, SlicesThatDriftGetTheLevelsOfAll) {
   });
   const double before = difference(scan, true_).second;
   for (int round = 0; round < 3; ++round) ct::correct_slices(scan, region_);
-  // The rest is the noise of a slice's level, which is a mean over 840 blocks.
+  // The level of a slice is a mean over 840 blocks. The noise of this level is what remains of the drift.
   EXPECT_LT(difference(scan, true_).second, 0.2 * before);
 }
 
@@ -80,8 +80,8 @@ TEST_F(CtCorrection, BetweenTwoSlicesHalfOfEachIsTakenOut) {
   for (const double k : {20.0, 31.0, 86.0}) {
     const double low = steps[0].of(mastic, 5, 6, k), high = steps[0].of(mastic, 5, 6, k + 1);
     EXPECT_GT(std::abs(high - low), 0.005 * contrast);
-    // Grey values are divided by a factor that is linear between slices, so the correction deviates from a line by
-    // about a hundredth of the difference.
+    // The test divides grey values by a factor that is linear between slices. The quotient is not linear, so the
+    // correction deviates from a line by about a hundredth of the difference.
     EXPECT_NEAR(steps[0].of(mastic, 5, 6, k + 0.5), (low + high) / 2, 0.02 * std::abs(high - low));
   }
 }
@@ -117,8 +117,8 @@ TEST_F(CtCorrection, RingsGoAndTheRestStays) {
   });
   const double before = difference(scan, true_).second;
   for (int round = 0; round < 3; ++round) ct::correct_rings(scan, region_);
-  // A ring passes through only about a dozen balls. Therefore the correction itself changes a clean scan by 0.03. Here
-  // it reduces a difference of 0.07 to this 0.03.
+  // A ring passes through only about a dozen balls, so the mean grey value of a ring varies. Therefore the correction
+  // changes even a clean scan by 0.03. Here the correction reduces a difference of 0.07 to this 0.03.
   EXPECT_LT(difference(scan, true_).second, 0.5 * before);
   Image<float> clean = true_;
   ct::correct_rings(clean, region_);

@@ -43,8 +43,8 @@ TEST(CtCuts, AreReadAsTheyWereWritten) {
   std::filesystem::remove(file);
 }
 
-// Three fragments, each of which touches the other two. Cuts that do not match the faces of the scan, or contradict one
-// another, are refused.
+// Uses three fragments, each of which touches the other two. Cuts are refused if they do not match the faces between
+// fragments of the scan, or if they contradict one another.
 TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
   ct::Fragments fragments;
   fragments.labels = Image<std::uint32_t>({1, 1, 1}, {voxel, voxel, voxel});
@@ -64,7 +64,7 @@ TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
     return "none";
   };
   std::vector<GrainCut> cuts = good;
-  cuts[1].cut = false;  // fragments 1 and 2 would be cut apart although both are joined to 3
+  cuts[1].cut = false;  // a contradiction: fragments 1 and 2 would be cut apart, although each is joined to fragment 3
   EXPECT_NE(fault_of(cuts).find("fragments 1 and 2"), std::string::npos) << fault_of(cuts);
   EXPECT_NE(fault_of(cuts).find("other rows join the two"), std::string::npos) << fault_of(cuts);
   cuts = good;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Segments faulty scans. Each ends with an error that names the fault, or with a warning and grains of low confidence.
+// Segments faulty scans. Each segmentation ends with an error that names the fault, or with a warning and grains of low
+// confidence.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -64,7 +65,8 @@ Image<float> in_air(const Image<float>& scan, std::int64_t around = 6) {
   return out;
 }
 
-/// Returns the scan as an 8-bit file has it, with `low` mapped to 0 and `high` to 255; values outside are clipped.
+/// Returns the scan as an 8-bit file would store it: `low` becomes 0, `high` becomes 255, and values outside are
+/// clipped.
 Image<float> in_8_bit(Image<float> scan, float low, float high) {
   for (float& grey : scan.voxels) grey = std::round(255 * std::clamp((grey - low) / (high - low), 0.0f, 1.0f));
   return scan;
@@ -169,7 +171,7 @@ TEST(CtFaults, GradationsAreReadAndStandBesideTheScans) {
   EXPECT_TRUE(text.find("\n0.008,1.000000,1.000000,1.000000,1.000000\n") != std::string::npos) << text;
   EXPECT_TRUE(ct::gradation_csv(grains).find("laboratory") == std::string::npos);
   EXPECT_TRUE(ct::gradation_csv({}).find("\n0.004,0.000000,0.000000\n") != std::string::npos) << "of no grain, none";
-  std::vector<std::string> warnings;  // the scan shows grains above 8 mm, where the laboratory has none
+  std::vector<std::string> warnings;  // the scan shows grains above 8 mm, but the laboratory's gradation has none
   EXPECT_EQ(ct::trust_in_sizes(grains, laboratory, 2 * laboratory.back().size, warnings), ct::doubtful);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].find("no grain above 8 mm") != std::string::npos) << warnings[0];
@@ -185,7 +187,8 @@ TEST(CtFaults, ClippedGreyValuesTellNothing) {
     EXPECT_TRUE(o.says("largest grey value 255: the scan is clipped")) << high;
     EXPECT_LT(o.confidence, 0.5);
   }
-  const Outcome low = outcome(in_8_bit(scan, 18000, 40000));  // only air and mastic are within the range
+  // only the grey values of air and mastic are within the range
+  const Outcome low = outcome(in_8_bit(scan, 18000, 40000));
   EXPECT_TRUE(low.says("least grey value 0"));
   EXPECT_LE(low.confidence, 0.5);
   EXPECT_EQ(outcome(in_8_bit(scan, 0, 40000)).warnings, "");
@@ -237,7 +240,7 @@ TEST(CtFaults, APhaseThatIsMissingIsSaid) {
   const auto no_voids = [](float grey) { return std::max(grey, mastic); };
   const auto no_mastic = [](float grey) { return grey < mastic + contrast / 2 ? air : aggregate; };
   EXPECT_TRUE(outcome(balls(no_aggregate)).error.find("a phase is missing") != std::string::npos);
-  // Voids are larger than the little mastic here, which is a tenth of the specimen.
+  // This specimen has only mastic and two large voids: the aggregate is missing.
   Image<float> spongy = scan_of({46, 46, 46}, {}, {ball(12, 12, 12, 12), ball(34, 34, 34, 12)});
   add_noise(spongy, 0.1);
   const Outcome sponge = outcome(spongy);
@@ -264,7 +267,7 @@ TEST(CtFaults, APhaseThatIsMissingIsSaid) {
 }
 
 TEST(CtFaults, OneGrainThatIsMostOfTheSpecimenIsDoubted) {
-  // A paste as bright as the aggregate makes one grain of most of the specimen.
+  // A paste as bright as the aggregate joins most of the specimen into one grain.
   Image<float> scan = scan_of({46, 46, 46}, {block({-9, -9, 8}, {60, 60, 60})}, {ball(20, 20, 24, 6)});
   add_noise(scan, 0.1);
   const Outcome o = outcome(scan);
@@ -312,8 +315,8 @@ TEST(CtFaults, RingsThatHideTheSpecimenAreNoGrains) {
   }
 }
 
-/// The confidence of a grain is lowered by the least certain cut at its surface; a cut decided against its margin was
-/// made by a person and is certain.
+/// The least certain cut at the surface of a grain lowers the confidence of the grain. If a cut contradicts its margin,
+/// a person decided it, and it counts as certain.
 TEST(CtFaults, ADoubtfulCutLowersTheConfidenceOfItsTwoGrains) {
   ct::Decision decision;
   decision.grain = {0, 1, 2, 3, 3, 4};

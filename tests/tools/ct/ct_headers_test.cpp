@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads image files whose headers make ITK hang, abort or misread without an error. Such headers are refused; unusual
-// but valid headers are read.
+// Reads image files with headers for which ITK hangs, aborts or reads wrong data without an error. The program refuses
+// such headers, and reads headers that are unusual but valid.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

@@ -138,7 +138,8 @@ TEST_F(CtImage, AStrayImageBesideTheSlicesIsRefused) {
         << fault<std::uint16_t>(folder_);
     fs::remove(folder_ / stray);
   }
-  // names that differ only after the number, also with the next number of the sequence
+  // the names of these strays differ from the slices only after the number; one stray has the next number of the
+  // sequence
   for (const std::string stray : {"slice_7_preview.tif", "slice_12_preview.tif", "slice_12b.tif"}) {
     write_image(folder_ / stray, slice);
     EXPECT_NE(fault<std::uint16_t>(folder_).find("slices: found " + stray + " beside 12 files such as slice_"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Segments scans larger than the given memory. They are segmented on blocks of voxels and refined from the file; the
-// grains must equal those found in memory.
+// Segments scans that are larger than the given memory. The program segments the means of blocks of voxels, and then
+// refines the surfaces with voxels from the file. It must find the same grains as in memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ constexpr double pi = std::numbers::pi;
 
 class CtLargeScan : public CtFolder {
  protected:
-  /// Returns too little memory for the whole scan: 100 MB and a little more than 12 bytes per voxel.
+  /// Returns an amount of memory [bytes] that is too small for the whole scan: 100 MB for the program and a little more
+  /// than 12 bytes per voxel.
   static double little(const Image<float>& scan) { return 1e8 + 12.1 * static_cast<double>(scan.count()); }
   std::string fault(const fs::path& file, const SegmentOptions& options, double memory) {
     try {
@@ -102,7 +103,7 @@ TEST_F(CtLargeScan, ABlockHasItsMeanAndTheVoxelInItsMiddle) {
       for (std::int64_t i = 0; i < 3; ++i) {
         double sum = 0;
         for (std::int64_t a = 0; a < n * n * n; ++a) sum += value(n * i + a % n, n * j + a / n % n, n * k + a / n / n);
-        // sums of 27 floats of up to 1000
+        // the tolerance is the rounding of sums of 27 floats of up to 1000
         EXPECT_NEAR(coarse.means.at(i, j, k), sum / (n * n * n), 27 * 1000 * 6e-8);
         EXPECT_EQ(coarse.middles.at(i, j, k), value(n * i + 1, n * j + 1, n * k + 1));
       }
@@ -129,8 +130,8 @@ TEST_F(CtLargeScan, TwoLevelsFindTheSameGrainsAsMemoryDoes) {
   by_place(whole), by_place(parts);
   for (std::size_t g = 0; g < whole.grains.size(); ++g) {
     const ScannedGrain &a = whole.grains[g], &b = parts.grains[g];
-    // Surface nodes are 1 to 2 voxels apart, and grains have diameters of 48 to 100 voxels. A tenth of a voxel all over
-    // the surface is about one per cent of the volume.
+    // Surface nodes are 1 to 2 voxels apart, and grains have diameters of 48 to 100 voxels. If the whole surface were
+    // off by a tenth of a voxel, the volume would change by about one per cent.
     EXPECT_NEAR(b.measure.volume / a.measure.volume, 1, 0.01) << g;
     EXPECT_NEAR(b.measure.area / a.measure.area, 1, 0.02) << g;
     EXPECT_NEAR(b.measure.d_intermediate / a.measure.d_intermediate, 1, 0.015) << g;
@@ -142,7 +143,7 @@ TEST_F(CtLargeScan, TwoLevelsFindTheSameGrainsAsMemoryDoes) {
   }
   EXPECT_NEAR(parts.grains[0].measure.volume / (4 * pi / 3 * std::pow(24 * voxel, 3)), 1, 0.02);
   EXPECT_NEAR(parts.grains[3].measure.volume / (4 * pi / 3 * std::pow(40 * voxel, 3)), 1, 0.01);
-  // A block on a surface is assigned wholly to one phase; errors in both directions cancel.
+  // A block of voxels on a surface belongs wholly to one phase, which makes errors of both signs; their sum is small.
   EXPECT_NEAR(parts.aggregate, whole.aggregate, 0.005);
   EXPECT_NEAR(parts.air_voids, whole.air_voids, 0.002);
 }
@@ -191,7 +192,7 @@ TEST_F(CtLargeScan, StepsOfACorrectionAreFunctionsOfThePlace) {
       largest = std::max(largest, std::abs(grey - scan.at(i, 30, k)));
     }
   }
-  // A position between two radii uses an interpolated ring correction, so the tolerance is the difference between
+  // Between two radii the correction is interpolated, so the tolerance is the difference between the corrections of
   // neighbouring rings.
   EXPECT_LT(largest, 0.01 * contrast);
 }
@@ -214,8 +215,8 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   write_image(folder_ / "packed.mha", whole, true);
   EXPECT_EQ(segment_file({folder_ / "packed.mha", {}, {}}, options, little(scan)).grains.size(), 8u);
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1.01e8).find("cannot be read in parts"), std::string::npos);
-  // 96³ voxels of 2 bytes stored, 2 bytes read and 4 bytes as numbers are 7 MB, in addition to the 100 MB of the
-  // program.
+  // Memory of 96³ voxels: 2 bytes as stored, 2 bytes as read and 4 bytes as numbers, together 7 MB. The program itself
+  // needs 100 MB.
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1.05e8).find("cannot be read in parts"), std::string::npos);
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1e6).find("GB for the means of blocks"), std::string::npos);
   SegmentOptions paper = options;
@@ -225,7 +226,7 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   EXPECT_NE(fault(folder_ / "pages.tif", options, 1e12).find("edge of a voxel"), std::string::npos);
 }
 
-/// The ends of the scan cut grains in the same way on both sides of each axis: mirroring the scan does not change the
+/// The two ends of the scan along each axis cut grains in the same way, so mirroring the scan does not change the
 /// volumes.
 TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
   Image<float> scan = scan_of({96, 96, 96}, {ball(95.5, 30, 34, 20), ball(34, 95.5, 30, 22), ball(30, 34, 95.5, 24)},
@@ -242,18 +243,19 @@ TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
   }
   ASSERT_EQ(volumes[0].size(), 3u);
   ASSERT_EQ(volumes[1].size(), 3u);
-  // The surfaces have different facets, but equally many. If a cut were off by half a voxel, the volume would differ by
-  // 0.04.
+  // The surfaces of the scan and of its mirror image have different facets, but equally many. If a cut were off by half
+  // a voxel, the ratio of the volumes would be off by 0.04.
   for (std::size_t g = 0; g < 3; ++g) EXPECT_NEAR(volumes[1][g] / volumes[0][g], 1, 0.005) << g;
   std::sort(volumes[0].begin(), volumes[0].end());
-  for (std::size_t g = 0; g < 3; ++g) {  // facets of about two voxels cut off 3/1000 of a ball
+  // flat facets with edges of about two voxels cut off 3/1000 of the volume of a ball
+  for (std::size_t g = 0; g < 3; ++g) {
     const double radius = (20 + 2 * static_cast<double>(g)) * voxel;
     EXPECT_NEAR(volumes[0][g] / (2 * pi / 3 * std::pow(radius, 3)), 1, 0.01) << g;
   }
 }
 
-/// A block of aggregate that is cut between voxels 19 and 20 along one axis. Grey values do not change there; only the
-/// labels separate the two grains.
+/// Scans of a block of aggregate that is cut between voxels 19 and 20 along one axis. Grey values do not change at the
+/// cut; only the labels separate the two grains.
 class CutGrains : public CtLargeScan {
  protected:
   using Place = std::array<std::int64_t, 3>;
@@ -269,8 +271,9 @@ class CutGrains : public CtLargeScan {
     };
     return refined(scan, 2, number, 0, Denoising::none);
   }
-  /// Expects that the first grain contains the point `before` but not `behind` along an axis, and the second grain the
-  /// reverse. `there` is the coordinate of both points along the axis `other`.
+  /// Expects that the first grain contains the point at `before` along an axis and the second grain contains the point
+  /// at `behind`, and that neither grain contains the point of the other grain. `there` is the coordinate of the two
+  /// points along the axis `other`.
   void expect_parted(const std::vector<ScannedGrain>& grains, std::size_t along, double before, double behind,
                      std::size_t other, double there) {
     for (const double at : {before, behind}) {
@@ -327,8 +330,8 @@ TEST_F(CtLargeScan, NoiseThatMeansOfVoxelsAreRidOfTakesNoRoundOfDiffusion) {
 }
 
 TEST_F(CtLargeScan, ANeedleThinnerThanABlockLeavesItsGrainsSurfaceClosed) {
-  // The needle is too thin for the blocks, so it continues beyond the region that is read again for the ball. Its cut
-  // end must be closed.
+  // The needle is too thin to be seen in the blocks. It is longer than the region that is read again to refine the
+  // ball. At the end of this region the surface of the needle must be closed.
   Image<float> scan =
       scan_of({96, 96, 96}, {ball(44, 44, 44, 20), block({60, 44.5, 44.5}, {92, 46.5, 46.5})}, {ball(80, 80, 80, 10)});
   add_noise(scan, 0.02);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_phantom_test.cpp  Tests synthetic scans: volumes of known grains, sawn faces, artefacts of the requested
-/// size, files.
+/// \file ct_phantom_test.cpp  Tests synthetic scans (phantoms): volumes of known grains, sawn faces, artefacts of the
+/// requested size, and the written files.
 #include "macadam/phantom.hpp"
 
 #include <unistd.h>
@@ -46,8 +46,8 @@ TEST(CtCoverage, OfAGridThatBeginsElsewhereIsTheSame) {
   const ct::Coverage here = of({}), there = of(shift);
   EXPECT_EQ(there.begin, here.begin);
   EXPECT_EQ(there.end, here.end);
-  // The columns end at the surface of a sphere, which is computed from differences of coordinates accurate to about
-  // 1e-18 m.
+  // Each column of voxels ends at the surface of a sphere. This end is computed from differences of coordinates, which
+  // are accurate to about 1e-18 m.
   EXPECT_NEAR(there.volume / here.volume, 1, 1e-9);
   EXPECT_LT(norm(there.centroid - here.centroid - shift), 1e-12);
   ASSERT_EQ(there.share.size(), here.share.size());
@@ -66,8 +66,8 @@ TEST_F(CtPhantom, ASphereHasItsVolumeInGreyValuesAndLabels) {
   EXPECT_NEAR(g.area / (4 * pi * 9e-6), 1, 1e-12);
   EXPECT_NEAR(g.sieve / 6e-3, 1, 1e-12);
   EXPECT_NEAR(measure_shape(g.surface).volume / volume, 1, 1e-9);
-  // The columns have a ninth of a voxel's cross-section, about 2,000 across the sphere; their errors decrease as this
-  // number to the power 3/4.
+  // Volumes are summed over columns whose cross-section is a ninth of the cross-section of a voxel. About N = 2,000
+  // columns pass through the cross-section of the sphere. The error decreases as N^(-3/4).
   EXPECT_NEAR(p.aggregate, volume / box, 3e-3 * volume / box);
   EXPECT_NEAR(p.voids, air / box, 1e-2 * air / box);
   // A voxel gets the label if more than half of it is in the sphere.
@@ -110,8 +110,8 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
   EXPECT_NEAR(p.grains[0].volume / (sum * 1e-9), 1, 1e-3);
 }
 
-/// A grain counts as cut by the saw if only its lower side is cut, and its volume and centre are those of the rest of
-/// the sphere.
+/// A grain counts as cut by the saw even if only its lower side is cut. Its volume and centre are those of the part of
+/// the sphere that is left.
 TEST_F(CtPhantom, ASphereCutFromBelowAloneIsCut) {
   const Scene scene = scene_of_rows("0,0.005,0.004,0.0033,0.003,aggregate,4\n");  // lowest point 0.3 mm above z = 0
   const auto sawn_by = [&](double off) {
@@ -126,8 +126,8 @@ TEST_F(CtPhantom, ASphereCutFromBelowAloneIsCut) {
   EXPECT_NEAR(whole.volume / volume, 1, 1e-12);
   EXPECT_TRUE(cut.border);
   EXPECT_NEAR(cut.volume / (volume - cap), 1, 1e-3);
-  // A cap from a to r has the moment π(r² − a²)²/4 about the centre of the sphere. The centre is at 2.4 mm here, and
-  // the cut shifts the centroid by 0.075 mm.
+  // About the centre of a sphere, the cap between the heights a and r has the first moment π(r² − a²)²/4. Here a is 2.4
+  // mm, and the cut shifts the centroid by 0.075 mm.
   const double moment = pi / 4 * std::pow(9e-6 - 5.76e-6, 2);
   EXPECT_NEAR(cut.centre.z, 2.4e-3 + moment / (volume - cap), 2e-6);
   EXPECT_NEAR(cut.centre.x, 4.1e-3, 2e-6);
@@ -152,8 +152,8 @@ TEST_F(CtPhantom, ShapesFillTheirVoxels) {
     EXPECT_NEAR(m.volume / g.volume, 1, 1e-9);
     EXPECT_NEAR(m.area / g.area, 1, 1e-9);
     EXPECT_NEAR(m.d_long / g.d_long, 1, 1e-9);
-    // The search for the sieve size uses fixed directions that do not rotate with the grain; they are a quarter of a
-    // degree apart at the end.
+    // The search for the sieve size tries fixed directions, which do not rotate with the grain. At the end of the
+    // search they are a quarter of a degree apart.
     EXPECT_NEAR(square_sieve(g.surface) / g.sieve, 1, 5e-3);
     EXPECT_LT(norm(m.centroid - g.centre), 1e-9);
     EXPECT_NEAR(volumes[g.id] / g.volume, 1, 2e-2) << g.id;  // about 4,000 voxels, of which the surface cuts 1,200
@@ -194,8 +194,8 @@ TEST_F(CtPhantom, SamplesThatAreNoneOrTooManyAreRefused) {
   }
 }
 
-/// Noise, cupping, drift, rings and blur have the requested size, as seen in the air, on the axis, between slices and
-/// in the phases.
+/// Noise, cupping, drift, rings and blur have the requested size. Each is measured where it shows: in the air, on the
+/// axis, between slices and in the phases.
 TEST_F(CtPhantom, FaultsAreAsLargeAsAsked) {
   const Scene scene = spheres_scene();
   const auto scanned = [&](double PhantomSpec::*fault, double value) {

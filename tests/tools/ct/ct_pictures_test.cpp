@@ -91,8 +91,8 @@ TEST_F(CtPictures, VoxelsHaveTheirEdgesAndTheScaleItsLength) {
 TEST_F(CtPictures, TheNearerGrainHidesWhatIsBehindIt) {
   Segmentation scan;
   scan.labels = Image<std::uint32_t>({40, 40, 40}, {voxel, voxel, voxel});
-  // The view is from the front left, 30° above the horizontal. Seen so, balls 1 and 2 lie behind the middle of the scan
-  // and ball 3 above it.
+  // The view is from the front left, 30° above the horizontal. From there, balls 1 and 2 lie behind the middle of the
+  // scan, and ball 3 appears above the middle.
   const Vec3d eye{-std::sqrt(3.0) / 4, -0.75, 0.5};
   const auto add_ball = [&](std::uint32_t id, const Vec3d& place, double radius) {
     ScannedGrain grain;

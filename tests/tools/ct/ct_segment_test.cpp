@@ -80,7 +80,8 @@ TEST(CtSegment, ABallAndABlockAreMeasured) {
   std::sort(out.grains.begin(), out.grains.end(), by_volume);
   ASSERT_EQ(out.grains.size(), 2u);
   const double r = 12 * voxel;
-  EXPECT_NEAR(out.grains[0].measure.area / (4 * pi * r * r), 1, 0.02);  // tolerance for a ball of radius 12 voxels
+  // tolerance for the resolution of a ball of radius 12 voxels
+  EXPECT_NEAR(out.grains[0].measure.area / (4 * pi * r * r), 1, 0.02);
   EXPECT_NEAR(out.grains[0].measure.volume / (4 * pi / 3 * r * r * r), 1, 0.02);
   const ShapeMeasure& block = out.grains[1].measure;
   // Blur rounds the edges and corners of the block by about a voxel; its sides are 24 to 30 voxels.
@@ -144,8 +145,8 @@ TEST(CtSegment, AnEdgeAlongTheSideOfAnotherGrainStaysWithItsOwn) {
   EXPECT_GT(static_cast<double>(right) / static_cast<double>(voxels), 0.9);
 }
 
-// The margin is 0 for the values of neck, solidity and valley at which both decisions are equally likely, and positive
-// for a neck narrower by 0.1.
+// At certain values of neck, solidity and valley, cutting and not cutting are equally likely, and the margin is 0. If
+// the neck is narrower by 0.1, the margin is positive.
 TEST(CtSegment, AMarginIsTheSurenessOfACut) {
   EXPECT_NEAR(ct::margin_of(0.8, 0.93, 0.85), 0, 1e-12);
   EXPECT_NEAR(ct::margin_of(0.7, 0.93, 0.85), std::tanh(0.5 * 0.4), 1e-12);
@@ -166,8 +167,8 @@ TEST(CtSegment, ThreadsDoNotChangeTheAnswer) {
   EXPECT_EQ(ct::grains_csv(one.grains), ct::grains_csv(three.grains));
 }
 
-/// The fractions of the phases are found within 0.3 points. If the laboratory's fractions are given, the thresholds are
-/// set to match them.
+/// The fractions of the phases are found within 0.3 percentage points. If the laboratory's fractions are given, the
+/// thresholds are set so that the scan has these fractions.
 TEST(CtSegment, SharesOfThePhasesAreRightAndThoseOfTheLaboratoryAreKept) {
   const Image<float> clean = many_balls(66);
   double true_air = 0;
@@ -178,7 +179,7 @@ TEST(CtSegment, SharesOfThePhasesAreRightAndThoseOfTheLaboratoryAreKept) {
   SegmentOptions options = options_of(14);
   options.surfaces = false;
   const Segmentation free = segment_scan(scan, options);
-  EXPECT_NEAR(free.air_voids, true_air, 0.003);  // tolerance of 0.3 points
+  EXPECT_NEAR(free.air_voids, true_air, 0.003);  // tolerance of 0.3 percentage points
   double confidence = 0;
   for (const std::uint8_t c : free.confidence.voxels) confidence += c / 255.0;
   // the whole scan is specimen
@@ -205,11 +206,11 @@ TEST(CtSegment, ASpecimenInAirIsFound) {
   const Segmentation out = segment_scan(scan, options);
   const auto inside = static_cast<double>(
       std::count_if(out.phases.voxels.begin(), out.phases.voxels.end(), [](std::uint8_t p) { return p != 255; }));
-  // An error of half a voxel in the radius would be 3 % of the volume. The region is more accurate than that.
+  // An error of half a voxel in the radius would change the volume by 3 %. The region must be more accurate than that.
   EXPECT_NEAR(inside / (pi * 30 * 30 * 57), 1, 0.02);
 }
 
-/// A prism at the side of the scan is found with its own end, not that of the scan.
+/// A prism at the side of the scan is found. The region must end where the prism ends, not where the scan ends.
 TEST(CtRegion, OfAPrismAtTheSideOfTheScanEndsWhereThePrismDoes) {
   Image<float> scan({30, 28, 10}, {voxel, voxel, voxel}, {}, air);
   for (std::int64_t k = 0; k < 10; ++k)

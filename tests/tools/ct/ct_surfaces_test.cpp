@@ -35,8 +35,8 @@ TEST(CtIsosurface, OfABallHasItsVolumeAndItsArea) {
   EXPECT_TRUE(check_surface(fine).good()) << check_surface(fine).text();
   const ShapeMeasure m = measure_shape(fine);
   const double r = 12 * voxel;
-  // The facets of a ball of radius 12 voxels lie inside of it, which reduces its area by about (1/12)²/10. A surface
-  // along the faces of voxels would be far worse, 7 %.
+  // The facets of a ball of radius 12 voxels lie inside of the ball, which reduces the area by the fraction of about
+  // (1/12)²/10. A surface along the faces of voxels would be far worse, with an error of 7 %.
   EXPECT_NEAR(m.area / (4 * pi * r * r), 1, 0.01);
   EXPECT_NEAR(m.volume / (4 * pi / 3 * r * r * r), 1, 0.01);
   const ct::Simplified fewer = ct::simplified(fine, 400, 800, 0.5 * voxel);
@@ -55,8 +55,8 @@ TEST(CtIsosurface, HasTheEdgesOfVoxelsThatAreNoCubes) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  // The surface is straight between nodes. At each end of the ball it is therefore at most 1/(8·12) voxel too deep. For
-  // both ends together this is 0.001 of the diameter of 24 voxels.
+  // Between nodes the surface is straight, so at each end of the ball it is at most 1/(8·12) voxel too deep. Both ends
+  // together make this 0.001 of the diameter, which is 24 voxels.
   const Vec3d edge = (1 / (24 * voxel)) * (high - low);
   EXPECT_NEAR(edge.x, 1, 0.002);
   EXPECT_NEAR(edge.y, 1.5, 0.003);

@@ -43,8 +43,8 @@ std::map<std::int32_t, std::pair<double, Vec3d>> bodies_of(const Specimen& s) {
   return out;
 }
 
-/// A twin has every grain and void at its place, with about the same volumes and the same modulus as the original
-/// specimen.
+/// A twin (the specimen made from a scan) has every grain and void of the original specimen at its place, with about
+/// the same volumes and about the same modulus.
 TEST_F(CtTwin, HasEveryGrainWhereItLayAndRuns) {
   const Scene scene = shapes_scene();
   const fs::path truth = truth_of(scene);
@@ -131,7 +131,7 @@ TEST_F(CtTwin, WhatVoidsEncloseIsTakenOut) {
   });
   EXPECT_EQ(stages, (std::vector<std::string>{"reading the scan", "filling grains", "relaxing mastic", "tessellation",
                                               "removal of unconnected particles"}));
-  EXPECT_GT(twin.enclosed_mastic, 5);  // its volume is that of about 14 spheres of 0.7 mm
+  EXPECT_GT(twin.enclosed_mastic, 5);  // the volume of the enclosed mastic is that of about 14 spheres of 0.7 mm
   EXPECT_EQ(twin.enclosed_aggregate, 0);
   for (const Vec3d& p : twin.specimen.centre) EXPECT_GT(norm(p - Vec3d{6e-3, 6e-3, 7e-3}), 3e-3);
   for (const Cluster& c : find_clusters(build_network(twin.specimen, tessellate(twin.specimen)), twin.specimen.size()))
@@ -175,8 +175,9 @@ TEST(VoidSpheres, ARoundVoidIsOneSphere) {
   EXPECT_NEAR(found.left_out, 1e-12, 1e-24);
 }
 
-/// Two cubes of 11 and 7 voxels, joined by a thin neck: the inscribed spheres touch the faces, so their radii are 5.5
-/// and 3.5 voxels, multiplied by one factor to match the volume.
+/// The void consists of two cubes of 11 and 7 voxels, joined by a thin neck. Spheres that touch the faces of the cubes
+/// have radii of 5.5 and 3.5 voxels. One common factor then scales both radii, so that the spheres have the volume of
+/// the void.
 TEST(VoidSpheres, InscribedSpheresReachTheFacesOfTheVoid) {
   Image<std::uint8_t> image = mastic_image();
   const auto carve = [&](std::array<std::int64_t, 3> low, std::array<std::int64_t, 3> size) {
