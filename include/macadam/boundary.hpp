@@ -23,7 +23,7 @@ enum class DrivenBy : std::uint8_t { rest, displacement, force };
 /// One axis of a wall.
 struct WallAxis {
   DrivenBy by = DrivenBy::rest;
-  std::shared_ptr<const Drive> drive;  ///< its dt() equals the stepper's time step; null if the axis is at rest
+  std::shared_ptr<const Drive> drive;  ///< the function of time; its dt() must equal the stepper's time step; null if the axis is at rest
 };
 
 /// One wall: its axes x, y, z, and the mass with which it follows forces [kg], without density scaling.
