@@ -3,9 +3,9 @@
 /// as docs/model.md, section 6, says.
 ///
 /// Displacement x = f/k_m + ∫f/η_m dt + Σ x_l with η_l·dx_l/dt + k_l·x_l = f. The trapezoidal rule over one step gives
-///   c·f(t+Δt) = Δx + Σ (1 − b_l/a_l)·x_l(t) − g·f(t),   x_l(t+Δt) = [b_l·x_l(t) + Δt/(2η_l)·(f(t+Δt) + f(t))]/a_l. The
-/// code computes increments of f and x_l, because 1 − b_l/a_l is only 1e-9…1e-6 and would be lost in a sum with larger
-/// numbers.
+///   c·f(t+Δt) = Δx + Σ (1 − b_l/a_l)·x_l(t) − g·f(t),   x_l(t+Δt) = [b_l·x_l(t) + Δt/(2η_l)·(f(t+Δt) + f(t))]/a_l.
+/// The code computes increments of f and x_l, because 1 − b_l/a_l is only 1e-9…1e-6 and would be lost in a sum with
+/// larger numbers.
 #pragma once
 
 #include <algorithm>
@@ -134,9 +134,9 @@ struct GeneralisedKelvin {
   /// of f since the beginning, is exact. It follows from s, the sum of δf' + δf over the steps so far, where δf' is the
   /// value after a step and δf the value before it:
   ///   δf(t+Δt) = δf(t) + rate·Δx + drift + follow·s − relax·δf(t)   (model (6.8)),
-  ///   drift = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l). At the end x_l ←
-  /// (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with the same weight for all steps (model (6.9)). The error has a mean of zero
-  /// over a block. It is of second order in M·Δt divided by the characteristic times of the load and of the units.
+  ///   drift = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
+  /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with the same weight for all steps (model (6.9)). The error
+  /// has a mean of zero over a block. It is of second order in M·Δt divided by the characteristic times of the load and of the units.
   struct Block {
     static constexpr int most_units = max_units;
     double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]
