@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file reference_stepper.cpp  Implements the leapfrog time step contact point by contact point (docs/model.md,
-/// sections 1, 5, 6 and 8 to 10). Functions are in the order in which a step calls them.
+/// sections 1, 5, 6 and 8 to 10). The functions below are in the order of the operations in a step.
 #include "host/reference/reference_stepper.hpp"
 
 #include <Eigen/Geometry>

@@ -129,6 +129,7 @@ enum class PlacementMethod : std::uint8_t {
   packing     ///< all at once: they grow from a smaller scale while overlaps push them apart; reaches higher fractions
 };
 
+/// Which geometry decides whether two shaped aggregates touch during insertion.
 enum class PlacementTest : std::uint8_t {
   surfaces,  ///< surfaces of the shapes
   spheres    ///< spheres that fill the shapes; clusters may interlock
@@ -149,7 +150,7 @@ struct ShapeSpec {
   FillSpec fill;                 ///< how shapes are filled with spheres; the seed is not used, because every aggregate has a seed of its own
   PlacementMethod placement = PlacementMethod::packing;
   bool allow_short = false;  ///< with insertion: whether a class may stay below the requested amount if there is no more space
-  PlacementTest test = PlacementTest::surfaces;  ///< insertion
+  PlacementTest test = PlacementTest::surfaces;  ///< with insertion
   double gap = 0.01;  ///< with packing: smallest distance between two surfaces, divided by the smaller D^I of the two
   /// Stiffness with which the surfaces of the shapes resist the mastic while it relaxes, divided by the stiffness of a
   /// pair of mastic spheres, 0 to 10. With 0, only the spheres that fill the shapes keep the mastic out.
