@@ -13,7 +13,8 @@
 namespace macadam {
 namespace {
 
-using Row = std::vector<hsize_t>;  ///< shape of a row of an array: {} if a row is a single number, {n} if it has n numbers
+/// Shape of a row of an array: {} if a row is a single number, {n} if it has n numbers.
+using Row = std::vector<hsize_t>;
 
 /// Makes an array that has no rows yet and can grow. `piece` rows are stored together in the file. The rows are
 /// compressed if `packed` is true.
@@ -181,7 +182,8 @@ class VtkHdfSeries : public FieldSeries {
         });
       }
       open_->write(bytes_of(arrays), [&](H5::H5File& file) { put_frame(file, arrays); });
-      set_steps(steps_ + 1, &time);  // done last, so that a reader finds only complete steps, also if the program is killed
+      // done last, so that a reader finds only complete steps, also if the program is killed
+      set_steps(steps_ + 1, &time);
       if (first) open_->keep();
     } catch (const RunError&) {
       open_.reset();  // closes the file; a file that has no frame yet is removed

@@ -6,7 +6,8 @@
 
 namespace macadam {
 
-/// Do what begin_fields() and write_fields() do, for the format vtkhdf. `file` is the path with its ending. @{
+/// Do what begin_fields() and write_fields() do, for the format vtkhdf. `file` is the path with its ending.
+/// @{
 std::unique_ptr<FieldSeries> begin_vtkhdf(const std::filesystem::path& file, FieldMesh mesh,
                                           std::optional<double> until);
 void write_vtkhdf(const std::filesystem::path& file, const FieldMesh& mesh);

@@ -139,7 +139,8 @@ Loads ContactOperator::wall_loads(const PairStiffness& stiffness) const {
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
                                  const Vector& motion, Vector& out) const {
   out.resize(6 * particles_);
-#pragma omp parallel for schedule(dynamic, 64)  // dynamic, because large particles have hundreds of contacts each and have consecutive numbers
+// dynamic, because large particles have hundreds of contacts each and have consecutive numbers
+#pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t i = 0; i < particles_; ++i) {
     Complex sum[6] = {};
     for (const std::uint32_t number : network_.row(i)) {

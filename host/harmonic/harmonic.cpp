@@ -83,7 +83,8 @@ class Harmonic::Implementation {
     } catch (const NotIterable& error) {
       if (options.linear == LinearMethod::iterative || specimen.size() > largest_direct) throw;
       why_factors_ = error.what();
-      direct();  // makes the direct solver; if the stiffness is singular, its error message names the particle that can move
+      // makes the direct solver; if the stiffness is singular, its error message names the particle that can move
+      direct();
     }
   }
 
@@ -244,7 +245,8 @@ class Harmonic::Implementation {
     out.parts = w.parts;
     const double top = std::abs(out.parts.modulus());
     const double to_modulus =
-        gauge_length(specimen_) / section_area(specimen_);  // converts the reaction at unit displacement into stress over strain
+        // converts the reaction at unit displacement into stress over strain
+        gauge_length(specimen_) / section_area(specimen_);
     out.frequency_hz = load.frequency_hz;
     out.growth = load.growth;
     out.linear = w.method;

@@ -43,7 +43,8 @@ class ReducedModel {
   /// α·S)·u is the energy form uᵀ·K·u divided by k*; it is not yet multiplied by height over cross-section.
   Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
 
-  Eigen::Index motions() const { return basis_.cols(); }  ///< number of real motions, including the first, in which the top wall moves
+  /// Number of real motions, including the first, in which the top wall moves.
+  Eigen::Index motions() const { return basis_.cols(); }
 
  private:
   using Matrix = Eigen::MatrixXd;

@@ -208,9 +208,10 @@ class Part {
   const ContactNetwork& network_;
   const PairStiffness& stiffness_;
   const std::vector<std::int32_t>& members_;
-  double largest_ = 0;                                   ///< largest stiffness of the contacts around the part [N/m]
-  OwnMotions rigid_;                                     ///< free rigid motions; columns of coefficients of rigid()
-  std::vector<std::pair<std::size_t, OwnMotions>> own_;  ///< (member, free motions of this particle alone), members ascending
+  double largest_ = 0;  ///< largest stiffness of the contacts around the part [N/m]
+  OwnMotions rigid_;    ///< free rigid motions; columns of coefficients of rigid()
+  /// (member, free motions of this particle alone), members ascending.
+  std::vector<std::pair<std::size_t, OwnMotions>> own_;
 };
 
 }  // namespace

@@ -45,7 +45,8 @@ struct FreeMotion {
 /// motion, so the top wall cannot drive the motion through the contact. Therefore E* is unique, although the amplitudes
 /// of the free motions are not.
 struct FreeMotions {
-  std::vector<Pin> pins;            ///< one spring per free motion; they carry no force, because the load is orthogonal to free motions
+  /// One spring per free motion; they carry no force, because the load is orthogonal to free motions.
+  std::vector<Pin> pins;
   std::vector<FreeMotion> motions;  ///< orthonormal with respect to masses and moments of inertia
 };
 

@@ -72,7 +72,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> own_motions(std::int32_t particle, cons
   const Eigen::SelfAdjointEigenSolver<Matrix6> modes(scale.asDiagonal() * block * scale.asDiagonal());
   const double largest = modes.eigenvalues()(5);
   int free = 0;
-  while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest) ++free;  // 1e-12 allows for the rounding error of a sum over a few contacts
+  // 1e-12 allows for the rounding error of a sum over a few contacts
+  while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest) ++free;
   return modes.eigenvectors().leftCols(free);
 }
 

@@ -87,7 +87,8 @@ std::uint32_t checksum(const Preparation& prepared) {
     sum = crc32_z(sum, reinterpret_cast<const Bytef*>(list.data()), list.size() * sizeof(list[0]));
   };
   const Specimen& s = prepared.specimen;
-  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // voids need not be added, because a change of the voids changes the contacts
+  // voids need not be added, because a change of the voids changes the contacts
+  add(s.centre), add(s.radius), add(s.phase), add(s.body);
   const ContactNetwork& n = prepared.network;
   add(n.point_s), add(n.point_t), add(n.point_area);
   return static_cast<std::uint32_t>(sum);
@@ -181,7 +182,8 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
 }
 
 void Checkpoints::write(const Content& content, const Stepper& stepper) const {
-  std::vector<StateArray> state = stepper.state();  // called before the other processes (ranks) return in the next line, because all of them must take part
+  // called before the other processes (ranks) return in the next line, because all of them must take part
+  std::vector<StateArray> state = stepper.state();
   if (!is_first_rank()) return;
   Checkpoint out;
   out.texts = identity(scene_, backend_);

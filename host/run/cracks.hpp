@@ -48,13 +48,15 @@ class CrackWatch {
 };
 
 /// Return the header line of cracks.csv, and the line of an event. The columns x, y, z are the point's position in the
-/// undeformed specimen. @{
+/// undeformed specimen.
+/// @{
 std::string crack_head();
 std::string crack_line(const Preparation& prepared, const experiments::CrackEvent& event);
 /// @}
 
 /// to_numbers() returns the events as four numbers each, for a checkpoint; to_cracks() makes events of such numbers.
-/// \throws InputError for numbers that are not events. @{
+/// \throws InputError for numbers that are not events.
+/// @{
 std::vector<double> to_numbers(const std::vector<experiments::CrackEvent>& events);
 std::vector<experiments::CrackEvent> to_cracks(const std::vector<double>& numbers);
 /// @}

@@ -102,7 +102,8 @@ double single_precision_error(const RoundingScale& s) {
 }
 
 std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured) {
-  const RoundingScale& up_to = measured.up_to;  // the comparisons below are written so that a NaN counts as beyond the range
+  // the comparisons below are written so that a NaN counts as beyond the range
+  const RoundingScale& up_to = measured.up_to;
   if (!(scale.steps <= up_to.steps)) return fmt::format("{} steps (only up to {})", scale.steps, up_to.steps);
   if (!(scale.layers <= up_to.layers)) {
     return fmt::format("{:.0f} layers of particles (only up to {:.0f})", scale.layers, up_to.layers);

@@ -46,7 +46,8 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
       is_reported = true;
       course.report_remaining(static_cast<double>(end - now) / speed(now));
     }
-    const InPhase writing(result_.phases, &PhaseSeconds::writing);  // this takes a noticeable time only when a checkpoint is written
+    // this takes a noticeable time only when a checkpoint is written
+    const InPhase writing(result_.phases, &PhaseSeconds::writing);
     checkpoints_.look(course.content, stepper, course.name);
   };
   bool ended = false;
@@ -79,7 +80,8 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
   PiecewiseStepper pieces(stepper);
   for (std::int64_t k = course.first; k <= course.last && !ended;) {
     const std::int64_t to = course.step_of(k);
-    while ((every > 0 || between > 0) && step < to) {  // stops between samples to call functions of the watcher and of the course
+    // stops between samples to call functions of the watcher and of the course
+    while ((every > 0 || between > 0) && step < to) {
       std::int64_t next = to;
       for (const std::int64_t n : {every, between}) next = n > 0 ? std::min(next, (step / n + 1) * n) : next;
       pieces.advance(step, next, look);

@@ -22,12 +22,13 @@ inline double seconds_since(Clock::time_point start) {
 
 /// Describes one run in time: at which steps it is sampled, and the functions that are called there.
 struct Course {
-  std::string name;                                   ///< name in messages: "20 Hz", "creep"
-  double dt = 0;                                      ///< [s]
-  double frequency = 0;                               ///< [Hz], of a cyclic test
-  std::int64_t first = 0, last = 0;                   ///< numbers of the first and last sample; sample 0 is at step 0
-  std::function<std::int64_t(std::int64_t)> step_of;  ///< the step of a sample; it never decreases from sample to sample
-  std::function<bool(std::int64_t)> taken;            ///< whether this sample is passed to `take`
+  std::string name;                  ///< name in messages: "20 Hz", "creep"
+  double dt = 0;                     ///< [s]
+  double frequency = 0;              ///< [Hz], of a cyclic test
+  std::int64_t first = 0, last = 0;  ///< numbers of the first and last sample; sample 0 is at step 0
+  /// The step of a sample; it never decreases from sample to sample.
+  std::function<std::int64_t(std::int64_t)> step_of;
+  std::function<bool(std::int64_t)> taken;  ///< whether this sample is passed to `take`
   /// Receives a sample. The stepper may already be beyond the step of this sample.
   std::function<void(std::int64_t sample, const Observation& now)> take;
   bool looks_at_stepper = false;     ///< whether `take` uses the stepper, which must then still be at the sample

@@ -11,7 +11,8 @@ namespace macadam {
 
 /// Return the skips that follow from the scene alone. geometry_skips(): the update of the geometry, if `geometry` is
 /// fixed; if the largest `strain` of the run is known, the text gives the effect at this strain. asked_skips(): walls
-/// and files that the scene does not request. @{
+/// and files that the scene does not request.
+/// @{
 std::vector<Skip> geometry_skips(Geometry geometry, std::optional<double> strain);
 std::vector<Skip> asked_skips(const Scene& scene);
 /// @}

@@ -80,7 +80,8 @@ PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::op
   const Eigen::LDLT<MatrixXd> resistance(scaled);
   const MatrixXd of_free = strain.rightCols(free) * scale.asDiagonal();  // the columns of the motions except the first
   const VectorXd pull = scale.asDiagonal() * at_once.bottomLeftCorner(free, 1);
-  const VectorXd answer = resistance.solve(pull);  // −v, where v are the coefficients of the motions in the instantaneous response
+  // −v, where v are the coefficients of the motions in the instantaneous response
+  const VectorXd answer = resistance.solve(pull);
   const double instantaneous = at_once(0, 0) - pull.dot(answer);
   MatrixXd decay = -of_free * resistance.solve(of_free.transpose());
   decay.diagonal().array() += 1;

@@ -33,7 +33,8 @@ constexpr double residual_share = 1e-4;
 /// The error estimate contains this fraction of the tolerance, as an allowance for the residuals of the solutions. For
 /// a specimen of 175 particles the residuals alone caused an error of 0.03 times the tolerance.
 constexpr double of_residuals = 0.1;
-constexpr int first_places = 9, most_rounds = 4;  // the network is solved at 9 places (values of s) in the first round, at 17, 33 and 65 in the next rounds
+// the network is solved at 9 places (values of s) in the first round, at 17, 33 and 65 in the next rounds
+constexpr int first_places = 9, most_rounds = 4;
 /// Number of frequencies at which the series is compared with solutions that were not used to make it.
 constexpr int checks = 3;
 

@@ -50,9 +50,10 @@ struct CalibrationOptions {
 /// One parameter and its calibrated value.
 struct CalibratedParameter {
   std::string name, unit;
-  double value = 0, start = 0;  ///< calibrated value and starting value, as in a scene file: moduli and viscosities without the factor δ
-  double deviation = 0;         ///< standard deviation, in units of the value; ∞ if the data do not determine the value
-  double low = 0, high = 0;     ///< bounds
+  /// Calibrated value and starting value, as in a scene file: moduli and viscosities without the factor δ.
+  double value = 0, start = 0;
+  double deviation = 0;      ///< standard deviation, in units of the value; ∞ if the data do not determine the value
+  double low = 0, high = 0;  ///< bounds
   bool at_bound = false;
 };
 
@@ -77,7 +78,8 @@ struct Combination {
 struct Calibration {
   CalibrationOptions options;
   std::vector<CalibratedParameter> parameters;
-  std::vector<double> covariance;   ///< covariance of the parameters' natural logarithms, row by row; NaN if not determined
+  /// Covariance of the parameters' natural logarithms, row by row; NaN if not determined.
+  std::vector<double> covariance;
   std::vector<double> correlation;  ///< row by row; NaN as in covariance
   std::vector<Combination> combinations;
   std::vector<CalibratedPoint> points;
@@ -88,7 +90,8 @@ struct Calibration {
   bool moduli = true, phases = true;              ///< whether moduli, phases were measured; the errors are NaN if not
   std::vector<std::uint64_t> seeds;               ///< empty for a specimen from a file
   std::string solver;                             ///< description of the solver
-  int solutions = 0;                              ///< number of solved linear systems, over all frequencies and specimens
+  /// Number of solved linear systems, over all frequencies and specimens.
+  int solutions = 0;
   double seconds_preparing = 0, seconds_solving = 0;
   std::vector<std::string> warnings;
   LawTable laws;  ///< the scene's laws with the calibrated values

@@ -63,11 +63,13 @@ struct Contact {
 struct ContactNetwork {
   std::vector<Contact> contacts;
   std::vector<double> point_s, point_t;  ///< local coordinates of the contact points (vertices, then centroid) [m]
-  std::vector<double> point_area;        ///< A_J: one third of the area of those fan triangles that have J as a corner [m²]
+  /// A_J: one third of the area of those fan triangles that have J as a corner [m²].
+  std::vector<double> point_area;
   std::vector<std::uint32_t> row_begin;  ///< particle i's contacts are rows[row_begin[i] … row_begin[i+1])
   std::vector<std::uint32_t> rows;       ///< contact numbers, ascending in a row
   std::int64_t dropped_gap = 0, dropped_area = 0;
-  double dropped_share = 0;  ///< area of the facets left out because of area_min, over the area of all facets between particles
+  /// Area of the facets left out because of area_min, over the area of all facets between particles.
+  double dropped_share = 0;
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
 

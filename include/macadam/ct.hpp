@@ -113,8 +113,10 @@ struct GrainCut {
   double solidity = 0;  ///< Solidity is volume over volume of the convex hull. This is the solidity of both fragments
                         ///< together, divided by their solidity apart (sum of volumes over sum of hull volumes).
   double valley = 0;    ///< grey value on the face; 0: mastic, 1: aggregate
-  double margin = 0;    ///< measure for the decision: positive if the face is a boundary between two grains, negative if it lies within one grain, near 0 if this is doubtful
-  bool cut = false;     ///< the decision: whether the fragments belong to two grains
+  /// Measure for the decision: positive if the face is a boundary between two grains, negative if it lies within one
+  /// grain, near 0 if this is doubtful.
+  double margin = 0;
+  bool cut = false;  ///< the decision: whether the fragments belong to two grains
 };
 
 /// Options for segmenting a scan.

@@ -53,7 +53,8 @@ struct FieldMesh {
   Shape shape = Shape::vertices;
   std::vector<float> points;               ///< x y z of each point [m]
   std::vector<std::int64_t> connectivity;  ///< point numbers of the cells, one cell after another
-  std::vector<std::int64_t> offsets;       ///< index in `connectivity` at which each cell begins; the last entry is the size of `connectivity`
+  /// Index in `connectivity` at which each cell begins; the last entry is the size of `connectivity`.
+  std::vector<std::int64_t> offsets;
   std::vector<FieldArray> arrays;  ///< constant arrays: one item per point if the cells are vertices, else one per cell
 
   std::size_t point_count() const { return points.size() / 3; }

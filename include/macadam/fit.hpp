@@ -152,7 +152,8 @@ struct Fit {
   bool temperatures = false;  ///< whether the data have temperatures
   bool deviations = false;    ///< whether the data have standard deviations
   std::vector<FitParameter> parameters;
-  std::vector<double> covariance;  ///< covariance of parameters or their logarithms (FitParameter::logarithmic), by rows
+  /// Covariance of parameters or their logarithms (FitParameter::logarithmic), by rows.
+  std::vector<double> covariance;
   std::vector<FittedPoint> points;
   std::vector<FitCandidate> candidates;  ///< chains only
   std::size_t chosen = 0;                ///< index in `candidates`

@@ -64,7 +64,8 @@ struct HarmonicResult {
   double residual = 0;                  ///< relative residual, computed from the solution after the iteration
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
-  std::string why_factors;                        ///< the reason if the direct solver was used although the options do not request it
+  /// The reason if the direct solver was used although the options do not request it.
+  std::string why_factors;
   /// Force of the springs that hold free rigid motions, divided by the reaction of the wall. In a correct solution it
   /// is only a rounding error.
   double held_force = 0;

@@ -35,15 +35,17 @@ struct PhantomSpec {
 
 /// A grain of a phantom.
 struct PhantomGrain {
-  std::uint32_t id = 0;      ///< its number in the label image, from 1
-  std::int32_t body = 0;     ///< Specimen::body of its spheres
-  Surface surface;           ///< the whole surface, at its position; a single sphere is approximated by 642 points and has the same volume
+  std::uint32_t id = 0;   ///< its number in the label image, from 1
+  std::int32_t body = 0;  ///< Specimen::body of its spheres
+  /// The whole surface, at its position; a single sphere is approximated by 642 points and has the same volume.
+  Surface surface;
   double sphere_radius = 0;  ///< radius if the grain is a single sphere [m]; otherwise 0
   std::string shape;         ///< name of its template, or "sphere"
-  Vec3d centre{};            ///< centroid of the part within the specimen [m]; `volume` and `border` also describe this part
-  double volume = 0;         ///< [m³]
-  bool border = false;       ///< whether the saw cuts it; the members below describe the whole grain
-  double area = 0;           ///< [m²]
+  /// Centroid of the part within the specimen [m]; `volume` and `border` also describe this part.
+  Vec3d centre{};
+  double volume = 0;    ///< [m³]
+  bool border = false;  ///< whether the saw cuts it; the members below describe the whole grain
+  double area = 0;      ///< [m²]
   double d_long = 0, d_intermediate = 0, d_short = 0;  ///< [m]
   double sieve = 0;                                    ///< side of the smallest square mesh that the grain passes [m]
   Vec3d axis_long{};                                   ///< unit vector; zero for a sphere

@@ -57,9 +57,10 @@ struct MixDesign {
   std::optional<double> bulk_density;   ///< measured [kg/m³]; the air voids are computed from it
   std::vector<EnvelopePoint> envelope;  ///< in any order; only compared and drawn
 
-  std::string source = "recipe";     ///< the scene's file, for messages
-  int line = 0;                      ///< line of `[specimen.recipe]` in that file; 0: none
-  std::map<std::string, int> lines;  ///< lines of the keys of `[specimen.recipe]` in that file, by the names in the scene
+  std::string source = "recipe";  ///< the scene's file, for messages
+  int line = 0;                   ///< line of `[specimen.recipe]` in that file; 0: none
+  /// Lines of the keys of `[specimen.recipe]` in that file, by the names in the scene.
+  std::map<std::string, int> lines;
 };
 
 /// One size class of aggregate particles.

@@ -27,15 +27,17 @@ struct Surface {
 
 /// Faults of a surface, each with the facets (or points) concerned; empty lists without a fault.
 struct SurfaceVerdict {
-  std::vector<std::int32_t> stray;              ///< points that belong to no facet; they would distort a shape's dimensions
+  /// Points that belong to no facet; they would distort a shape's dimensions.
+  std::vector<std::int32_t> stray;
   std::vector<std::int32_t> degenerate;         ///< facets without area, or with the same point twice
   std::vector<std::int32_t> non_manifold;       ///< facets at an edge of more than two facets, or at a pinched point
   std::vector<std::int32_t> open;               ///< facets with an edge that belongs to no other facet
   std::vector<std::int32_t> misoriented;        ///< facets oriented against the majority of those connected with them
   std::vector<std::int32_t> self_intersecting;  ///< facets that intersect another one
   std::int64_t pieces = 0;                      ///< connected parts
-  std::int64_t inner = 0;                       ///< number of pieces inside the piece with the largest volume; these are closed pores
-  bool inside_out = false;                      ///< closed, but the normals point inwards
+  /// Number of pieces inside the piece with the largest volume; these are closed pores.
+  std::int64_t inner = 0;
+  bool inside_out = false;  ///< closed, but the normals point inwards
 
   /// Returns whether the surface can be measured and filled.
   bool good() const;

@@ -147,9 +147,11 @@ struct ShapeSpec {
   };
   Library library = Library::aggregates;
   std::filesystem::path folder;  ///< folder of surfaces, in any unit of length; only with Library::folder
-  FillSpec fill;                 ///< how shapes are filled with spheres; the seed is not used, because every aggregate has a seed of its own
+  /// How shapes are filled with spheres; the seed is not used, because every aggregate has a seed of its own.
+  FillSpec fill;
   PlacementMethod placement = PlacementMethod::packing;
-  bool allow_short = false;  ///< with insertion: whether a class may stay below the requested amount if there is no more space
+  /// With insertion: whether a class may stay below the requested amount if there is no more space.
+  bool allow_short = false;
   PlacementTest test = PlacementTest::surfaces;  ///< with insertion
   double gap = 0.01;  ///< with packing: smallest distance between two surfaces, divided by the smaller D^I of the two
   /// Stiffness with which the surfaces of the shapes resist the mastic while it relaxes, divided by the stiffness of a

@@ -47,15 +47,17 @@ struct StepperOptions {
   bool skip_shear = true;      ///< leave out the chains of shear displacements if α = 0
   bool skip_rotations = true;  ///< leave out rotations if nothing_turns()
   int threads = 0;             ///< cpu: 0 is OpenMP's choice; results do not depend on it
-  DeviceList devices;       ///< cuda: devices that step the specimen together; the first becomes the calling thread's
-                            ///< current device
-  int multiprocessors = 0;  ///< cuda: use only this number of the device's multiprocessors; 0: all; results do not depend on it
-  int side_by_side = 1;     ///< cuda: number of specimens on the device at the same time, so that small ones leave
-                            ///< multiprocessors to others; results do not depend on it
-  Ranks* ranks = nullptr;   ///< cuda: the processes that step this specimen together; they must outlive the stepper;
-                            ///< null: this process alone
-  Boundary boundary;        ///< motion of the walls, and fixed and loaded particles; the drives' dt() must be dt
-  const StartState* start = nullptr;  ///< state of motion to start from; only read by make_stepper(); a cyclic drive must then have no ramp
+  DeviceList devices;  ///< cuda: devices that step the specimen together; the first becomes the calling thread's
+                       ///< current device
+  /// cuda: use only this number of the device's multiprocessors; 0: all; results do not depend on it.
+  int multiprocessors = 0;
+  int side_by_side = 1;    ///< cuda: number of specimens on the device at the same time, so that small ones leave
+                           ///< multiprocessors to others; results do not depend on it
+  Ranks* ranks = nullptr;  ///< cuda: the processes that step this specimen together; they must outlive the stepper;
+                           ///< null: this process alone
+  Boundary boundary;       ///< motion of the walls, and fixed and loaded particles; the drives' dt() must be dt
+  /// State of motion to start from; only read by make_stepper(); a cyclic drive must then have no ramp.
+  const StartState* start = nullptr;
   /// Mixed and single precision may take steps in blocks, within which viscoelastic states are not updated (model
   /// (6.8)). This is the smallest number of blocks in the shortest characteristic time of the drives and the laws. The
   /// error of a block is of second order in its length. If no law has a memory and the geometry is fixed, blocks have
@@ -115,7 +117,8 @@ struct KernelUse {
   std::string name;
   int registers = 0;              ///< per thread
   std::int64_t shared_bytes = 0;  ///< per thread block
-  double occupancy = 0;  ///< number of threads of this kernel that fit on a multiprocessor, over the largest number that it can have
+  /// Number of threads of this kernel that fit on a multiprocessor, over the largest number that it can have.
+  double occupancy = 0;
 };
 
 /// Bytes that a step moves, by kind of memory.

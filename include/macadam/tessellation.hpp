@@ -42,7 +42,8 @@ struct Facet {
 struct Tessellation {
   std::vector<Facet> facets;    ///< sorted by (a, b); among the facets of one a, walls (negative b) come first
   std::vector<Vec3d> vertices;  ///< [m]; the vertices of a facet are consecutive, counter-clockwise about its normal
-  std::vector<double> cell_volume;   ///< [m³], one per particle, then one per void; 0 for a particle or void without a cell
+  /// [m³], one per particle, then one per void; 0 for a particle or void without a cell.
+  std::vector<double> cell_volume;
   std::vector<std::int32_t> hidden;  ///< particles and voids without a cell in the box, in rising order
   /// Number of neighbours that meet only in an edge or a point (zero area); these are not facets.
   std::int64_t null_facets = 0;

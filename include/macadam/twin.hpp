@@ -34,9 +34,11 @@ struct Twin {
   std::int64_t lost = 0;      ///< number of grains that were left out because too little of their volume is in the box
   /// Particles that were removed because they are not connected to both walls.
   std::int64_t enclosed_mastic = 0, enclosed_aggregate = 0;
-  double aggregate = 0, voids = 0;  ///< volumes of the labelled grains and of the void voxels, divided by the volume of the box
-  double voids_left_out = 0;        ///< volume of the voids that were left out because they are too small, divided by the volume of the box
-  double mastic = 0;                ///< Σ volumes of the mastic spheres, divided by the volume of the box
+  /// Volumes of the labelled grains and of the void voxels, divided by the volume of the box.
+  double aggregate = 0, voids = 0;
+  /// Volume of the voids that were left out because they are too small, divided by the volume of the box.
+  double voids_left_out = 0;
+  double mastic = 0;  ///< Σ volumes of the mastic spheres, divided by the volume of the box
 };
 
 /// Makes a specimen from a folder with labels.mha, phases.mha, library/grain_*.off and border/grain_*.off, as written

@@ -28,8 +28,9 @@ struct Plan {
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
-  double geometry_error = 0;  ///< approximate largest relative error of |E*| from keeping the initial geometry; 0 if the geometry is updated
-  CriticalStep critical;      ///< critical time step at true mass
+  /// Approximate largest relative error of |E*| from keeping the initial geometry; 0 if the geometry is updated.
+  double geometry_error = 0;
+  CriticalStep critical;  ///< critical time step at true mass
   std::vector<FrequencyPlan> frequencies;
   std::vector<std::string> decisions;  ///< the choices and their reasons, one sentence each
 };

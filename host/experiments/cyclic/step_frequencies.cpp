@@ -131,7 +131,8 @@ class Steps : public PlannedExperiment {
     std::optional<LineWriter> writer;
     if (scene_.output.response) {
       writer.emplace(out / "response.csv", "frequency_hz,time_s,strain,stress_pa");
-      for (const ResponseSample& s : at_.samples) writer->add(line_of(s));  // a resumed run writes the whole file again, so that no sample is missing or written twice
+      // a resumed run writes the whole file again, so that no sample is missing or written twice
+      for (const ResponseSample& s : at_.samples) writer->add(line_of(s));
     }
     begin_cracks(out);
     for (std::size_t i = at_.seconds.size(); i < at_.plan.frequencies.size(); ++i) {
@@ -173,7 +174,8 @@ class Steps : public PlannedExperiment {
     std::unique_ptr<Stepper> made;
     try {
       made = on(devices_);
-    } catch (const RunError&) {  // for example if the new device has too little memory: the run then stays on its old device
+    } catch (const RunError&) {
+      // for example if the new device has too little memory: the run then stays on its old device
       if (devices_ == before) throw;
       devices_ = before, may_move_ = false;
       made = on(devices_);
@@ -318,7 +320,9 @@ class Steps : public PlannedExperiment {
   std::optional<LineWriter> cracks_writer_;
   std::size_t samples_read_ = 0;  ///< number of samples of finished frequencies
   bool owns_checkpoint_;
-  std::future<StartState> next_start_;  ///< start of the next frequency; it is the last member, so that it is destroyed first, because its thread uses the other members
+  /// Start of the next frequency; it is the last member, so that it is destroyed first, because its thread uses the
+  /// other members.
+  std::future<StartState> next_start_;
 };
 
 }  // namespace

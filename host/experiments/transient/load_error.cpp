@@ -127,7 +127,8 @@ bool LoadErrors::is_known(const SteppedPoint& row, const std::vector<SteppedPoin
   if (!spectrum_) return false;
   double strain = std::abs(row.strain);
   for (const SteppedPoint& p : before) strain = std::max(strain, std::abs(p.strain));
-  return !updated_ || strain <= small_strain;  // a larger strain turns the contacts, and the relaxation spectrum does not contain this effect
+  // a larger strain turns the contacts, and the relaxation spectrum does not contain this effect
+  return !updated_ || strain <= small_strain;
 }
 
 /// Returns the error of a row as the difference from the response without time steps, in two parts: the effect of the

@@ -69,7 +69,8 @@ class LoadErrors {
   bool updated_ = true, damping_given_ = false;
   bool remembers_ = false;     ///< whether a law relaxes; if none does, only the present load has an effect
   double affine_modulus_ = 0;  ///< upper bound of the instantaneous modulus [Pa]
-  double wave_ = 0;  ///< ω² of the slowest wave divided by the modulus: π²/(ρ·H²); a quarter of this value if the load is a stress
+  /// ω² of the slowest wave divided by the modulus: π²/(ρ·H²); a quarter of this value if the load is a stress.
+  double wave_ = 0;
 };
 
 }  // namespace macadam

@@ -34,9 +34,10 @@ struct TransientExperiment {
   /// Returns the response at a time to this load, applied at the times `when`, from the specimen's relaxation spectrum.
   std::function<experiments::ResponsePoint(const Spectrum&, double time, const LoadTimes& when)> unstepped;
 
-  bool by_stress = false;             ///< whether the load is a stress; otherwise it is a strain
-  LoadTimes when;                     ///< times as given in the scene
-  bool grows = false;                 ///< whether the load grows during the whole test; the duration of the ramp is then that of the test
+  bool by_stress = false;  ///< whether the load is a stress; otherwise it is a strain
+  LoadTimes when;          ///< times as given in the scene
+  /// Whether the load grows during the whole test; the duration of the ramp is then that of the test.
+  bool grows = false;
   std::optional<double> platen_mass;  ///< mass of the top wall if a stress loads it [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand
   double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
@@ -60,8 +61,9 @@ struct LoadWords {
   const char* comment;              ///< comment in the file of a run without time steps
   bool stress_first;                ///< whether the column of the stress comes before the column of the strain
   const char* shown;                ///< name of the ratio in printed text, with its unit
-  const char* shown_stepped;        ///< the same for a stepped run, where the ratio is computed from strain and stress of a row
-  double unit;                      ///< unit of the ratio in printed text
+  /// The same for a stepped run, where the ratio is computed from strain and stress of a row.
+  const char* shown_stepped;
+  double unit;  ///< unit of the ratio in printed text
 };
 /// Returns the names and units for a kind of test. \throws RunError for a kind that is not a test of a load.
 const LoadWords& load_words(const std::string& kind);

@@ -113,7 +113,8 @@ Eigen::MatrixXd coarse_stiffness(const LinearSystem& system) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   std::vector<std::int32_t> box_of(system.bodies());
   for_each_body(system, [&](std::size_t b, std::size_t i) { box_of[i] = static_cast<std::int32_t>(b); });
-  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);  // the matrix is symmetric, so rows are written as columns, which are contiguous
+  // the matrix is symmetric, so rows are written as columns, which are contiguous
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);
   for_each_body(system, [&](std::size_t box, std::size_t i) {
     const auto row = static_cast<Eigen::Index>(6 * box);
     for (std::size_t at = system.row_begin[i]; at < system.row_begin[i + 1]; ++at) {

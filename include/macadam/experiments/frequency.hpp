@@ -37,7 +37,8 @@ struct HarmonicFrequency : Frequency {
   Stiffness bottom;     ///< from the reaction of the bottom wall
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
-  double held_force = 0;                          ///< force of the springs that hold free rigid motions, divided by the wall's reaction; nearly 0 in a correct solution
+  /// Force of the springs that hold free rigid motions, divided by the wall's reaction; nearly 0 in a correct solution.
+  double held_force = 0;
 };
 
 }  // namespace experiments

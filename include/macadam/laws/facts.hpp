@@ -31,11 +31,13 @@ struct LawFacts {
   double instantaneous = 0;                                        ///< [Pa]
   double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
   int units = 0;                                                   ///< state numbers per component besides f
-  int only_units = -1;                                     ///< the number of units, if it is fixed at compile time; −1: not fixed
+  /// The number of units, if it is fixed at compile time; −1: not fixed.
+  int only_units = -1;
   bool memoryless = false, linear = true, blocks = false;  ///< see law.hpp
-  bool coupled = false;                                    ///< whether opening and slips of a contact point act on one another
-  bool stiffness = true;                                   ///< whether the law can be used in the frequency domain
-  bool breaks = false;                                     ///< whether its contact points can break
+  /// Whether opening and slips of a contact point act on one another.
+  bool coupled = false;
+  bool stiffness = true;  ///< whether the law can be used in the frequency domain
+  bool breaks = false;    ///< whether its contact points can break
 };
 
 /// Traits for the optional parts of a law's contract (law.hpp).

@@ -106,7 +106,7 @@ struct GeneralisedKelvin {
       const S f_new = f + (S(inv_c) * stretched - S(relax) * f);  // model (6.6)
       const S sum = f_new + f;
       for (int l = 0; l < m; ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // model (6.6)
-      return f_new;  // NOLINT(performance-no-automatic-move): the value consists of numbers in registers, which are not moved
+      return f_new;  // NOLINT(performance-no-automatic-move): the numbers are in registers
     }
   };
 
@@ -136,7 +136,8 @@ struct GeneralisedKelvin {
   ///   δf(t+Δt) = δf(t) + rate·Δx + drift + follow·s − relax·δf(t)   (model (6.8)),
   ///   drift = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
   /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with the same weight for all steps (model (6.9)). The error
-  /// has a mean of zero over a block. It is of second order in M·Δt divided by the characteristic times of the load and of the units.
+  /// has a mean of zero over a block. It is of second order in M·Δt divided by the characteristic times of the load and
+  /// of the units.
   struct Block {
     static constexpr int most_units = max_units;
     double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]
