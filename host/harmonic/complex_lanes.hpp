@@ -69,9 +69,8 @@ struct Lanes {
 /// A complex factor for each solution, prepared for multiplication.
 template <int F>
 struct Factor {
-  Lanes<F> real,
-      imaginary;  ///< each part is stored in both lanes of a number; in the real lane the imaginary part is negated
-                  ///< (i·i = −1)
+  /// Each part is stored in both lanes of a number. In the real lane the imaginary part is negated, because i·i = −1.
+  Lanes<F> real, imaginary;
 
   void set(int f, std::complex<double> z) {
     real.v[f] = real.v[F + f] = z.real();

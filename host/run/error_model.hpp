@@ -29,10 +29,11 @@ double inertia_estimate(const Scene& scene, const Preparation& prepared, double 
 /// Quantities with which the rounding error of a run grows.
 struct RoundingScale {
   std::int64_t steps = 0;  ///< number of steps of the whole run
-  double layers = 0;       ///< Height over the mean distance of particles in contact. It is the ratio of velocities to
-                           ///< relative velocities.
-  double contrast = 1;     ///< largest |k*(ω)| over the smallest, of the pair types that occur
-  double inertia = 0;      ///< effect of the scaled mass on |E*|, by inertia_estimate()
+  /// Height of the specimen over the mean distance of particles in contact. It is about the ratio of the velocities of
+  /// particles to the relative velocities of neighbours.
+  double layers = 0;
+  double contrast = 1;  ///< largest |k*(ω)| over the smallest, of the pair types that occur
+  double inertia = 0;   ///< effect of the scaled mass on |E*|, by inertia_estimate()
 };
 /// Returns the quantities of RoundingScale for a run of one frequency.
 RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,

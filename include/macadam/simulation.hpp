@@ -63,7 +63,7 @@ struct RunResult {
   std::string solver;  ///< description of the solver that ran: Stepper::description(), or "harmonic, …"
   Backend backend = Backend::automatic;  ///< the backend that ran
 
-  /// Return the result of a cyclic test: stepped() if it was stepped in time, the other function if it was solved in
+  /// Return the result of a cyclic test: stepped() if it was stepped in time, harmonic() if it was solved in
   /// the frequency domain. \throws std::bad_variant_access if the run had another result.
   const experiments::SteppedCyclic& stepped() const { return std::get<experiments::SteppedCyclic>(found); }
   const experiments::HarmonicCyclic& harmonic() const { return std::get<experiments::HarmonicCyclic>(found); }

@@ -238,7 +238,7 @@ class Stepper {
   }
 };
 
-/// Observes a stepper before its first step, and then `n` more times, each time after `every` further steps. Each time
+/// Observes a stepper in its present state, and then `n` more times, each time after `every` further steps. Each time
 /// calls f(observation), which may read the stepper. \throws DivergenceError naming the first particle whose motion is
 /// out of range.
 void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::function<void(const Observation&)>& f);

@@ -28,8 +28,8 @@ struct Cyclic {
   static constexpr std::array files = {"response.csv"};  ///< files that a run may write
 
   std::vector<double> frequencies;  ///< [Hz]
-  /// [°C]; Every frequency is solved at each of these temperatures. For the harmonic method only. If empty,
-  /// Materials::temperature is used.
+  /// Temperatures [°C]. Every frequency is solved at each of these temperatures. For the harmonic method only. If
+  /// empty, Materials::temperature is used.
   std::vector<double> temperatures;
   double strain_amplitude = 1e-4;  ///< relative to the height of the specimen
   std::optional<Start> start;
