@@ -19,9 +19,9 @@ double stiffest_contact(const Scene& scene, const ContactNetwork& network, doubl
 /// specimen of springs and dashpots cannot have, a modulus above the modulus of the `stiffest` contact, a residual of
 /// the fit above half of the amplitude, different forces on the two walls, a tolerance that was not kept or could not
 /// be verified. Without a harmonic solution to compare with, sets `kept` of the result to false if there is a fault, or
-/// if the last two cycles differ by more than the tolerance. `stiffest` is empty if a law is not linear; the modulus
-/// and the phase angle are then not checked, because their limits hold for linear specimens only. \throws RunError for
-/// a modulus that is not a positive finite number.
+/// if the last two cycles differ by more than the tolerance. `stiffest` is empty if a law is not linear. The function
+/// then checks only that the modulus is a positive finite number, because the limits above hold for linear specimens.
+/// \throws RunError for a modulus that is not a positive finite number.
 void judge(experiments::SteppedFrequency& result, std::optional<double> stiffest, std::optional<double> tolerance,
            std::vector<std::string>& warnings);
 void judge(experiments::HarmonicFrequency& result, double stiffest, std::vector<std::string>& warnings);
