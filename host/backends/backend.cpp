@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// backend.cpp  Reports what the machine offers, chooses a backend, and makes its stepper.
+// backend.cpp  Reports the devices (GPUs) and threads of the machine, chooses a backend, and makes the stepper of this
+// backend.
 #include "macadam/backend.hpp"
 
 #include <omp.h>
@@ -42,7 +43,7 @@ std::vector<DeviceInfo> chosen_devices(const BackendReport& report, const Device
   return out;
 }
 
-/// Returns why a device that responds cannot be used after all; empty if it can.
+/// Returns the reason why a device that responds cannot be used; empty if it can be used.
 std::string refusal_of(const DeviceInfo& device) {
   const std::string why = cuda_code()->refusal(device.number);
   return why.empty() ? "" : device.name + " cannot be used: " + why;

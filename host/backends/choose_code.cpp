@@ -16,7 +16,8 @@ extern const ProcessorCode macadam_code_v3, macadam_code_v4;
 
 namespace {
 
-/// Returns the newest generation that the processor supports, but none newer than MACADAM_PROCESSOR.
+/// Returns the newest generation that the processor supports, but none newer than the environment variable
+/// MACADAM_PROCESSOR says.
 ProcessorGeneration newest_generation() {
 #ifdef MACADAM_ALL_PROCESSORS
   const char* const named = std::getenv("MACADAM_PROCESSOR");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_devices.cpp  Takes further devices without being asked, if they make steps faster and no other process uses
-// them.
+// choose_devices.cpp  Chooses the devices (GPUs) of a run if the user does not name any: several devices if they make
+// steps faster and no other process uses them, otherwise one.
 #include "host/backends/choose_devices.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file choose_devices.hpp  Decides how many devices step a specimen if the user does not say.
+/// \file choose_devices.hpp  Decides how many devices (GPUs) step a specimen if the user does not give their number.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ using IdleBeside = std::function<bool(int device, int first)>;
 /// Returns an empty list if there are no devices.
 DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& devices, const IdleBeside& idle_beside,
                           std::string& decision);
-/// Does the same for the devices of this machine.
+/// Chooses as above among the devices of this machine.
 DeviceList choose_devices(std::size_t contacts, std::string& decision);
 
 }  // namespace macadam

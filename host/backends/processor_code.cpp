@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// processor_code.cpp  Defines the table of the time step compiled for one processor generation. CMakeLists.txt compiles
-// this file once for each generation, with its own MACADAM_CODE as the name of the table.
+// processor_code.cpp  Defines the table of the functions that step on the CPU, compiled for one processor generation.
+// CMakeLists.txt compiles this file once for each generation, with its own MACADAM_CODE as the name of the table.
 #include "host/backends/processor_code.hpp"
 
 #include "kernels/contact/precision.hpp"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file processor_code.hpp  Declares the time step on the CPU, whose speed depends on the SIMD registers of the
-/// processor. It is compiled once for each processor generation, and the newest that can run is chosen at run time. The
-/// frequency domain has a table of its own, for the same generation: host/harmonic/harmonic_code.hpp.
+/// processor. It is compiled once for each processor generation. At run time the newest generation that the processor
+/// supports is chosen. The functions of the frequency domain for this generation are in a table of their own:
+/// host/harmonic/harmonic_code.hpp.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,10 @@ struct ProcessorCode {
 
 /// Returns the newest generation that this processor can run and for which the library has code. A build for this
 /// machine alone (MACADAM_NATIVE) has only `base`. The environment variable MACADAM_PROCESSOR (x86-64, x86-64-v3,
-/// x86-64-v4) asks for an older one.
+/// x86-64-v4) asks for an older generation.
 ProcessorGeneration processor_generation();
 
-/// Returns the code of processor_generation().
+/// Returns the code for the generation that processor_generation() returns.
 const ProcessorCode& processor_code();
 
 }  // namespace macadam

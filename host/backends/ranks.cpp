@@ -15,7 +15,7 @@ namespace {
 
 Ranks* joined = nullptr;
 
-/// Returns the table of the plugin, or nullptr without a plugin; `why` then gets the reason.
+/// Returns the table of the plugin. If there is no usable plugin, returns nullptr and stores the reason in `why`.
 const RanksPlugin* find(std::string& why) {
   const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
   return static_cast<const RanksPlugin*>(find_plugin(asked, why));
@@ -36,8 +36,8 @@ DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   if (report_backends().devices.empty()) return asked;
   DeviceList devices = device_numbers(asked.empty() ? DeviceList{every_device} : asked);
   const auto own = static_cast<std::size_t>(team.number_on_host());
-  // The launcher may show each process a single device, a different one for each. If two processes share a device, NCCL
-  // reports the error.
+  // The launcher (mpirun) may make a single device visible to each process, a different one for each process. If two
+  // processes share a device, NCCL reports the error.
   if (devices.size() == 1) return devices;
   if (own >= devices.size()) {
     throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " ranks on this host with " +

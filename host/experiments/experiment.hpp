@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file experiment.hpp  Declares the functions that each experiment in the list of macadam/experiments/all.hpp
-/// defines, and functions that call them for the experiment of a scene. Each experiment specialises the two templates
-/// in host/experiments/<kind>/.
+/// \file experiment.hpp  Declares the class templates ExperimentOf and ResultOf. Every experiment in the list of
+/// macadam/experiments/all.hpp defines their functions for its own types, in a source file in host/experiments/. The
+/// functions further below call them for the experiment of a scene.
 #pragma once
 
 #include <exception>
@@ -17,13 +17,13 @@
 
 namespace macadam {
 
-/// A checkpoint of the same scene and specimen, from which a stepped run continues, and its file.
+/// A checkpoint from which a stepped run of the same scene and specimen continues, and the file of the checkpoint.
 struct Resumed {
   Checkpoint checkpoint;
   std::filesystem::path file;
 };
 
-/// Functions of an experiment. `Spec` describes it in a scene.
+/// Functions of an experiment. `Spec` is the type that describes the experiment in a scene.
 template <class Spec>
 struct ExperimentOf {
   /// Reads `[loading]`. \throws InputError
@@ -42,10 +42,10 @@ struct ExperimentOf {
   static std::vector<std::string> files(const Spec& spec, const Scene& scene);
 };
 
-/// Functions of an experiment. `Result` is the type of its result.
+/// Functions for the result of an experiment. `Result` is the type of the result.
 template <class Result>
 struct ResultOf {
-  /// Adds the result to `results` of summary.json, and its settings of the solver to `solver`.
+  /// Adds the result to `results` of summary.json, and the settings of the solver to `solver` of summary.json.
   static void summarise(const Result& found, const Scene& scene, const RunResult& run, nlohmann::ordered_json& out);
 
   /// Returns the wall time until the result was found [s], of all processes of a resumed run.
@@ -62,8 +62,8 @@ struct Planned {
   std::exception_ptr unsolvable;  ///< why the experiment cannot be solved; nullptr if it can
 };
 
-/// Calls `plan` of the scene's experiment. A RunError is returned as `unsolvable`, together with the results until
-/// then. \throws InputError, InterruptedError
+/// Calls `plan` of the scene's experiment. If `plan` throws a RunError, the error is returned as `unsolvable`, together
+/// with the results that are known by then. \throws InputError, InterruptedError
 Planned plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                         std::optional<Resumed> resumed, Backend backend);
 
@@ -78,7 +78,7 @@ void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_js
 /// preconditioner.
 double solve_seconds(const RunResult& result);
 
-/// Returns the names of all files that a run of the scene leaves in its folder, fields and checkpoints aside.
+/// Returns the names of all files that a run of the scene leaves in its folder, except field files and checkpoints.
 /// `aggregates`: whether the specimen is generated and has aggregates.
 std::vector<std::string> files_of_run(const Scene& scene, bool aggregates);
 

@@ -13,8 +13,8 @@ namespace {
 
 using experiments::Material;
 
-/// Factor on the fractions of the units of a fluid, which has no long-term modulus. Without this factor the fractions
-/// would add up to 1, which finite-element programs refuse.
+/// Factor on the fractions g_i/E(0) of the units of a fluid. A fluid has no long-term modulus, so without this factor
+/// the fractions would add up to 1, which finite-element programs refuse.
 constexpr double of_a_fluid = 1 - 1e-8;
 
 /// Returns the comment lines at the top of every table, each after `mark`.

@@ -39,8 +39,8 @@ class PlannedMaterial : public PlannedExperiment {
                        std::string("true with kind \"") + kind_of(scene.experiment) + "\"",
                        "false, because relaxation is computed without inertia");
     }
-    // The CPU replaces the reference backend, which implements time steps only, and a device if the direct solver is
-    // requested, which runs on the CPU only. The frequency domain does the same.
+    // The CPU is used instead of the reference backend, which implements time steps only. It is also used instead of a
+    // device if the direct solver is requested, which runs on the CPU only. solve_frequencies.cpp does the same.
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = std::string("relaxation spectrum, without inertia, ") + to_string(result.backend);
     std::tie(options_.shortest, options_.longest) = history.range();
@@ -122,7 +122,7 @@ std::pair<double, double> History::range() const {
       const double since = t - r.begin;
       if (!(since > 0)) continue;
       longest = std::max(longest, since);
-      // the part of a ramp that lies only a short time back has little effect
+      // the part of a ramp that lies only a short time before t has little effect
       const double grown = std::min(since, r.duration);
       shortest = std::min(shortest, std::max(since - grown, 0.1 * grown));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file material_solution.hpp  Does the common part of relaxation, creep and constant-rate tests without steps: solves
-/// the specimen's relaxation spectrum once.
+/// \file material_solution.hpp  Does the common part of relaxation, creep and constant-rate tests that are computed
+/// without time steps: solves the relaxation spectrum of the specimen once.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,8 @@ struct History {
   };
   std::vector<Ramp> ramps;
 
-  /// Returns the range of times after a change of the load for which the relaxation of the specimen must be known [s].
+  /// Returns the shortest and the longest time after a change of the load at which the relaxation of the specimen must
+  /// be known [s].
   std::pair<double, double> range() const;
 };
 
@@ -34,16 +35,16 @@ using Responds =
     std::function<void(const std::filesystem::path& out, experiments::Material material, RunResult& result)>;
 
 /// Returns a solution that computes the spectrum for the times of a history, writes the tables of the material and
-/// calls `responds`. \throws InputError if the scene has inertia (a specimen with inertia has no relaxation times), and
-/// as Harmonic does.
+/// calls `responds`. \throws InputError if the scene has inertia, because a specimen with inertia has no relaxation
+/// times; also as Harmonic does.
 std::unique_ptr<PlannedExperiment> plan_material(const Scene& scene, const Preparation& prepared,
                                                  const Watcher& watcher, RunResult& result, const History& history,
                                                  double poisson_ratio, Responds responds);
 
-/// Returns the entries with which `results` of these experiments begins in summary.json.
+/// Returns the entries about the material, with which `results` of summary.json begins for these experiments.
 nlohmann::ordered_json material_json(const char* kind, const experiments::Material& material);
 
-/// Returns the last lines that the command prints.
+/// Returns the lines about the material, the last ones that the command prints.
 std::string material_lines(const experiments::Material& material);
 
 }  // namespace macadam

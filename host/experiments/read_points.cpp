@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_points.cpp  Reads lists of points, and ranges with even steps or with even steps of the logarithm.
+// read_points.cpp  Reads lists of times or frequencies, and ranges that are evenly divided on a linear or a logarithmic
+// scale.
 #include "host/experiments/read_points.hpp"
 
 #include <fmt/format.h>

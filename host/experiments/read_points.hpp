@@ -24,7 +24,8 @@ Key poisson_key(double& target);
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
                   const char* what);
 
-/// Times or frequencies: a list, or the two ends of a range together with `points_per_decade` or `points`.
+/// Times or frequencies in a scene: either a list, or the two ends of a range with the key `points_per_decade` or
+/// `points`.
 struct Points {
   std::vector<double> given;
   std::optional<int> per_decade, evenly;

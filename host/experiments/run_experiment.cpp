@@ -56,7 +56,7 @@ double solve_seconds(const RunResult& result) {
       of_found(result.found, 0.0, []<class Result>(const Result& f) { return ResultOf<Result>::seconds(f); });
   const bool stepped = of_found(
       result.found, false, []<class Result>(const Result&) { return std::is_base_of_v<experiments::Stepped, Result>; });
-  // the planning of a stepped result includes the preconditioner
+  // for a stepped run, `seconds` includes the planning and thus the preconditioner
   return found + (stepped ? 0 : result.phases.preconditioner);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// field_files.cpp  Chooses between the two formats of field files.
+// field_files.cpp  Chooses between the formats of field files, VTKHDF and VTK's XML.
 #include <algorithm>
 #include <iterator>
 

@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// Returns an array with one number per entry.
+/// Returns an array with one number per entry of `list`.
 inline FieldArray scalars(std::string name, std::string unit, const std::vector<double>& list) {
   return {std::move(name), std::move(unit), 1, std::vector<float>(list.begin(), list.end())};
 }
@@ -26,7 +26,7 @@ FieldArray tuples(std::string name, std::string unit, std::size_t entries, int c
   return {std::move(name), std::move(unit), components, std::move(values)};
 }
 
-/// Returns an array with three numbers per entry.
+/// Returns an array with three numbers (x, y, z) per entry of `list`.
 inline FieldArray vectors(std::string name, std::string unit, const std::vector<Vec3d>& list) {
   return tuples(std::move(name), std::move(unit), list.size(), 3, [&](std::size_t i, int k) {
     const Vec3d& v = list[i];

@@ -56,7 +56,7 @@ void remove_fields(const fs::path& out) {
       throw RunError(entry.path().string() + ": cannot be replaced: " + error.message());
     }
   }
-  fs::remove(folder, error);  // fails, as it should, if the user has put other files into it
+  fs::remove(folder, error);  // removes the folder only if it is empty; files that the user has put into it stay
 }
 
 void write_specimen_fields(const Scene& scene, const Preparation& prepared, const fs::path& out) {
@@ -119,7 +119,7 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
   const bool has_contact_states = scene_.solver.backend != Backend::reference;
   ContactState carried;
   if (spec.contacts || has_contact_states) carried = stepper.contacts(prepared_.network);
-  if (!writes_) return;  // the calls above have sent this rank's data to the first rank
+  if (!writes_) return;  // the calls above have sent the data of this process to the first process, which writes them
   if (particles_) {
     if (has_contact_states) of_particles.push_back(stress_array(prepared_.tessellation, prepared_.network, carried));
     particles_->add(time, of_particles);

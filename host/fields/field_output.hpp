@@ -24,15 +24,15 @@ void write_specimen_fields(const Scene& scene, const Preparation& prepared, cons
 /// preparation must outlive this object.
 class FieldOutput {
  public:
-  /// Writes the cells, which do not change, if they are asked for. \throws RunError.
+  /// Writes the Laguerre cells if the scene requests them. They do not change during a run. \throws RunError.
   FieldOutput(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
-  /// Begins the series of fields of a stepped run. `of` names the part of the run in the file names, for example
+  /// Begins the series of fields of a stepped run. `of` is the name of this part of the run in file names, for example
   /// "20Hz". If the stepper starts at a `time` other than 0, the existing series are continued. `samples` is the number
   /// of samples per period of a cyclic test, or the number of samples of any other test. Returns a sentence about each
   /// series that should have existed but did not. \throws InputError for a file that is not a series of this run.
   std::vector<std::string> begin(const std::string& of, int samples, double time);
-  /// Returns whether the scene requests a series.
+  /// Returns whether the scene requests a series of fields.
   bool begun() const { return begun_; }
   /// Returns whether a frame is due at this sample.
   bool wants(std::int64_t sample) const;
@@ -41,9 +41,8 @@ class FieldOutput {
   /// Closes the series after the last frame. \throws RunError.
   void end();
 
-  /// Writes a steady state. `laws` are the laws with which it was solved. `temperature` [°C] must be given if there are
-  /// several temperatures; it becomes a part of the file name.
-  /// \throws RunError.
+  /// Writes a steady state. `laws` are the laws with which the steady state was solved. `temperature` [°C] must be
+  /// given if there are several temperatures; it becomes a part of the file name. \throws RunError.
   void write(const HarmonicResult& solved, const LawTable& laws, std::optional<double> temperature);
 
  private:
@@ -55,8 +54,8 @@ class FieldOutput {
   const Preparation& prepared_;
   std::filesystem::path folder_;
   std::unique_ptr<FieldSeries> particles_, contacts_;
-  bool writes_;         ///< whether this process writes: only the first rank does
-  bool begun_ = false;  ///< whether the scene asks for a series
+  bool writes_;         ///< whether this process writes the files: only the first rank does
+  bool begun_ = false;  ///< whether the scene requests a series of fields
   int stride_ = 1;      ///< samples from one frame to the next
 };
 

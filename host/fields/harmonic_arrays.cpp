@@ -15,7 +15,7 @@ using harmonic::Complex;
 
 double degrees(const Complex& z) { return std::arg(z) * 180 / std::numbers::pi; }
 
-/// Adds two arrays: the real and the imaginary parts of of(entry, component).
+/// Adds two arrays to a list: the real and the imaginary parts of the complex numbers of(entry, component).
 template <class F>
 void add_parts(const std::string& name, const char* unit, std::size_t entries, int components, F&& of,
                std::vector<FieldArray>& out) {

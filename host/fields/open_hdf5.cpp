@@ -26,7 +26,7 @@ H5::FileAccPropList access() {
   H5AC_cache_config_t cache{};
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
   H5Pget_mdc_config(out.getId(), &cache);
-  cache.evictions_enabled = false;  // metadata leave the memory only in a flush
+  cache.evictions_enabled = false;  // metadata are written to the file only in a flush
   cache.incr_mode = H5C_incr__off;
   cache.flash_incr_mode = H5C_flash_incr__off;
   cache.decr_mode = H5C_decr__off;
@@ -34,9 +34,9 @@ H5::FileAccPropList access() {
   return out;
 }
 
-/// Returns creation properties with large tree nodes. HDF5 finds the pieces of an array by a tree, and moves nodes of
-/// the tree when one is full. If the program is killed during a flush that moves nodes, frames are lost. With this many
-/// pieces per node only about one flush in a few hundred moves nodes.
+/// Returns creation properties with large tree nodes. HDF5 stores an array in pieces and finds the pieces by a tree.
+/// When a node of the tree is full, HDF5 moves nodes. If the program is killed during a flush that moves nodes, frames
+/// are lost. With this many pieces per node only about one flush in a few hundred moves nodes.
 H5::FileCreatPropList creation() {
   constexpr unsigned half_of_pieces = 128;
   H5::FileCreatPropList out;
@@ -93,7 +93,7 @@ void OpenHdf5::close_hdf5() {
 void OpenHdf5::close() {
   try {
     if (hdf5_) close_hdf5();
-  } catch (const RunError&) {  // end() was not called, so another error is already being handled
+  } catch (const RunError&) {  // ignored: end() was not called, so another error is already being handled
   }
   if (descriptor_ >= 0) ::close(descriptor_);
   std::error_code ignored;
@@ -110,10 +110,10 @@ void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& 
   }
   off_t size = 0;
   with_hdf5(file_, [&] {
-    require_memory_for_hdf5(2 * bytes);  // for converted values, and for the pieces of arrays
+    require_memory_for_hdf5(2 * bytes);  // twice the size: for converted values, and for HDF5's pieces of arrays
     change(*hdf5_);
     hdf5_->flush(H5F_SCOPE_GLOBAL);
-    size = static_cast<off_t>(hdf5_->getFileSize());  // reserved space beyond this size is given back
+    size = static_cast<off_t>(hdf5_->getFileSize());  // disk space that was reserved beyond this size is released
   });
   if (::ftruncate(descriptor_, size) != 0) refuse(file_, errno);
 }

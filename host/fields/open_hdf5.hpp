@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file open_hdf5.hpp  Keeps an HDF5 file on the disk that is complete after each flush. Disk space is reserved first,
-/// so that HDF5 never meets a full disk.
+/// \file open_hdf5.hpp  Writes an HDF5 file that is complete on the disk after each flush. Disk space is reserved
+/// before each change, so that HDF5 never fails because of a full disk.
 #pragma once
 
 #include <H5Cpp.h>
@@ -12,10 +12,10 @@
 
 namespace macadam {
 
-/// A file that is open for writing. HDF5 does not survive errors of the disk, so disk space is reserved before it
+/// A file that is open for writing. HDF5 cannot recover from a failed write, so disk space is reserved before HDF5
 /// writes. HDF5 keeps the metadata of the file in memory until a flush, so that after a kill the file is as the last
-/// flush left it. The file is not locked: others may read it meanwhile. A new file has a temporary name until keep(),
-/// and is removed if keep() is never called.
+/// flush left it. The file is not locked: other programs may read it while it is written. A new file has a temporary
+/// name until keep(), and is removed if keep() is never called.
 class OpenHdf5 {
  public:
   enum class Begin : std::uint8_t { anew, as_it_is };

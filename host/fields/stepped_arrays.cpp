@@ -8,8 +8,8 @@
 namespace macadam {
 namespace {
 
-/// Returns the number of Kelvin units of each contact; 0 without chains. A contact has six chains; each has its force f
-/// and the stretch of each unit.
+/// Returns the number of Kelvin units of each contact; 0 if the state has no chains. A contact has six chains; each has
+/// its force f and the stretch of each unit.
 std::vector<int> units_of(const ContactState& state) {
   std::vector<int> out(state.force.size(), 0);
   for (std::size_t c = 0; c + 1 < state.chain_begin.size(); ++c) {

@@ -13,7 +13,8 @@
 namespace macadam {
 namespace {
 
-using Row = std::vector<hsize_t>;  ///< shape of a row of an array: {} if it is one number, otherwise {how many numbers}
+/// Shape of a row of an array: {} if a row is a single number, {n} if it has n numbers.
+using Row = std::vector<hsize_t>;
 
 /// Makes an array that has no rows yet and can grow. `piece` rows are stored together in the file. The rows are
 /// compressed if `packed` is true.
@@ -126,8 +127,9 @@ void put_mesh(H5::H5File& file, const FieldMesh& mesh) {
 constexpr const char* path_of_steps = "VTKHDF/Steps";
 constexpr hsize_t steps_a_piece = 256;
 
-/// Arrays that say where a step finds its mesh. All steps use the same mesh, so all entries are 0. The four columns are
-/// vertices, lines, polygons and strips.
+/// Names and row shapes of the arrays that say where in the file the mesh of a step begins (a step is VTK's word for a
+/// frame). All steps use the same mesh, so all entries are 0. The four columns are vertices, lines, polygons and
+/// strips.
 const std::vector<std::pair<std::string, Row>> mesh_offsets{
     {"PartOffsets", {}}, {"PointOffsets", {}}, {"CellOffsets", {4}}, {"ConnectivityIdOffsets", {4}}};
 
@@ -138,7 +140,7 @@ void set_number_of_steps(H5::Group& steps, std::size_t number) {
   a.write(type_of(n), &n);
 }
 
-/// Makes the group of steps, without any step, and the arrays that change.
+/// Makes the group of steps (frames), still without steps, and the arrays that change from frame to frame.
 void make_steps(H5::H5File& file, const FieldMesh& mesh, const std::vector<FieldArray>& arrays) {
   H5::Group steps = file.createGroup(path_of_steps);
   set_number_of_steps(steps, 0);
@@ -180,7 +182,8 @@ class VtkHdfSeries : public FieldSeries {
         });
       }
       open_->write(bytes_of(arrays), [&](H5::H5File& file) { put_frame(file, arrays); });
-      set_steps(steps_ + 1, &time);  // last, so that a reader, also after a kill, finds only complete steps
+      // done last, so that a reader finds only complete steps, also if the program is killed
+      set_steps(steps_ + 1, &time);
       if (first) open_->keep();
     } catch (const RunError&) {
       open_.reset();  // closes the file; a file that has no frame yet is removed
@@ -232,7 +235,8 @@ class VtkHdfSeries : public FieldSeries {
     }
   }
 
-  /// Opens an existing file and removes the frames from time `until` on, and remains of a failed frame.
+  /// Opens an existing file. Removes the frames at time `until` and later, and the remains of a frame that could not be
+  /// written.
   void reopen(double until) {
     const auto refuse = [&](const std::string& found) {
       throw InputError(name_.string(), 0, "fields to continue", found,
@@ -258,7 +262,7 @@ class VtkHdfSeries : public FieldSeries {
     }
     const auto kept = std::lower_bound(times.begin(), times.end(), until) - times.begin();
     if (kept == 0) {
-      open_.reset();  // no frame is left: a new file replaces this one
+      open_.reset();  // no frame is left, so a new file will replace this one
       steps_ = 0;
     } else {
       set_steps(static_cast<std::size_t>(kept), nullptr);
@@ -266,7 +270,7 @@ class VtkHdfSeries : public FieldSeries {
     }
   }
 
-  /// Shortens all arrays to the last step.
+  /// Removes the rows of all arrays that lie beyond the last step.
   void cut(H5::H5File& file) const {
     const H5::Group steps = file.openGroup(path_of_steps);
     const auto shorten = [&](const H5::Group& group, const std::string& name, hsize_t rows) {

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// Do what begin_fields() and write_fields() do, for the format vtkhdf. `file` includes the ending.
+/// Do what begin_fields() and write_fields() do, for the format vtkhdf. `file` is the path with its ending.
 /// @{
 std::unique_ptr<FieldSeries> begin_vtkhdf(const std::filesystem::path& file, FieldMesh mesh,
                                           std::optional<double> until);

@@ -141,10 +141,10 @@ class VtpSeries : public FieldSeries {
     write_whole(list(), text + "</Collection>\n</VTKFile>\n");
   }
 
-  /// Reads the list of an existing series and removes the frames from time `until` on.
+  /// Reads the list of frames of an existing series, and removes from it the frames at time `until` and later.
   void reopen(double until) {
     std::ifstream in(list(), std::ios::binary);
-    in.exceptions(std::ios::badbit);  // lack of memory must not be taken for a damaged file
+    in.exceptions(std::ios::badbit);  // so that a lack of memory is not reported as a damaged file
     const auto refuse = [&](const std::string& found) {
       throw InputError(list().string(), 0, "fields to continue", found,
                        "the fields of this run; remove the file and the run begins a new one");

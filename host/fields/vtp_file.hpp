@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// Do what begin_fields() and write_fields() do, for the format vtp. `stem` has no ending.
+/// Do what begin_fields() and write_fields() do, for the format vtp. `stem` is the path without an ending.
 /// @{
 std::unique_ptr<FieldSeries> begin_vtp(const std::filesystem::path& stem, FieldMesh mesh, std::optional<double> until);
 void write_vtp(const std::filesystem::path& file, const FieldMesh& mesh);

@@ -17,14 +17,14 @@ using L = FourNumbers;
 using kernels::Placement;
 using kernels::Twist;
 
-/// Returns the number of particles per piece. Pieces are small, so that no thread waits long for the last one (large
-/// particles with hundreds of contacts have consecutive numbers), but not so small that adding the sums of all pieces
-/// takes time.
+/// Returns the number of particles in a piece, the unit of work of a thread. Pieces are small, so that no thread has to
+/// wait long for another one at the end: large particles, with hundreds of contacts, have consecutive numbers, so they
+/// may all be in one piece. But pieces are not so small that adding the sums of all pieces takes time.
 std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
 
-/// Sums over a piece of particles, for one solution.
+/// Sums over some particles for one solution u: the squares of the residual, uᵀ·M·u, and the parts of E*.
 struct Sums {
-  double residual = 0, beyond = 0;  ///< sums of squares
+  double residual = 0, beyond = 0;  ///< sums of squares of the residual [N²], and of its part beyond rounding
   Complex inertia = 0;
   ModulusParts parts;
 
@@ -45,7 +45,7 @@ class Check {
   Check(const ContactNetwork& network, const Inertia& inertia, const std::vector<const LinearTask*>& tasks,
         double rounding)
       : network_(network), inertia_(inertia), rounding_(rounding) {
-    for (int f = 0; f < at_once; ++f) {  // with fewer than four tasks the last one fills the lanes
+    for (int f = 0; f < at_once; ++f) {  // with fewer than four tasks, the last task also fills the remaining lanes
       const LinearTask& task = *tasks[std::min(static_cast<std::size_t>(f), tasks.size() - 1)];
       motion_[f] = task.motion.data();
       for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -57,7 +57,7 @@ class Check {
     }
   }
 
-  /// Returns the sums over all particles, for each of the solutions.
+  /// Returns, for each solution, the sums over all particles: squares of the residual, uᵀ·M·u, and the parts of E*.
   AllSums sums() const {
     const std::size_t particles = inertia_.mass.size();
     const std::size_t piece = piece_of(particles);
@@ -75,7 +75,7 @@ class Check {
 
  private:
   /// Sums of load times relative displacement over the contacts of one pair type. `share` is the fraction of a contact
-  /// that counts.
+  /// that is added (see share()).
   struct PairProducts {
     Products<at_once> normal, shear;
     void add(const kernels::FacetLoad<L>& load, const L (&u)[6], L share) {
@@ -84,7 +84,8 @@ class Check {
       shear.add(load.s * share, u[3]), shear.add(load.t * share, u[4]), shear.add(load.moment_n * share, u[5]);
     }
   };
-  /// Loads on a particle: their sum, and the force and moment that result if all terms are added by magnitude.
+  /// The load on a particle from all its contacts (`sum`), and the force and moment that result if the magnitudes of
+  /// all terms are added.
   struct Total {
     Twist<L> sum;
     L force, moment;
@@ -92,8 +93,8 @@ class Check {
   static constexpr int step = single ? at_once : 1;  ///< number of contacts per group
   using Group = ContactGroup<step>;
 
-  /// Returns a property `of(f)` of the contacts of a group. If `single`, each lane has the value of its own contact;
-  /// otherwise all lanes have the value of the only contact.
+  /// Returns a property `of(f)` of the contacts of a group. If `single`, each lane has the value of its own contact.
+  /// Otherwise the group has one contact, and all lanes have its value.
   template <class Of>
   static L of_contact(Of&& of) {
     if constexpr (single)
@@ -102,7 +103,7 @@ class Check {
       return L(of(0));
   }
 
-  /// Returns the sums over particles begin … end − 1.
+  /// Returns, for each solution, the sums over particles begin … end − 1.
   AllSums sums_of(std::size_t begin, std::size_t end) const {
     AllSums out;
     PairProducts pairs[pair_types];
@@ -138,8 +139,8 @@ class Check {
     return out;
   }
 
-  /// Adds the squares of the parts of residuals that exceed rounding. `largest` is the load that results if all terms
-  /// are added by magnitude.
+  /// Adds, for one particle, the squares of the parts of its residuals that exceed rounding. `rest` holds the
+  /// residuals, one per solution. `largest` is the load that results if the magnitudes of all terms are added.
   void add_beyond(L rest, L largest, AllSums& sums) const {
     for (int f = 0; f < at_once; ++f) {
       const double excess = std::max(std::abs(rest.at(f)) - rounding_ * largest.at(f).real(), 0.0);
@@ -162,7 +163,8 @@ class Check {
     return kernels::to_twist(x);
   }
 
-  /// Returns the loads of all contacts of a particle, and adds their products to `pairs`.
+  /// Returns the loads of all contacts of a particle, and adds the products of load and relative displacement to
+  /// `pairs`.
   Total loads_on(std::size_t particle, const Twist<L>& own, PairProducts (&pairs)[pair_types]) const {
     Total out;
     const std::size_t end = network_.row_begin[particle + 1];
@@ -229,8 +231,8 @@ class Check {
     if (rounding_ > 0) add_largest(g, k, own, other, out);
   }
 
-  /// Returns the fraction of a contact that counts when it is visited from one particle: 1/2 for a contact between two
-  /// particles, because it is visited from both; 1 for a wall contact.
+  /// Returns the fraction of a contact's product that is added when the contact is visited from one particle: 1/2 for a
+  /// contact between two particles, because it is visited from both; 1 for a wall contact.
   static double share(std::int32_t far) { return far < 0 ? 1 : 0.5; }
 
   /// Returns the stiffness of each contact of a group; lanes without a contact get 0.
@@ -242,8 +244,8 @@ class Check {
     return k;
   }
 
-  /// Adds the force and moment that result if the motions of the two ends of each contact are added by magnitude, so
-  /// that nothing cancels.
+  /// Adds the force and moment that result if the magnitudes of the motions of the two ends of each contact are added,
+  /// so that nothing cancels.
   void add_largest(const Group& g, const Factor<at_once>& k, const Twist<L>& own, const Twist<L>& other,
                    Total& out) const {
     const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_harmonic_code.cpp  Chooses the table of the processor generation whose code also runs the time step.
+// choose_harmonic_code.cpp  Returns the frequency domain's functions (a table of function pointers) for the processor
+// generation that is also used for time steps.
 #include "host/backends/processor_code.hpp"
 #include "host/harmonic/harmonic_code.hpp"
 

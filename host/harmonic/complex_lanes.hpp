@@ -2,8 +2,8 @@
 /// \file complex_lanes.hpp  Stores one complex number for each of F solutions in a SIMD register: first the real parts,
 /// then the imaginary parts.
 ///
-/// Real factors (frames, lever arms, moments, the preconditioner) then multiply 2F plain numbers, and the data of a
-/// contact are read once for all solutions.
+/// A real factor (a component of a frame, lever arm, area moment or preconditioner) then multiplies all 2F real numbers
+/// of a register by one instruction. The data of a contact are read once for all solutions.
 #pragma once
 
 #include <complex>
@@ -27,7 +27,7 @@ struct Registers<4> {
   typedef double Number __attribute__((vector_size(64)));
 };
 
-/// F complex numbers. Products are lane by lane: one factor must be real, with the same number in both lanes.
+/// F complex numbers. Products are lane by lane: one factor must be real, and this real number is stored in both lanes.
 template <int F>
 struct Lanes {
   static constexpr int width = 2 * F;
@@ -69,9 +69,8 @@ struct Lanes {
 /// A complex factor for each solution, prepared for multiplication.
 template <int F>
 struct Factor {
-  Lanes<F> real,
-      imaginary;  ///< each part is stored in both lanes of a number; in the real lane the imaginary part is negated
-                  ///< (i·i = −1)
+  /// Each part is stored in both lanes of a number. In the real lane the imaginary part is negated, because i·i = −1.
+  Lanes<F> real, imaginary;
 
   void set(int f, std::complex<double> z) {
     real.v[f] = real.v[F + f] = z.real();
@@ -98,7 +97,7 @@ struct Products {
   double conjugated(int f) const { return straight.v[f] + straight.v[F + f]; }
 };
 
-/// A vector for all solutions, [particle][6]: ux uy uz θx θy θz.
+/// Vectors of F solutions side by side, [particle][6]: ux uy uz θx θy θz.
 template <int F>
 using LaneVector = kernels::AlignedVector<Lanes<F>>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_operator.cpp  Computes the complex load of a contact: the real kinematics are applied to real and imaginary
-// parts separately.
+// contact_operator.cpp  Computes the complex load of a contact: the kinematics have real coefficients and are applied
+// to real and imaginary parts separately.
 #include "host/harmonic/contact_operator.hpp"
 
 #include <algorithm>
@@ -139,7 +139,8 @@ Loads ContactOperator::wall_loads(const PairStiffness& stiffness) const {
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
                                  const Vector& motion, Vector& out) const {
   out.resize(6 * particles_);
-#pragma omp parallel for schedule(dynamic, 64)  // large particles have hundreds of contacts and consecutive numbers
+// dynamic, because large particles have hundreds of contacts each and have consecutive numbers
+#pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t i = 0; i < particles_; ++i) {
     Complex sum[6] = {};
     for (const std::uint32_t number : network_.row(i)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_operator.hpp  Computes the forces of all contacts for given complex motions. This multiplies by K*(s)
-/// without a stored matrix.
+/// \file contact_operator.hpp  Computes the forces of all contacts for given complex motions. So a motion is multiplied
+/// by the stiffness matrix K*(s), but no matrix is stored.
 #pragma once
 
 #include <array>
@@ -45,8 +45,8 @@ PairStiffness pair_stiffness(const LawTable& laws, Complex s);
 // Deleted so that ω cannot be passed in place of iω.
 PairStiffness pair_stiffness(const LawTable& laws, double) = delete;
 
-/// Returns the six relative displacements of a contact (Eq. 8 about x0) when the particles move by `motion` and the top
-/// wall by `wall` along z.
+/// Returns the six relative displacements of a contact (Eq. 8 about x0) if the particles move by `motion` and the top
+/// wall moves by `wall` along z.
 std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& motion, Complex wall);
 
 /// Returns the load of a contact at given relative displacements: force on its first end and moment about x0, both
@@ -59,11 +59,13 @@ class ContactOperator {
  public:
   ContactOperator(const ContactNetwork& network, std::size_t particles);
 
-  /// Returns f, the forces and moments on the particles while these are at rest and the top wall moves by one.
+  /// Returns f, the forces and moments on the particles if the particles are at rest and the top wall moves by one unit
+  /// along z.
   Loads wall_loads(const PairStiffness& stiffness) const;
 
-  /// Computes out = (K* − factor·M)·motion, the loads that hold the motion, with factor = −(s² + s·β)·density scaling.
-  /// Each particle sums its own contacts in a fixed order, so that the result does not depend on the number of threads.
+  /// Computes out = (K* − factor·M)·motion, the loads that must act on the particles for this motion, with factor =
+  /// −(s² + s·β)·density scaling. Each particle sums its own contacts in a fixed order, so that the result does not
+  /// depend on the number of threads.
   void resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia, const Vector& motion,
                   Vector& out) const;
 

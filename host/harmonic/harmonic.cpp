@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic.cpp  Turns loads at given frequencies into linear systems, solves and checks them, and turns the solutions
-// into E*. Systems that the iterative solver cannot solve go to the direct solver.
+// harmonic.cpp  Makes a linear system of each problem (a load at a frequency), solves the system, checks the solution,
+// and computes E* from it. Systems that the iterative solver cannot solve go to the direct solver.
 #include "macadam/harmonic.hpp"
 
 #include <fmt/format.h>
@@ -43,10 +43,10 @@ void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
 /// Returns |E*| and φ.
 Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::numbers::pi}; }
 
-/// A task with the results of the last check of its solution.
+/// A task (a linear system), and the results of the last check of its solution.
 struct Work {
   LinearTask task;
-  ModulusParts parts;  ///< of uᵀ·(K* − inertia·M)·u
+  ModulusParts parts;  ///< parts of uᵀ·(K* − inertia·M)·u
   double residual = 0, beyond_rounding = 0, energy_error = 0;
   LinearMethod method = LinearMethod::iterative;
   std::string why_factors;
@@ -83,7 +83,8 @@ class Harmonic::Implementation {
     } catch (const NotIterable& error) {
       if (options.linear == LinearMethod::iterative || specimen.size() > largest_direct) throw;
       why_factors_ = error.what();
-      direct();  // if the stiffness is singular, the error of direct() names the particle that can move
+      // makes the direct solver; if the stiffness is singular, its error message names the particle that can move
+      direct();
     }
   }
 
@@ -149,7 +150,8 @@ class Harmonic::Implementation {
     return out;
   }
 
-  /// Removes the free motions from a start. With inertia the iteration cannot remove them by itself.
+  /// Removes the free motions (motions that no contact resists) from the start of an iteration. With inertia the
+  /// iteration cannot remove them by itself.
   Vector without_free_motions(Vector x) const {
     for (const FreeMotion& motion : free_.motions) motion.remove_from(x, inertia_);
     return x;
@@ -168,8 +170,8 @@ class Harmonic::Implementation {
     return std::all_of(works.begin(), works.end(), [](const Work& w) { return w.good; });
   }
 
-  /// Solves the tasks whose solutions are not good yet, in up to four rounds. The check after each round may ask for a
-  /// smaller energy error in the next. A task that did not converge is not attempted again.
+  /// Solves the tasks whose solutions have not been accepted yet, in up to four rounds. The check after a round may
+  /// require a smaller energy error in the next round. A task that did not converge is not solved again.
   void attempt(std::vector<Work>& works, LinearSolver& solver, LinearMethod method) {
     for (int round = 0; round < 4; ++round) {
       std::vector<Work*> open;
@@ -203,7 +205,8 @@ class Harmonic::Implementation {
     for (std::size_t i = 0; i < works.size(); ++i) take(*works[i], found[i]);
   }
 
-  /// Stores the check of a solution, decides whether the solution is good, and sets the energy limit of the next round.
+  /// Stores the results of the check of a solution, decides whether the solution is accepted, and sets the energy limit
+  /// of the next round.
   void take(Work& w, const SolutionCheck& found) const {
     LinearTask& task = w.task;
     const double whole = std::abs(found.parts.modulus()), scale = length(task.right);
@@ -242,7 +245,8 @@ class Harmonic::Implementation {
     out.parts = w.parts;
     const double top = std::abs(out.parts.modulus());
     const double to_modulus =
-        gauge_length(specimen_) / section_area(specimen_);  // stress per strain of a unit displacement
+        // converts the reaction at unit displacement into stress over strain
+        gauge_length(specimen_) / section_area(specimen_);
     out.frequency_hz = load.frequency_hz;
     out.growth = load.growth;
     out.linear = w.method;

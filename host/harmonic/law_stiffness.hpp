@@ -40,7 +40,7 @@ inline void require_stiffness(const LawTable& laws) {
   }
 }
 
-/// The first pair whose law has no complex stiffness, and the name of this law.
+/// The first pair type whose law has no complex stiffness, and the name of this law.
 struct WithoutStiffness {
   PairType pair;
   const char* law;

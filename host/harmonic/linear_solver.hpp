@@ -16,8 +16,8 @@
 
 namespace macadam::harmonic {
 
-/// One linear system: its matrix and load, the start and the accuracy that is asked for, and the solution. Vectors have
-/// six numbers per particle.
+/// One linear system: its matrix and load, the start of the iteration, the required accuracy, and the solution. All
+/// vectors have six numbers per particle.
 struct LinearTask {
   PairStiffness stiffness;
   Complex inertia = 0;   ///< −(s² + s·β)·density scaling; 0: without inertia

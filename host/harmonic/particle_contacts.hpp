@@ -38,8 +38,8 @@ inline FourNumbers size_of(FourNumbers x) {
   return positive + positive.swapped();
 }
 
-/// N contacts of a particle, with normals that point away from it. If fewer are left, only the first `count` entries
-/// are valid; the others repeat the first contact.
+/// N contacts of a particle, with normals that point away from it. If a particle has fewer than N contacts left, only
+/// the first `count` entries are valid, and the other entries repeat the first contact.
 template <int N>
 struct ContactGroup {
   const Contact* contact[N];
@@ -49,9 +49,10 @@ struct ContactGroup {
   std::int32_t far[N];            ///< the other end: a particle, or a wall (negative)
   std::size_t pair[N];
   int count;          ///< number of valid contacts, at most N
-  bool alike = true;  ///< whether all contacts are of the same pair
+  bool alike = true;  ///< whether all contacts are of the same pair type
 
-  /// Takes the contacts of entry `at` of the network's `rows` and the entries after it, up to `end`.
+  /// Reads the contacts at the entries `at`, `at` + 1, … of ContactNetwork::rows, at most N of them, and none at `end`
+  /// or beyond.
   ContactGroup(const ContactNetwork& network, std::size_t at, std::size_t end, std::size_t particle)
       : count(static_cast<int>(std::min<std::size_t>(N, end - at))) {
     for (int f = 0; f < N; ++f) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_model.cpp  Makes motions orthonormal, computes the small matrices between them, and solves the small systems.
+// reduced_model.cpp  Makes the motions of the reduced basis orthonormal, computes the small matrices of stiffness and
+// mass between them, and solves the small linear systems.
 #include "host/harmonic/reduced_model.hpp"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-/// A motion is not added if its part outside the span of the present motions is below this fraction of its length. The
-/// relative error of E* is the square of this fraction.
+/// A motion is not added to the basis if its part outside the span of the basis is shorter than this fraction of the
+/// motion. The relative error of E* is of the order of the square of this fraction.
 constexpr double nothing_new = 1e-6;
 
 /// Sums are computed in this many parts, which are then added in order. So the result does not depend on the number of
@@ -57,7 +58,8 @@ void take_away(MatrixXd& from, const Eigen::Ref<const MatrixXd>& columns, const 
 /// The three relative displacements of a contact in every motion, a column per motion.
 using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-/// `normal` has opening and bending, `shear` slip and twist; the two groups do not act on each other.
+/// `normal` has opening and bending, `shear` slip and twist; a displacement of one group causes no load of the other
+/// group.
 struct ContactMotions {
   Rows normal, shear;
 };
@@ -79,8 +81,8 @@ void relative_motions(const Contact& c, const Row& row, Index count, ContactMoti
   }
 }
 
-/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. The sums are those of
-/// condensed_load().
+/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. They contain the same
+/// sums as condensed_load().
 Eigen::Matrix3d normal_form(const Contact& c) {
   const auto& m = c.moments;
   Eigen::Matrix3d out;
@@ -134,7 +136,8 @@ MatrixXd ReducedModel::new_columns(const std::vector<Vector>& motions) const {
   return out.leftCols(kept);
 }
 
-/// Computes the columns from `from` on of the small matrices, and the rows that mirror them.
+/// Computes the columns `from`, `from` + 1, … of the small matrices, and the same rows, because the matrices are
+/// symmetric.
 void ReducedModel::project(Index from) {
   constexpr Index stack = 48;  // number of contacts whose products are computed as one matrix product
   const Index count = basis_.cols(), added = count - from;

@@ -4,9 +4,10 @@
 ///
 /// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. Once, N,
 /// S and M are reduced to small matrices between a few real motions v_j, which are at rest at the walls. Afterwards E*
-/// for any laws and any s takes only a small linear system (Galerkin's method, model section 17). If the real and
-/// imaginary parts of a solution are among the motions, the model gives the same E* and derivatives as the solution.
-/// Otherwise the error of E* grows with the square of the distance between the solution and the span of the motions.
+/// for any laws and any s is computed from a small linear system (Galerkin's method, model section 17). If the motions
+/// span the real and imaginary parts of a full solution, the reduced model gives the same E* and derivatives as this
+/// solution. Otherwise the error of E* grows with the square of the distance between the solution and the span of the
+/// motions.
 #pragma once
 
 #include <Eigen/Dense>
@@ -23,12 +24,12 @@ class ReducedModel {
   /// solutions have no inertia.
   ReducedModel(const Specimen& specimen, const ContactNetwork& network, Inertia inertia);
 
-  /// Adds the motions of solutions at unit displacement of the top wall (HarmonicResult::motion). Parts that the model
-  /// contains already are left out.
+  /// Adds the motions of solutions at unit displacement of the top wall (HarmonicResult::motion). Only the parts
+  /// outside the span of the present motions are added.
   void add(const std::vector<Vector>& motions);
 
   struct Solution {
-    ModulusParts parts;               ///< of E* [Pa]
+    ModulusParts parts;               ///< parts of E* [Pa]
     Eigen::VectorXcd of_the_motions;  ///< coefficients of the motions
   };
   /// Returns the solution for `load`; its `near` is not used. At least one motion must have been added. \throws
@@ -38,18 +39,19 @@ class ReducedModel {
   /// Returns the motion of the particles, [6·particles], as a start for an iteration (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;
 
-  /// Returns the matrix N + α·S of a pair between the motions, [motions][motions]. For coefficients u, uᵀ·(N + α·S)·u
-  /// is the energy form uᵀ·K·u divided by k*; it is not yet divided by the specimen's size.
+  /// Returns the matrix of N + α·S of a pair type between the motions, [motions][motions]. For coefficients u, uᵀ·(N +
+  /// α·S)·u is the energy form uᵀ·K·u divided by k*; it is not yet multiplied by height over cross-section.
   Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
 
-  Eigen::Index motions() const { return basis_.cols(); }  ///< number of real motions, the first included
+  /// Number of real motions, including the first, in which the top wall moves.
+  Eigen::Index motions() const { return basis_.cols(); }
 
  private:
   using Matrix = Eigen::MatrixXd;
 
-  /// Returns orthonormal columns that span what `motions` add to the present ones.
+  /// Returns orthonormal columns that span the parts of `motions` outside the span of the present motions.
   Matrix new_columns(const std::vector<Vector>& motions) const;
-  /// Extends the small matrices by the motions from number `from` on.
+  /// Extends the small matrices by the motions `from`, `from` + 1, …
   void project(Eigen::Index from);
 
   const Specimen& specimen_;

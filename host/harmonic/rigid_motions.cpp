@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rigid_motions.cpp  Finds free motions as null spaces. Free rigid motions of a part are the null space of the
-// stiffness with which the contacts around the part resist its six rigid motions. Free motions of single particles are
-// the null spaces of their stiffness blocks.
+// rigid_motions.cpp  Finds free motions (motions that no contact resists) as null spaces of small matrices. Free rigid
+// motions of a part are the null space of the stiffness with which the contacts around the part resist its six rigid
+// motions. Free motions of single particles are the null spaces of their stiffness blocks.
 #include "host/harmonic/rigid_motions.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -30,7 +30,8 @@ Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
 }
 
 /// Makes a motion orthonormal to the motions of the list from number `first` on, with respect to masses, and appends
-/// it. Each of these earlier motions moves either one particle of the new motion or all particles of the new motion.
+/// it. The caller ensures that each of these earlier motions moves either one particle of the new motion or all of its
+/// particles.
 void add_orthonormal(FreeMotion added, std::size_t first, const Inertia& inertia, std::vector<FreeMotion>& list) {
   const auto weighted = [&](const FreeMotion& m, const double* a, const double* b) {
     return sum_in_parallel<double>(m.motion.size(), [&](std::size_t i) {
@@ -102,7 +103,7 @@ class Part {
           motion.motion[c] = c < 3 ? v : v / radius;
         }
         out.pins.push_back(pin);
-        // motions of other particles are orthogonal to this one already
+        // motions of other single particles are already orthogonal to this motion
         add_orthonormal(std::move(motion), out.motions.size() - static_cast<std::size_t>(m), inertia, out.motions);
       }
     }
@@ -156,11 +157,12 @@ class Part {
     Eigen::MatrixXd all = scaled_motions();
     const Eigen::MatrixXd whole = all * all.transpose();
     remove_own(all);
-    // eigenvalues: the fraction of a rigid motion that is left without the particles' own motions, 0 to 1
+    // each eigenvalue, 0 to 1, is the fraction of a rigid motion that is left when the particles' own free motions are
+    // removed from it
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> left(all * all.transpose(), whole);
     int gone = 0;
     while (gone < rigid_.cols() && left.eigenvalues()(gone) < 1e-9)
-      ++gone;  // 1e-9 is the fraction that is left if one particle in 1e9 does not turn by itself
+      ++gone;  // a fraction of 1e-9 would be left if only one particle in 1e9 could not turn by itself
     rigid_ = (rigid_ * left.eigenvectors().rightCols(rigid_.cols() - gone)).eval();
   }
 
@@ -206,9 +208,10 @@ class Part {
   const ContactNetwork& network_;
   const PairStiffness& stiffness_;
   const std::vector<std::int32_t>& members_;
-  double largest_ = 0;                                   ///< largest stiffness of the contacts around the part [N/m]
-  OwnMotions rigid_;                                     ///< free rigid motions; columns of coefficients of rigid()
-  std::vector<std::pair<std::size_t, OwnMotions>> own_;  ///< (member, its own free motions), members ascending
+  double largest_ = 0;  ///< largest stiffness of the contacts around the part [N/m]
+  OwnMotions rigid_;    ///< free rigid motions; columns of coefficients of rigid()
+  /// (member, free motions of this particle alone), members ascending.
+  std::vector<std::pair<std::size_t, OwnMotions>> own_;
 };
 
 }  // namespace

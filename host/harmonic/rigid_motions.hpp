@@ -36,16 +36,17 @@ struct FreeMotion {
   void remove_from(Vector& other, const Inertia& inertia) const;
 };
 
-/// The motions without stiffness. A specimen between frictionless walls has three: along x, along y, and the turn about
-/// z. If parts of a specimen are joined only by flat horizontal contacts without shear stiffness, each part has these
-/// three; an example is a vertical column of spheres with alpha = 0. A particle whose contact normals are all parallel
-/// may also turn by itself.
+/// The motions that no contact resists. A specimen between frictionless walls has three of them: along x, along y, and
+/// the turn about z. If parts of a specimen are joined only by flat horizontal contacts without shear stiffness, each
+/// part has these three motions. An example is a vertical column of spheres with alpha = 0. A particle whose contact
+/// normals are all parallel may also turn by itself.
 ///
 /// The load is orthogonal to all free motions. A contact that a free motion does not deform does no work on this
 /// motion, so the top wall cannot drive the motion through the contact. Therefore E* is unique, although the amplitudes
 /// of the free motions are not.
 struct FreeMotions {
-  std::vector<Pin> pins;            ///< one per motion; without force under a load in equilibrium
+  /// One spring per free motion; they carry no force, because the load is orthogonal to free motions.
+  std::vector<Pin> pins;
   std::vector<FreeMotion> motions;  ///< orthonormal with respect to masses and moments of inertia
 };
 

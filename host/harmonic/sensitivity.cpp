@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sensitivity.cpp  Computes derivatives of E* and the fraction that each pair carries from the parts of E* (model,
-// section 16).
+// sensitivity.cpp  Computes the derivatives of E*, and the fraction of E* that each pair type carries, from the parts
+// of E* (model, section 16).
 #include "macadam/sensitivity.hpp"
 
 #include <numbers>

@@ -13,7 +13,7 @@
 namespace macadam::harmonic {
 namespace {
 
-/// Largest sine of the angle between normals that count as parallel: the rounding error of coordinates.
+/// Largest sine of the angle between normals that count as parallel: it allows for rounding errors of coordinates.
 constexpr double parallel = 1e-12;
 
 /// Returns whether a contact is horizontal and has no shear stiffness.
@@ -72,7 +72,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> own_motions(std::int32_t particle, cons
   const Eigen::SelfAdjointEigenSolver<Matrix6> modes(scale.asDiagonal() * block * scale.asDiagonal());
   const double largest = modes.eigenvalues()(5);
   int free = 0;
-  while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest) ++free;  // rounding error of a few contacts
+  // 1e-12 allows for the rounding error of a sum over a few contacts
+  while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest) ++free;
   return modes.eigenvectors().leftCols(free);
 }
 

@@ -22,8 +22,8 @@ std::vector<std::vector<std::int32_t>> sliding_parts(const Cluster& cluster, con
 
 /// Returns the motions of one particle that none of its contacts resists, if it has at least two contacts and all
 /// normals are parallel. Columns are orthonormal, [6 × number], with rotations multiplied by the radius [m]; most
-/// particles have no such motion. Particles with other contacts are not examined; if such a particle can move by
-/// itself, it is a mechanism.
+/// particles have no such motion. Other particles are not examined; if such a particle can move by itself, the specimen
+/// is a mechanism, which the solvers refuse.
 Eigen::Matrix<double, 6, Eigen::Dynamic> own_motions(std::int32_t particle, const Specimen& specimen,
                                                      const ContactNetwork& network, const PairStiffness& stiffness);
 

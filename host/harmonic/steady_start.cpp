@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// steady_start.cpp  Computes displacements one step before t = 0, velocities half a step before, and contact states
-// from a complex motion (model (18.1)).
+// steady_start.cpp  Computes the state in which a stepped run begins, from a complex motion (model (18.1)):
+// displacements and contact states one step before t = 0, and velocities half a step before t = 0.
 #include <numbers>
 
 #include "host/harmonic/contact_operator.hpp"

@@ -42,7 +42,7 @@ void ReferenceContact::follow_pair(const Vector3d& centres, const Vector3d& mean
   const ContactFrame before = frame;
   const double d = centres.norm();
   frame.n = centres / d;
-  // the smallest rotation that takes the old normal to the new one turns about their cross product
+  // the smallest rotation from the old normal to the new normal turns about the cross product of the two
   frame.s = Eigen::Quaterniond::FromTwoVectors(before.n, frame.n) * frame.s;
   spin_frame(mean_turn);
   frame.arm_a = initial_arm_a + (d - initial_distance) / 2;

@@ -23,7 +23,8 @@ struct ContactPoint {
   ChainState chain[3];
 };
 
-/// Position of a facet between its two particles: x0 = x_A + arm_a·n = x_B − arm_b·n [m], with s × t = n.
+/// Position of a facet between its two particles: x0 = x_A + arm_a·n = x_B − arm_b·n [m], and its unit frame (n, s, t)
+/// with s × t = n.
 struct ContactFrame {
   Vector3d n, s, t;
   double arm_a = 0, arm_b = 0;
@@ -35,8 +36,9 @@ struct ContactFrame {
   Vector3d lever_b(const ContactPoint& p) const { return -arm_b * n + p.s * s + p.t * t; }
 };
 
-/// Returns the frame half-way between two frames; relative velocities are taken in it. In the frame at either end of
-/// the step, a rigid turn by θ would open the contact by (1 − cos θ)·d in every step.
+/// Returns the frame half-way between two frames; relative velocities are taken in it. If they were taken in the frame
+/// at the beginning or at the end of the step, a rigid turn by θ would wrongly open the contact by (1 − cos θ)·d in
+/// every step.
 ContactFrame middle_of(const ContactFrame& before, const ContactFrame& after);
 
 /// One contact with its points. Its stiffness is always computed from the initial distance and areas; only the frame

@@ -42,8 +42,9 @@ ReferenceLaw read(const laws::GeneralisedKelvin& law, const std::string& pair) {
   return out;
 }
 
-// Two springs, k = E·A_J/d and α·k. The state keeps the stretch of each spring as well as its force. So the opening is
-// known after the break, and a point that closes again transfers pressure. Stresses are forces over A_J.
+// The bond has two springs, k = E·A_J/d along the normal and α·k in shear. The state has the stretch of each spring as
+// well as its force. So the opening is known after the bond has broken, and a point that closes again transfers
+// pressure. Stresses are forces over A_J.
 ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
   require(std::isfinite(law.E) && law.E > 0, pair, "E", law.E, "a positive modulus");
   require(law.tensile_strength > 0, pair, "tensile_strength", law.tensile_strength, "a positive strength");
@@ -51,7 +52,7 @@ ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
   ReferenceLaw out;
   out.E_m = law.E;
   out.alpha = law.alpha;
-  out.kept = 2;  // the stretch; in component 0 also how the point broke
+  out.kept = 2;  // two numbers: the stretch and, in component 0 only, how the point broke
   out.break_of = [](const ChainState(&chain)[3]) { return static_cast<Break>(static_cast<int>(chain[0].stretch[1])); };
   out.point = [law](double area, double distance, double, const std::array<double, 3>& dx, ChainState(&chain)[3]) {
     const double k[3] = {law.E * area / distance, law.alpha * law.E * area / distance,

@@ -31,15 +31,15 @@ struct ChainState {
 using PointLaw = std::function<void(double area, double distance, double dt, const std::array<double, 3>& dx,
                                     ChainState (&chain)[3])>;
 
-/// A spring, a dashpot and any number of Kelvin units in series. Without units and with C_m = ∞ it is a spring.
+/// A spring, a dashpot and any number of Kelvin units in series. Without units and with C_m = ∞ the law is a spring.
 struct ReferenceLaw {
   double E_m = 0;                                        ///< [Pa]
   double C_m = std::numeric_limits<double>::infinity();  ///< [Pa·s]
   std::vector<KelvinUnit> units;
   double alpha = 0;  ///< shear over normal stiffness
-  PointLaw point;    ///< if set, it is used in place of the chains; E_m is then the initial stiffness
+  PointLaw point;    ///< if set, it is used in place of the chains; E_m is then the initial modulus
   int kept = 0;      ///< how many numbers `point` keeps in each component's `stretch`
-  /// Returns how a point broke; an empty function if the law cannot break.
+  /// Returns how a point broke; this member is empty if the law cannot break.
   std::function<Break(const ChainState (&chain)[3])> break_of = {};
 
   /// Returns how many numbers each chain keeps in its `stretch`.

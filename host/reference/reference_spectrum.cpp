@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_spectrum.cpp  Computes eigenvalues by a dense solver, and equilibrium by LDLᵀ factorisation. Weak
-/// springs hold the motions that have no stiffness.
+/// \file reference_spectrum.cpp  Computes the eigenfrequency by a dense eigenvalue solver, and static equilibrium by
+/// LDLᵀ factorisation. Weak springs hold the motions that have no stiffness.
 #include "host/reference/reference_spectrum.hpp"
 
 #include <cmath>
@@ -28,10 +28,10 @@ double reference_largest_frequency(const ContactNetwork& network, const LawTable
   return std::sqrt(modes.eigenvalues().maxCoeff());
 }
 
-// K is singular if some motions have no stiffness, but the load of a wall does no work on these motions. So K·u = f is
-// solved by repeating u += (K + H)⁻¹·(f − K·u) with weak springs H. The error of a motion with stiffness shrinks by a
-// factor H/K each time. A free motion gets no force and stays at rest. At the end f − K·u ≈ 0, so the springs H carry
-// no load.
+// K is singular if some motions have no stiffness. But the load of a wall does no work on these motions, so K·u = f has
+// a solution. It is found by repeating u += (K + H)⁻¹·(f − K·u) with weak springs H. The error of a motion with
+// stiffness shrinks by a factor H/K each time. A free motion gets no force and stays at rest. At the end f − K·u ≈ 0,
+// so the springs H carry no load.
 double reference_static_modulus(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws) {
   // Stiffness of the weak springs as a fraction of the particle's own stiffness. It is far below the stiffness of the
   // softest elastic motion, and far above the rounding errors of the factorisation.

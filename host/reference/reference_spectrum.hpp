@@ -13,7 +13,8 @@
 namespace macadam {
 
 /// Returns ω_max of M⁻¹K [rad/s], rotations included, for instantaneous stiffnesses, the initial geometry and walls at
-/// rest. Leapfrog is stable for Δt < 2/ω_max. The matrices are dense, 6N × 6N, so N may be some hundred particles.
+/// rest. Leapfrog is stable for Δt < 2/ω_max. The matrices are dense, 6N × 6N, so the number N of particles may be at
+/// most some hundred.
 double reference_largest_frequency(const ContactNetwork& network, const LawTable& laws, const Inertia& inertia);
 
 /// Returns the stress at the top wall per strain [Pa] when the top wall is displaced and all particles are in static

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stepper.cpp  Implements leapfrog over contact points (docs/model.md, sections 1, 5, 6 and 8 to 10),
-/// in the order of a step.
+/// \file reference_stepper.cpp  Implements the leapfrog time step contact point by contact point (docs/model.md,
+/// sections 1, 5, 6 and 8 to 10). The functions below are in the order of the operations in a step.
 #include "host/reference/reference_stepper.hpp"
 
 #include <Eigen/Geometry>
@@ -17,10 +17,10 @@ namespace {
 struct Body {
   Vector3d start = Vector3d::Zero();         ///< centre at the start [m]
   Vector3d displacement = Vector3d::Zero();  ///< at the whole step [m]
-  Vector3d rotation = Vector3d::Zero();      ///< sum of its turns since the start [rad]
+  Vector3d rotation = Vector3d::Zero();      ///< sum of the particle's turns since the start [rad]
   Vector3d velocity = Vector3d::Zero();      ///< at the last half step [m/s]
   Vector3d spin = Vector3d::Zero();          ///< at the last half step [rad/s]
-  Vector3d force = Vector3d::Zero();         ///< sum of its contacts' forces at the whole step [N]
+  Vector3d force = Vector3d::Zero();         ///< sum of the forces of the particle's contacts at the whole step [N]
   Vector3d moment = Vector3d::Zero();        ///< about the centre [N·m]
   Vector3d weight = Vector3d::Zero();        ///< body force [N]
   double radius = 0, mass = 0, inertia = 0;  ///< [m] [kg] [kg·m²], density scaling included

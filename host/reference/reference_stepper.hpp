@@ -2,9 +2,10 @@
 /// \file reference_stepper.hpp  Defines the reference implementation of the time step, written to be read: per contact
 /// point, with Eigen, in double precision.
 ///
-/// It shares no arithmetic with the kernels, so that the two can be compared. It favours clarity over speed: one
-/// thread, no precomputed coefficients. `StepperOptions::form` and `threads` have no effect. It always works per
-/// contact point, so its results can be compared only with runs whose area moments are lumped in points.
+/// It shares no arithmetic with the kernels, so that the results of kernels can be checked against it. It is written
+/// for clarity, not for speed: it uses one thread and no precomputed coefficients. `StepperOptions::form` and `threads`
+/// have no effect. It always works per contact point, so its results can be compared only with runs whose area moments
+/// are lumped in points.
 #pragma once
 
 #include <memory>

@@ -9,9 +9,9 @@
 
 namespace macadam::reference {
 
-/// The stiffness matrix K for u = (displacement, rotation) of every particle, six numbers each, and the effect of
-/// moving the top wall. All other walls are at rest, and stiffnesses are instantaneous. If w is the displacement of the
-/// top wall, then
+/// The stiffness matrix K for the vector u of all displacements and rotations (six numbers per particle), and the
+/// effect of a displacement of the top wall. All other walls are at rest, and stiffnesses are instantaneous. If w is
+/// the displacement of the top wall, then
 ///   loads on the particles:         −K·u + top_wall·w
 ///   force on the top wall along z:  top_wall·u − top_stiffness·w
 struct Stiffness {

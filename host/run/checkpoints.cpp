@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoints.cpp  Decides when a checkpoint is written, and refuses the checkpoints of other runs.
+// checkpoints.cpp  Decides when a checkpoint is written, and refuses checkpoints that belong to other runs.
 #include "host/run/checkpoints.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ std::map<std::string, std::string> identity(const Scene& scene, Backend backend)
           {"geometry", asked(scene.solver.geometry)}};
 }
 
-/// Describes particles and contacts, with a checksum of those data that the steps use.
+/// Returns a text with the numbers of particles and contacts, and a checksum of those of their data that the steps use.
 std::string fingerprint(const Preparation& prepared) {
   const ContactNetwork& n = prepared.network;
   return fmt::format("{} particles, {} contacts, {} contact points, CRC-32 {:08x}", prepared.specimen.size(),
@@ -87,7 +87,8 @@ std::uint32_t checksum(const Preparation& prepared) {
     sum = crc32_z(sum, reinterpret_cast<const Bytef*>(list.data()), list.size() * sizeof(list[0]));
   };
   const Specimen& s = prepared.specimen;
-  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // without voids, because other voids give other contacts
+  // voids need not be added, because a change of the voids changes the contacts
+  add(s.centre), add(s.radius), add(s.phase), add(s.body);
   const ContactNetwork& n = prepared.network;
   add(n.point_s), add(n.point_t), add(n.point_area);
   return static_cast<std::uint32_t>(sum);
@@ -181,7 +182,8 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
 }
 
 void Checkpoints::write(const Content& content, const Stepper& stepper) const {
-  std::vector<StateArray> state = stepper.state();  // before the next line, because all ranks must take part
+  // called before the other processes (ranks) return in the next line, because all of them must take part
+  std::vector<StateArray> state = stepper.state();
   if (!is_first_rank()) return;
   Checkpoint out;
   out.texts = identity(scene_, backend_);
@@ -203,7 +205,7 @@ void Checkpoints::keep_previous() const {
   const fs::path previous = file_.parent_path() / previous_checkpoint_name, aside = previous.string() + ".part";
   std::error_code ignored;
   if (!own_) {
-    fs::remove(previous, ignored);  // it belongs to another run
+    fs::remove(previous, ignored);  // the previous checkpoint in the folder belongs to another run
     return;
   }
   // the link exists already if the previous attempt to write a checkpoint failed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file checkpoints.hpp  Decides when checkpoints of a stepped run are written, and checks to which run a checkpoint
-/// belongs.
+/// \file checkpoints.hpp  Decides when checkpoints of a stepped run are written, and checks whether a checkpoint
+/// belongs to a run.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ namespace macadam {
 
 /// The file name of the checkpoint in the folder of the results.
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
-/// The file name of the previous checkpoint of the same run. It is used if the newest file is damaged.
+/// The file name of the previous checkpoint of the same run. It is used if the newest checkpoint is missing or damaged.
 inline constexpr const char* previous_checkpoint_name = "checkpoint-previous.h5";
 
 /// Returns whether runs of this scene keep checkpoints. `why_not` (optional) receives the reason if they do not.
@@ -34,9 +34,9 @@ struct FoundCheckpoint {
 };
 
 /// Reads the checkpoint of this scene on this backend from a results folder. If the newest one is missing or damaged,
-/// reads the previous one, if that is intact.
-/// \throws InputError as read_checkpoint() does for the newest; also if the checkpoint belongs to another run, naming
-/// what differs: scene (with the first different line), version, backend, precision, form or geometry.
+/// reads the previous one, if that is intact. \throws InputError as read_checkpoint() does for the newest checkpoint;
+/// also if the checkpoint belongs to another run. The message then names what differs: scene (with the first different
+/// line), version, backend, precision, form or geometry.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Scene& scene, Backend backend);
 
 /// Returns whether a file is an intact checkpoint of this scene on this backend.
@@ -49,7 +49,7 @@ std::uint32_t checksum(const Preparation& prepared);
 /// because the specimen's file was changed since.
 void require_same_specimen(const std::filesystem::path& file, const Checkpoint& found, const Preparation& prepared);
 
-/// Removes the arrays of Stepper::state() from a checkpoint and returns them. The other arrays stay.
+/// Removes the arrays of Stepper::state() from a checkpoint and returns them. All other arrays stay in the checkpoint.
 std::vector<StateArray> take_state(Checkpoint& from);
 
 /// Adds an experiment's own texts and arrays to a checkpoint.

@@ -19,20 +19,20 @@ inline constexpr const char* cracks_file = "cracks.csv";
 /// Returns whether a run of this scene counts broken points: it is stepped, and one of its laws can break.
 bool counts_cracks(const Scene& scene);
 
-/// Reads at samples which contact points are broken. For a scene without a law that can break, it reads nothing.
+/// Reads at each sample which contact points are broken. If no law of the scene can break, does nothing.
 class CrackWatch {
  public:
   /// `before`: the events of a run that is resumed. Scene and preparation must outlive this object. \throws InputError
   /// for an event that does not belong to this specimen.
   CrackWatch(const Scene& scene, const Preparation& prepared, const std::vector<experiments::CrackEvent>& before = {});
 
-  /// Returns whether there is anything to count.
+  /// Returns whether the scene has contact points that can break, so that there is something to count.
   bool active() const { return active_; }
   /// Adds an event for each point that has broken since the last call. Returns the events of this call. All processes
   /// of a run must call this together. \throws RunError as Stepper::contacts() does.
   std::vector<experiments::CrackEvent> look(const Stepper& stepper, double time);
   /// Returns whether contacts that have an intact point join the top wall to the bottom wall or to a wall at the sides;
-  /// true for a specimen that was never joined. All processes of a run must call this together.
+  /// also true if the walls were not joined when the test began. All processes of a run must call this together.
   bool joins_walls() const;
 
   const experiments::Cracks& found() const { return found_; }
@@ -47,15 +47,15 @@ class CrackWatch {
   experiments::Cracks found_;
 };
 
-/// Return the first line of cracks.csv, and the line of an event. x, y, z is the point's position in the undeformed
-/// specimen.
+/// Return the header line of cracks.csv, and the line of an event. The columns x, y, z are the point's position in the
+/// undeformed specimen.
 /// @{
 std::string crack_head();
 std::string crack_line(const Preparation& prepared, const experiments::CrackEvent& event);
 /// @}
 
-/// Return events as four numbers each, for a checkpoint, and read them back. \throws InputError for numbers that are
-/// not events.
+/// to_numbers() returns the events as four numbers each, for a checkpoint; to_cracks() makes events of such numbers.
+/// \throws InputError for numbers that are not events.
 /// @{
 std::vector<double> to_numbers(const std::vector<experiments::CrackEvent>& events);
 std::vector<experiments::CrackEvent> to_cracks(const std::vector<double>& numbers);

@@ -11,7 +11,8 @@
 
 namespace macadam {
 
-/// Returns the difference of a stiffness from the expected one: of |E*| relative, of φ in radians.
+/// Returns the difference of a stiffness from an expected stiffness: of |E*| the relative difference, of φ the
+/// difference in radians.
 ErrorEstimate difference(const Stiffness& found, const Stiffness& expected);
 /// Returns the larger of the errors of |E*| and φ.
 double largest(const ErrorEstimate& error);
@@ -28,18 +29,20 @@ double inertia_estimate(const Scene& scene, const Preparation& prepared, double 
 /// Quantities with which the rounding error of a run grows.
 struct RoundingScale {
   std::int64_t steps = 0;  ///< number of steps of the whole run
-  double layers = 0;       ///< Height over the mean distance of particles in contact. It is the ratio of velocities to
-                           ///< relative velocities.
-  double contrast = 1;     ///< largest |k*(ω)| over the smallest, of the pair types that occur
-  double inertia = 0;      ///< effect of the scaled mass on |E*|, by inertia_estimate()
+  /// Height of the specimen over the mean distance of particles in contact. It is about the ratio of the velocities of
+  /// particles to the relative velocities of neighbours.
+  double layers = 0;
+  double contrast = 1;  ///< largest |k*(ω)| over the smallest, of the pair types that occur
+  double inertia = 0;   ///< effect of the scaled mass on |E*|, by inertia_estimate()
 };
-/// Returns these quantities for a run of one frequency.
+/// Returns the quantities of RoundingScale for a run of one frequency.
 RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,
                              double density_scaling);
 
 /// Measured differences of a precision from double, and the range of these measurements: maxima of
 /// bench/results/precision.csv, of the drift study in accuracy.csv and, for mixed precision, of the full specimen on a
-/// device (whole-tests-h200-2026-11-21.csv). precision_test compares them with these files.
+/// device (whole-tests-h200-2026-11-21.csv). tests/ has a test (precision_test) that compares these values with the
+/// files.
 struct RoundingMeasured {
   double largest;       ///< difference of |E*| (relative) or φ [rad]
   RoundingScale up_to;  ///< largest values in the measurements
@@ -47,12 +50,13 @@ struct RoundingMeasured {
 inline constexpr RoundingMeasured single_measured{2.3e-4, {4'000'000, 49, 1e7, 0.33}};
 inline constexpr RoundingMeasured mixed_measured{5.9e-5, {11'897'000, 49, 1e7, 0.33}};
 
-/// Return estimates of the rounding error that are larger than every measured error. They are not bounds: other scenes
-/// may round differently.
+/// Return estimates of the rounding error in single and in mixed precision. The estimates are larger than every
+/// measured error. But they are not bounds, because rounding errors of other scenes may be larger.
 double single_precision_error(const RoundingScale& scale);
 double mixed_precision_error(const RoundingScale& scale);
 
-/// Returns a text about the first quantity of a run that exceeds the range of the measurements; empty if none does.
+/// Returns a text about the first quantity of a run that exceeds the range of the measurements; empty if no quantity
+/// does.
 std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured);
 
 /// Returns the error caused by updating viscoelastic states only between blocks of steps (mixed and single precision).

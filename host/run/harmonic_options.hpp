@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file harmonic_options.hpp  Determines how the linear systems of any experiment are solved.
+/// \file harmonic_options.hpp  Makes the options with which any experiment solves linear systems in the frequency
+/// domain.
 #pragma once
 
 #include <functional>
@@ -10,7 +11,7 @@
 
 namespace macadam {
 
-/// Returns the options for a scene's linear systems. With backend reference they are solved on the CPU.
+/// Returns the options for a scene's linear systems. With backend reference the systems are solved on the CPU.
 HarmonicOptions harmonic_options(const Scene& scene, Backend backend, const std::function<bool()>& stop,
                                  double residual = HarmonicOptions{}.tolerance);
 

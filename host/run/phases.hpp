@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file phases.hpp  Assigns the wall time of a run to its phases. Every moment counts for one phase.
+/// \file phases.hpp  Assigns the wall time of a run to its phases. Every moment of a run is counted in exactly one
+/// phase.
 #pragma once
 
 #include <chrono>
@@ -8,8 +9,8 @@
 
 namespace macadam {
 
-/// Adds the lifetime of this object to the time of a phase. Time in phases that begin during this lifetime counts for
-/// those phases only.
+/// Adds the lifetime of this object to the time of a phase. If another phase begins and ends during this lifetime, its
+/// time is counted only in that other phase.
 class InPhase {
  public:
   InPhase(PhaseSeconds& all, double PhaseSeconds::*phase) : all_(all), phase_(phase), before_(all.sum()) {}

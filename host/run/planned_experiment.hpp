@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file planned_experiment.hpp  Defines a planned experiment. When it exists, every check that can refuse the scene
-/// has passed, and no file of the folder has been changed yet.
+/// \file planned_experiment.hpp  Defines a planned experiment. When a PlannedExperiment has been made, every check that
+/// can refuse the scene has passed, and no file in the folder of the results has been changed yet.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace macadam {
 
-/// Writes summary.json with this status.
+/// A function that writes summary.json, with `status` as the status of the run.
 using Saving = std::function<void(const std::string& status)>;
 
 /// A planned experiment. Scene, preparation and watcher must outlive it.

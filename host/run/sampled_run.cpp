@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sampled_run.cpp  Runs the loop over samples for every experiment that is stepped in time. Steps are taken in pieces;
-// after each piece the run checks whether it must stop or write a checkpoint. Samples that need only an observation are
-// taken several at a time, by one call of the stepper.
+// sampled_run.cpp  Runs the loop over samples for every experiment that is stepped in time. Steps are taken in pieces
+// of some tenths of a second; after each piece the run checks whether it must stop or write a checkpoint. If samples
+// need only an observation, one call of the stepper takes several of them.
 #include "host/run/sampled_run.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +46,8 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
       is_reported = true;
       course.report_remaining(static_cast<double>(end - now) / speed(now));
     }
-    const InPhase writing(result_.phases, &PhaseSeconds::writing);  // takes time only when a checkpoint is written
+    // this takes a noticeable time only when a checkpoint is written
+    const InPhase writing(result_.phases, &PhaseSeconds::writing);
     checkpoints_.look(course.content, stepper, course.name);
   };
   bool ended = false;
@@ -62,8 +63,9 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
       watcher_.progress(course.shown(step, speed(step)), static_cast<double>(step) / static_cast<double>(end));
     }
   };
-  // Returns the number of samples directly after sample k that need only an observation and follow one another at the
-  // distance of sample k from the current step.
+  // Returns how many samples directly after sample k can be taken in the same call of the stepper. These samples need
+  // only an observation, and they follow one another at a constant distance: the distance of sample k from the current
+  // step.
   const auto alike = [&](std::int64_t k) {
     // no stepper takes more than 64 samples in one call
     const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;
@@ -78,7 +80,8 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
   PiecewiseStepper pieces(stepper);
   for (std::int64_t k = course.first; k <= course.last && !ended;) {
     const std::int64_t to = course.step_of(k);
-    while ((every > 0 || between > 0) && step < to) {  // pauses between samples to call the watcher and the course
+    // stops between samples to call functions of the watcher and of the course
+    while ((every > 0 || between > 0) && step < to) {
       std::int64_t next = to;
       for (const std::int64_t n : {every, between}) next = n > 0 ? std::min(next, (step / n + 1) * n) : next;
       pieces.advance(step, next, look);

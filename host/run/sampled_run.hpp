@@ -22,18 +22,19 @@ inline double seconds_since(Clock::time_point start) {
 
 /// Describes one run in time: at which steps it is sampled, and the functions that are called there.
 struct Course {
-  std::string name;                                   ///< name in messages: "20 Hz", "creep"
-  double dt = 0;                                      ///< [s]
-  double frequency = 0;                               ///< [Hz], of a cyclic test
-  std::int64_t first = 0, last = 0;                   ///< numbers of the first and last sample; sample 0 is at step 0
-  std::function<std::int64_t(std::int64_t)> step_of;  ///< the step of a sample; never falls
-  std::function<bool(std::int64_t)> taken;            ///< whether this sample is used at all
-  /// Receives a sample. The stepper may already have gone beyond it.
+  std::string name;                  ///< name in messages: "20 Hz", "creep"
+  double dt = 0;                     ///< [s]
+  double frequency = 0;              ///< [Hz], of a cyclic test
+  std::int64_t first = 0, last = 0;  ///< numbers of the first and last sample; sample 0 is at step 0
+  /// The step of a sample; it never decreases from sample to sample.
+  std::function<std::int64_t(std::int64_t)> step_of;
+  std::function<bool(std::int64_t)> taken;  ///< whether this sample is passed to `take`
+  /// Receives a sample. The stepper may already be beyond the step of this sample.
   std::function<void(std::int64_t sample, const Observation& now)> take;
   bool looks_at_stepper = false;     ///< whether `take` uses the stepper, which must then still be at the sample
-  std::function<bool()> ended = {};  ///< asked after `take`: whether this sample is the last; may be empty
-  /// Called after every `between_every` steps, if that is not 0, also between samples. A resumed run may call it a
-  /// second time for the step from which it continues.
+  std::function<bool()> ended = {};  ///< called after `take`: returns whether this sample is the last; may be empty
+  /// Called after every `between_every` steps, if this number is not 0. These steps may lie between samples. A resumed
+  /// run may call it a second time for the step from which it continues.
   std::function<void(const Observation& now)> between = {};
   std::int64_t between_every = 0;
   std::function<std::string(std::int64_t step, double steps_a_second)>
@@ -51,13 +52,15 @@ class SampledRuns {
   SampledRuns(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
               const std::filesystem::path& out, bool resumed, std::function<void(const std::string&)> warn);
 
-  /// Begins or continues the series of fields of a course. `samples`: samples per period, or of the whole test.
+  /// Begins or continues the series of fields of a course. `samples`: number of samples per period of a cyclic test, or
+  /// of the whole test otherwise.
   void begin_fields(const std::string& name, int samples, double time);
 
   /// Takes the steps from the stepper's current step to the last sample. If the course ends early, a frame of its last
   /// sample is written. Between steps, this function checks whether a checkpoint is due or the run must stop. It does
-  /// so before the sample at the current step is taken. Results have the same bits wherever a run is interrupted.
-  /// \throws DivergenceError naming the particle that first left the plausible range; InterruptedError; RunError.
+  /// this before the sample at the current step is taken. The results have the same bits wherever a run is interrupted
+  /// and resumed. \throws DivergenceError naming the particle that first left the plausible range; InterruptedError;
+  /// RunError.
   void run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry);
 
   /// Returns whether the checkpoint in the folder, if there is one, belongs to this run.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made
+// skips.cpp  Lists the parts of a run that are skipped. They are left out where the arrays of the step are made
 // (kernels/contact/contact_data.hpp).
 #include "host/run/skips.hpp"
 

@@ -11,12 +11,12 @@
 
 namespace macadam {
 
-/// Saves only so often that saving takes at most a tenth of the time. This limit is needed because the text grows with
-/// the number of frequencies.
+/// Saves summary.json only so often that saving takes at most a tenth of the wall time. This limit is needed because
+/// the text grows with the number of frequencies, so each save takes longer.
 class SparingSave {
  public:
   using Clock = std::chrono::steady_clock;
-  /// \param now the clock; tests use their own
+  /// \param now returns the time; tests pass a clock of their own
   explicit SparingSave(Saving save, std::function<Clock::time_point()> now = Clock::now)
       : save_(std::move(save)), now_(std::move(now)) {}
   void operator()(const std::string& status) {

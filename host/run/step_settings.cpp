@@ -39,7 +39,7 @@ std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Back
 
 void require_possible(double steps, double dt, const std::string& what) {
   constexpr double most = 1e12;
-  if (steps < most) return;  // a NaN is refused too
+  if (steps < most) return;  // written so that a NaN is refused too
   throw RunError(fmt::format(
       "with the time step of {:.6g} s the run would take {:.6g} steps {}; increase density_scaling", dt, steps, what));
 }

@@ -14,15 +14,16 @@
 
 namespace macadam {
 
-/// Returns the form that the scene asks for. If it asks for none, returns points if a law is not linear or if every
-/// facet has only one contact point (a facet then has three chains, not six as in condensed form), else condensed.
+/// Returns the contact form that the scene requests. If it requests none, returns `points` if a law is not linear. Also
+/// returns `points` if every facet has only one contact point, because a contact then has three chains of springs and
+/// dashpots, and in condensed form it would have six. Otherwise returns `condensed`.
 ContactForm form_of(const Scene& scene);
 
 /// Returns the options that all steppers of a run have in common, from `[solver]` and the choices made for the run.
 StepperOptions stepper_options(const SolverSpec& solver, ContactForm form, Geometry geometry, Precision precision);
 
-/// Returns a stepper that continues from a checkpoint's state, unless that is empty. `used`: as for make_stepper().
-/// \throws as make_stepper() and Stepper::set_state() do.
+/// Returns a stepper. If `state`, the state in a checkpoint, is not empty, the stepper continues from it. `used`: as
+/// for make_stepper(). \throws as make_stepper() and Stepper::set_state() do.
 std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Backend backend, const Scene& scene,
                                       const Preparation& prepared, const Inertia& inertia,
                                       const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// few_units.cpp  Approximates a sum of exponentials by a few of its own units (exponentials). Non-negative least
-// squares adds one unit at a time until the error is below the tolerance.
+// few_units.cpp  Approximates a sum of exponentials by a sum of only a few of the same exponentials (units) with other
+// moduli. A non-negative least-squares fit adds one unit at a time until the error is below the tolerance.
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +10,10 @@
 namespace macadam {
 namespace {
 
-/// Fraction of E(0) below which E(t) is not resolved. Differences are divided by E(t), or by this fraction of E(0) if
-/// E(t) is less.
+/// Fraction of E(0) below which values of E(t) count as 0. Relative differences are differences divided by E(t) or, if
+/// E(t) is smaller than this fraction of E(0), divided by this fraction of E(0).
 constexpr double nothing = 1e-9;
-/// Times per decade at which series are compared.
+/// Number of times per decade at which two series are compared.
 constexpr int per_decade = 20;
 
 /// Returns the times of the least-squares fit: 0, the given range, and the two decades before the range, in which E
@@ -24,7 +24,7 @@ std::vector<double> places(double shortest, double longest) {
   return out;
 }
 
-/// Returns E(t), but at least the smallest value that is resolved; differences are divided by it.
+/// Returns the number by which a difference at time t is divided: E(t), but at least the fraction `nothing` of E(0).
 double scale(const PronySeries& exact, double t) { return std::max(exact.modulus(t), nothing * exact.instantaneous()); }
 
 }  // namespace

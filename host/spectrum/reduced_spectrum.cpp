@@ -25,10 +25,10 @@ using Eigen::VectorXd;
 
 /// Eigenvalues of a matrix G_p below this fraction of the largest one are rounding errors.
 constexpr double rounding = 1e-14;
-/// Units with a modulus below this fraction of E_0 are rounding errors too.
+/// Units with a modulus below this fraction of E_0 are also caused by rounding errors.
 constexpr double no_unit = 1e-14;
 
-/// Returns Lᵀ with L·Lᵀ = `form`, with one row for each direction that the form resists.
+/// Returns Lᵀ with L·Lᵀ = `form`. It has one row for each direction in which `form` has stiffness.
 MatrixXd root_of(const MatrixXd& form) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(form);
   const VectorXd& values = eigen.eigenvalues();
@@ -72,15 +72,16 @@ PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::op
     rate.segment(at, b.rows()).setConstant(rates[static_cast<std::size_t>(k)]);
     at += b.rows();
   }
-  // This solves the equilibrium of the free motions. Degrees of freedom have different units, so rows and columns are
-  // scaled by the diagonal.
+  // This solves the equilibrium of all motions except the first one, which the wall prescribes. Degrees of freedom have
+  // different units, so rows and columns are scaled by the diagonal.
   const Index free = n - 1;
   const VectorXd scale = at_once.diagonal().tail(free).cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = scale.asDiagonal() * at_once.bottomRightCorner(free, free) * scale.asDiagonal();
   const Eigen::LDLT<MatrixXd> resistance(scaled);
-  const MatrixXd of_free = strain.rightCols(free) * scale.asDiagonal();  // the columns of the free motions
+  const MatrixXd of_free = strain.rightCols(free) * scale.asDiagonal();  // the columns of the motions except the first
   const VectorXd pull = scale.asDiagonal() * at_once.bottomLeftCorner(free, 1);
-  const VectorXd answer = resistance.solve(pull);  // −v of the instantaneous response
+  // −v, where v are the coefficients of the motions in the instantaneous response
+  const VectorXd answer = resistance.solve(pull);
   const double instantaneous = at_once(0, 0) - pull.dot(answer);
   MatrixXd decay = -of_free * resistance.solve(of_free.transpose());
   decay.diagonal().array() += 1;

@@ -73,8 +73,8 @@ double CreepSeries::after_ramp(double t, double duration) const {
 
 namespace {
 
-/// Returns the root r of a function that increases from below zero at ln r = low to above zero at ln r = high.
-/// Uses bisection of ln r, because both ends may be poles.
+/// Returns the root r of a function that increases from below zero at ln r = low to above zero at ln r = high. Uses
+/// bisection of ln r, because the function may be infinite at both ends.
 template <class F>
 double root(F&& f, double low, double high) {
   for (int i = 0; i < 200; ++i) {
@@ -85,8 +85,8 @@ double root(F&& f, double low, double high) {
   return std::exp(0.5 * (low + high));
 }
 
-/// How far beyond the outermost pole a root is searched, as a natural logarithm (a factor of 1e26). A unit beyond that
-/// would contribute nothing.
+/// How far beyond the outermost pole a root is searched, as a natural logarithm (a factor of 1e26). A unit that is even
+/// farther away would contribute nothing.
 constexpr double beyond = 60;
 
 }  // namespace
@@ -99,8 +99,8 @@ PronySeries prony_series(const Law& law) {
         fmt::format("{} or {}, whose relaxation times are known", laws::Elastic::name, laws::GeneralisedKelvin::name));
   }
   const auto& chain = std::get<laws::GeneralisedKelvin>(law);
-  // At s = −r the compliance 1/E_m − 1/(r·C_m) + Σ 1/(E_l − r·C_l) increases from −∞ to ∞ between two poles, and once
-  // more beyond the last pole. The poles of k*(s) are the zeros of this compliance.
+  // At s = −r the compliance 1/E_m − 1/(r·C_m) + Σ 1/(E_l − r·C_l) increases from −∞ to ∞ between two poles, and also
+  // beyond the last pole. The poles of k*(s) are the zeros of this compliance.
   struct Pole {
     double rate, E, C;
   };
@@ -191,7 +191,8 @@ CreepSeries creep_series(const PronySeries& relaxation) {
 }
 
 std::vector<double> log_range(double first, double last, int per_decade) {
-  // If last/first overflows, logarithms are subtracted. Otherwise the logarithm of the ratio loses fewer digits.
+  // If last/first overflows, the logarithms are subtracted. Otherwise the logarithm of the ratio is used, because it
+  // loses fewer digits.
   const bool far_apart = !std::isfinite(last / first);
   const double decades = far_apart ? std::log10(last) - std::log10(first) : std::log10(last / first);
   const auto at = [&](double decade) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spectrum.cpp  Solves the network at several real s, and adds solutions between them until E(t) no longer changes.
+// spectrum.cpp  Solves the network at several real s, and then at further s between them, until E(t) no longer changes.
 #include "macadam/spectrum.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,8 @@ using harmonic::ReducedModel;
 using harmonic::Vector;
 using Complex = std::complex<double>;
 
-/// E(t) depends on E*(s) for s from about 0.1/t to 10/t.
+/// The network is solved at s from about 0.1/longest to 10/shortest, because E(t) depends on E*(s) for s from about
+/// 0.1/t to 10/t.
 constexpr double slower = 10, faster = 10;
 /// The instantaneous response, in which no dashpot moves, is solved at s = at_once/t. Here t is the fastest relaxation
 /// time, or the shortest requested time if this is less.
@@ -29,10 +30,11 @@ constexpr double at_once = 1e8;
 /// The residual tolerance of the solutions is residual_share·√tolerance, because the error of E* is the square of the
 /// error of a solution.
 constexpr double residual_share = 1e-4;
-/// The error estimate contains this fraction of the tolerance for the residuals of the solutions. On 175 particles the
-/// residuals alone caused an error of 0.03 times the tolerance.
+/// The error estimate contains this fraction of the tolerance, as an allowance for the residuals of the solutions. For
+/// a specimen of 175 particles the residuals alone caused an error of 0.03 times the tolerance.
 constexpr double of_residuals = 0.1;
-constexpr int first_places = 9, most_rounds = 4;  // the rounds have 9, 17, 33 and 65 places
+// the network is solved at 9 places (values of s) in the first round, at 17, 33 and 65 in the next rounds
+constexpr int first_places = 9, most_rounds = 4;
 /// Number of frequencies at which the series is compared with solutions that were not used to make it.
 constexpr int checks = 3;
 
@@ -56,7 +58,8 @@ class Finder {
     std::vector<double> places;
     for (int i = 0; i < first_places; ++i) {
       places.push_back(high + (low - high) * i / (first_places - 1));
-      // From fast to slow: each solution gives a good start for slower ones, which are worse conditioned.
+      // The solutions are computed from large to small s. Each solution is a good start for the next one, and systems
+      // with small s are worse conditioned.
       join({places.back()});
     }
     std::sort(places.begin(), places.end());
@@ -66,8 +69,8 @@ class Finder {
       const PronySeries next = harmonic::reduced_spectrum(model_, laws_, to_modulus_);
       const double now = round == 0 ? 1 : change(out_.relaxation, next);
       out_.relaxation = next;
-      // Twice the number of places about squares the error. The estimate assumes only that the error shrinks by the
-      // same factor as in the round before.
+      // If the number of places is doubled, the relative error is about squared. The estimate assumes less: that the
+      // error shrinks by the same factor as in the round before.
       out_.error = now * std::min(1.0, now / before) + of_residuals * options_.tolerance;
       before = now;
       if (options_.on_progress) options_.on_progress(out_.solutions, out_.error);
@@ -172,7 +175,7 @@ Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
   }
   require_stiffness(laws);
   for (const auto& law : laws)
-    if (law) prony_series(*law);  // fails before any work if a law has no series
+    if (law) prony_series(*law);  // throws before any system is solved if a law has no series
   return Finder(specimen, network, laws, options).find();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// critical_step.cpp  Computes mass and inertia of solid spheres, and a time step that is certainly stable.
+// critical_step.cpp  Computes masses and moments of inertia of solid spheres, and a time step with which the run is
+// certainly stable.
 //
 // Leapfrog is stable for Δt ≤ 2/ω_max of M⁻¹K. The energy of a contact, ½·k·(a − b)², is at most k·a² + k·b², twice the
 // sum of the energies that each end alone would give. So λ_max(M⁻¹K) ≤ 2·max_i λ_max(M_i⁻¹·K_ii) with the 6 × 6 blocks

@@ -8,9 +8,9 @@
 
 namespace macadam {
 
-/// Checks that a sample has not diverged. `of` is the name of the stepped object for the message; it may be empty.
-/// \throws DivergenceError naming the first particle whose motion is out of range, or the top wall if its force or
-/// motion is not finite.
+/// Checks that a sample has not diverged. `of` is the name of the run in the message; it may be empty. \throws
+/// DivergenceError naming the first particle whose motion is out of range, or the top wall if its force or motion is
+/// not finite.
 void require_convergence(const Sample& sample, const std::string& of);
 
 }  // namespace macadam

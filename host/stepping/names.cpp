@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// names.cpp  Converts the stepper's options to their names, and lists of device numbers to text.
+// names.cpp  Converts the values of stepper options to their names, and lists of device numbers to text.
 #include "macadam/backend.hpp"
 
 namespace macadam {

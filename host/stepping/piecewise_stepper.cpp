@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// piecewise_stepper.cpp  Takes steps in pieces and adapts the number of steps per piece to the measured time.
+// piecewise_stepper.cpp  Takes the steps of a run in pieces, and adapts the number of steps per piece to the measured
+// wall time of a piece.
 #include "macadam/piecewise_stepper.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ void PiecewiseStepper::take_timed(const std::function<std::int64_t()>& take) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const std::int64_t steps = take();
-  // All processes use the time measured by the first one, so that they all take the same pieces.
+  // All processes use the time that the first process has measured, so that they all take the same pieces.
   const double seconds = of_first_rank(std::chrono::duration<double>(Clock::now() - start).count());
   if (2 * steps > piece_ && seconds < 0.1) piece_ *= 2;
   if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);

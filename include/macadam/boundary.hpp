@@ -23,7 +23,8 @@ enum class DrivenBy : std::uint8_t { rest, displacement, force };
 /// One axis of a wall.
 struct WallAxis {
   DrivenBy by = DrivenBy::rest;
-  std::shared_ptr<const Drive> drive;  ///< its dt() equals the stepper's time step; null if the axis is at rest
+  /// The function of time; its dt() must equal the stepper's time step; null if the axis is at rest.
+  std::shared_ptr<const Drive> drive;
 };
 
 /// One wall: its axes x, y, z, and the mass with which it follows forces [kg], without density scaling.

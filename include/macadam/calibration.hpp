@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file calibration.hpp  Finds parameters of a scene's contact laws for which its specimen has the measured moduli.
 ///
-/// The specimen is prepared once. Every iteration solves it in the frequency domain, which also gives the derivatives
-/// with respect to all parameters (sensitivity.hpp). The method is Levenberg–Marquardt for the natural logarithms of
-/// the parameters.
+/// The specimen is prepared once. Every iteration computes its moduli in the frequency domain, and from the same
+/// solutions the derivatives with respect to all parameters (sensitivity.hpp). The method is Levenberg–Marquardt for
+/// the natural logarithms of the parameters.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +21,8 @@ namespace macadam {
 /// Sensitivity::parameter.
 struct FreeParameter {
   std::string name;
-  /// Bounds, in units of the parameter. Without bounds: four decades to either side of the scene's value; a result at
-  /// such a default bound is an error.
+  /// Bounds, in units of the parameter. Without bounds: four decades to either side of the scene's value; if a
+  /// parameter ends at such a default bound, the calibration fails.
   std::optional<double> low, high;
   std::optional<double> prior;  ///< value that is known beforehand
   double prior_deviation = 0;   ///< standard deviation of its natural logarithm
@@ -41,7 +41,7 @@ struct CalibrationOptions {
   /// generated specimens allow more than one.
   int seeds = 1;
   Misfit misfit = Misfit::modulus_and_phase;
-  /// Used for data without standard deviations, as in FitOptions.
+  /// Standard deviations of |E*| (relative) and φ [degrees] for data without standard deviations; see FitOptions.
   double e_star_deviation = 0.03, phase_deviation = 1;
   /// If the targets cannot be reached, returns the nearest values and a warning instead of an error.
   bool nearest = false;
@@ -50,9 +50,10 @@ struct CalibrationOptions {
 /// One parameter and its calibrated value.
 struct CalibratedParameter {
   std::string name, unit;
-  double value = 0, start = 0;  ///< as in a scene file: moduli and viscosities without the factor δ
-  double deviation = 0;         ///< standard deviation, in units of the value; ∞ if the data do not determine it
-  double low = 0, high = 0;     ///< bounds
+  /// Calibrated value and starting value, as in a scene file: moduli and viscosities without the factor δ.
+  double value = 0, start = 0;
+  double deviation = 0;      ///< standard deviation, in units of the value; ∞ if the data do not determine the value
+  double low = 0, high = 0;  ///< bounds
   bool at_bound = false;
 };
 
@@ -68,7 +69,8 @@ struct CalibratedPoint {
 /// A product of powers of the parameters that the measurements determine poorly or not at all.
 struct Combination {
   std::vector<double> exponents;  ///< exponents of the parameters; the largest is 1
-  /// Standard deviation of its logarithm from the measurements alone; ∞ if they do not determine it.
+  /// Standard deviation of the logarithm of this product, from the measurements alone; ∞ if they do not determine the
+  /// product.
   double deviation = 0;
 };
 
@@ -76,18 +78,20 @@ struct Combination {
 struct Calibration {
   CalibrationOptions options;
   std::vector<CalibratedParameter> parameters;
-  std::vector<double> covariance;   ///< of the parameters' natural logarithms, row by row; NaN if not determined
+  /// Covariance of the parameters' natural logarithms, row by row; NaN if not determined.
+  std::vector<double> covariance;
   std::vector<double> correlation;  ///< row by row; NaN as in covariance
   std::vector<Combination> combinations;
   std::vector<CalibratedPoint> points;
   FitErrors errors;
-  double misfit = 0;              ///< sum of squares, without priors
+  double misfit = 0;              ///< sum of squares of the weighted residuals, without the terms of priors
   double degrees_of_freedom = 0;  ///< number of measured values minus number of parameters that are not at a bound
   bool temperatures = false, deviations = false;  ///< whether the data have temperatures, standard deviations
   bool moduli = true, phases = true;              ///< whether moduli, phases were measured; the errors are NaN if not
   std::vector<std::uint64_t> seeds;               ///< empty for a specimen from a file
   std::string solver;                             ///< description of the solver
-  int solutions = 0;                              ///< number of solutions, over all frequencies and specimens
+  /// Number of solved linear systems, over all frequencies and specimens.
+  int solutions = 0;
   double seconds_preparing = 0, seconds_solving = 0;
   std::vector<std::string> warnings;
   LawTable laws;  ///< the scene's laws with the calibrated values

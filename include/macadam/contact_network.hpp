@@ -17,7 +17,7 @@ namespace macadam {
 
 /// The pair of materials that a contact joins. `inner`: two spheres of the same aggregate; W is a wall.
 enum class PairType : std::uint8_t { mm, ma, aa, inner, aw, mw };
-inline constexpr int particle_pair_types = 4;  ///< these are the first of pair_types
+inline constexpr int particle_pair_types = 4;  ///< number of pair types without a wall, which are the first ones
 /// Returns "M-M", "M-A", "A-A", "inner", "A-W" or "M-W".
 const char* to_string(PairType pair);
 
@@ -26,7 +26,7 @@ const char* to_string(PairType pair);
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
-/// Limits within which a facet between two particles becomes a contact. Without limits, every facet does.
+/// Limits within which a facet between two particles becomes a contact. Without limits, every facet becomes a contact.
 struct FacetLimits {
   std::optional<double> gap_max;   ///< largest surface gap, over the mean of the two radii
   std::optional<double> area_min;  ///< smallest facet area, over the mean area of facets between particles
@@ -51,7 +51,7 @@ struct AreaMoments {
 struct Contact {
   std::int32_t a = 0, b = 0;  ///< particle numbers in specimen order; b may be a Wall
   PairType pair = PairType::mm;
-  double distance = 0;          ///< d: between the centres, or from centre to wall [m]
+  double distance = 0;          ///< d: distance between the centres, or from the centre to the wall [m]
   double area = 0;              ///< [m²]
   Vec3d n{}, s{}, t{};          ///< unit frame, n from a to b, s × t = n (canonical_frame of n)
   double arm_a = 0, arm_b = 0;  ///< [m]; arm_b = 0 at a wall
@@ -63,11 +63,13 @@ struct Contact {
 struct ContactNetwork {
   std::vector<Contact> contacts;
   std::vector<double> point_s, point_t;  ///< local coordinates of the contact points (vertices, then centroid) [m]
-  std::vector<double> point_area;        ///< A_J: one third of the fan triangles that contain J [m²]
+  /// A_J: one third of the area of those fan triangles that have J as a corner [m²].
+  std::vector<double> point_area;
   std::vector<std::uint32_t> row_begin;  ///< particle i's contacts are rows[row_begin[i] … row_begin[i+1])
   std::vector<std::uint32_t> rows;       ///< contact numbers, ascending in a row
   std::int64_t dropped_gap = 0, dropped_area = 0;
-  double dropped_share = 0;  ///< area dropped by area_min, over the area of all facets between particles
+  /// Area of the facets left out because of area_min, over the area of all facets between particles.
+  double dropped_share = 0;
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
 

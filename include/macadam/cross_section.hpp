@@ -44,8 +44,9 @@ struct CrossSection {
   }
 };
 
-/// Cuts the box by a plane. The rectangle is clipped, for each particle, by the planes of equal power (weights R²) with
-/// its neighbours in the tessellation. If the plane contains a facet, the section of the cell above it is used.
+/// Cuts the box by a plane. The section of a particle's cell is the rectangle of the box, clipped by the planes of
+/// equal power (weights R²) between the particle and its neighbours in the tessellation. If the plane contains a facet,
+/// the section of the cell above the plane is used.
 ///
 /// \throws InputError for a plane outside the box.
 CrossSection cut(const Specimen& specimen, const Tessellation& tessellation, const SectionPlane& plane);

@@ -113,11 +113,13 @@ struct GrainCut {
   double solidity = 0;  ///< Solidity is volume over volume of the convex hull. This is the solidity of both fragments
                         ///< together, divided by their solidity apart (sum of volumes over sum of hull volumes).
   double valley = 0;    ///< grey value on the face; 0: mastic, 1: aggregate
-  double margin = 0;    ///< positive: a boundary between two grains; negative: within one grain; near 0: doubtful
-  bool cut = false;     ///< the decision: whether the fragments belong to two grains
+  /// Measure for the decision: positive if the face is a boundary between two grains, negative if it lies within one
+  /// grain, near 0 if this is doubtful.
+  double margin = 0;
+  bool cut = false;  ///< the decision: whether the fragments belong to two grains
 };
 
-/// Options of the segmentation of a scan.
+/// Options for segmenting a scan.
 struct SegmentOptions {
   ScanRegion region = ScanRegion::found;
   std::optional<GivenRegion> given;                    ///< takes precedence over `region`
@@ -142,7 +144,7 @@ struct ScannedGrain {
   ShapeMeasure measure;
   double sieve = 0;          ///< side of the smallest square mesh that the grain passes [m]
   bool border = false;       ///< whether the end of the specimen or of the image cuts it
-  double confidence = 0;     ///< 0 to 1: how certain its outline and its cuts are
+  double confidence = 0;     ///< 0 to 1: how certain the outline of the grain and its cuts from other grains are
   double surface_error = 0;  ///< largest distance of the isosurface from the simplified one [m]
 };
 
@@ -165,11 +167,12 @@ struct Segmentation {
   std::vector<GrainCut> cuts;
   /// Volume fractions of the specimen; partly filled voxels count in part.
   double air_voids = 0, mastic = 0, aggregate = 0;
-  /// Fraction of the aggregate's volume that belongs to no grain, mostly pieces smaller than half of
+  /// Fraction of the aggregate's volume that belongs to no grain. Most of this volume is in pieces smaller than half of
   /// SegmentOptions::smallest.
   double in_no_grain = 0;
   double confidence_mean = 0;  ///< mean over the voxels of the specimen, 0 to 1
-  /// Edge of a voxel of these images, in voxels of the scan. It is greater than 1 if segment_file() averaged the scan.
+  /// Edge of a voxel of these images, as a multiple of the voxel edge of the scan. It is greater than 1 if
+  /// segment_file() averaged the scan over blocks of voxels.
   std::int64_t block = 1;
   std::size_t refined = 0;            ///< number of grains whose surfaces are finer than these images
   std::vector<std::string> warnings;  ///< points that a person should check
@@ -183,14 +186,14 @@ Segmentation segment_scan(Image<float> scan, const SegmentOptions& options);
 struct ScanFile {
   std::filesystem::path path;
   std::string dataset;  ///< HDF5 only
-  Vec3d spacing{};      ///< edges of a voxel [m]; they take precedence over those in the file. 0: use those in the file
+  Vec3d spacing{};      ///< edges of a voxel [m]; they replace the edges in the file. 0: use the edges in the file
 };
 
-/// Segments a scan in a file, using at most `memory` bytes. A scan that fits is passed to segment_scan(). A larger scan
-/// is averaged over blocks of voxels, a twentieth of the smallest grain wide; phases and grains are decided on these
-/// averages, and the images have the resolution of the blocks. Surfaces of grains for which the blocks are too coarse
-/// are computed from the file, which is read twice, some slices at a time. \throws InputError also if the averaged scan
-/// does not fit.
+/// Segments a scan in a file, using at most `memory` bytes. A scan that fits into this memory is passed to
+/// segment_scan(). A larger scan is averaged over blocks of voxels, whose edge is a twentieth of the smallest grain's
+/// diameter. Phases and grains are decided on these averages, and the resulting images have one voxel per block.
+/// Surfaces of grains for which the blocks are too coarse are computed from the file, which is read twice, some slices
+/// at a time. \throws InputError also if the averaged scan does not fit.
 Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory);
 
 /// Returns the memory that this process can still allocate [bytes]: the free memory of the machine or, if that is

@@ -53,7 +53,8 @@ struct FieldMesh {
   Shape shape = Shape::vertices;
   std::vector<float> points;               ///< x y z of each point [m]
   std::vector<std::int64_t> connectivity;  ///< point numbers of the cells, one cell after another
-  std::vector<std::int64_t> offsets;       ///< where each cell begins in `connectivity`; the last entry is its size
+  /// Index in `connectivity` at which each cell begins; the last entry is the size of `connectivity`.
+  std::vector<std::int64_t> offsets;
   std::vector<FieldArray> arrays;  ///< constant arrays: one item per point if the cells are vertices, else one per cell
 
   std::size_t point_count() const { return points.size() / 3; }
@@ -65,12 +66,12 @@ struct FieldMesh {
 FieldMesh particle_mesh(const Specimen& specimen, const std::vector<Aggregate>& aggregates);
 /// Returns a mesh with one line per contact, in network order, from centre to centre or from a centre to a wall.
 FieldMesh contact_mesh(const Specimen& specimen, const ContactNetwork& network);
-/// Returns the facets of all cells as polygons. A facet between two cells appears twice, once for each cell, so that a
-/// selection of cells is closed; normals point out of the cell.
+/// Returns the facets of all cells as polygons. A facet between two cells appears twice, once for each cell, so that
+/// any selection of cells has a closed surface. Normals point out of the cell.
 FieldMesh cell_mesh(const Specimen& specimen, const Tessellation& tessellation,
                     const std::vector<Aggregate>& aggregates);
 
-/// The numbers at one time. Lists that were not asked for are empty.
+/// The numbers at one time. Lists that the scene does not request are empty.
 struct FieldFrame {
   double time = 0;                              ///< [s]
   std::vector<FieldArray> particles, contacts;  ///< specimen order, network order
@@ -79,7 +80,7 @@ struct FieldFrame {
 /// Returns displacement, rotation, velocity, spin, force and moment of the particles in a stepped run.
 std::vector<FieldArray> particle_arrays(const ParticleState& state);
 /// Returns the mean stress in the Laguerre cell of each particle, model (8.3): xx, yy, zz, xy, yz, xz, tension positive
-/// [Pa]. Volumes, arms and facets are the initial ones.
+/// [Pa]. The initial volumes, lever arms and facets are used.
 FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& network, const ContactState& state);
 /// Returns normal and shear force, force, moment and relative displacement of the contacts; in condensed form also the
 /// stretch of each Kelvin unit; if a law can break also `broken`, the fraction of the contact's points that are broken.
@@ -91,8 +92,8 @@ std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNe
 /// Returns the arrays of the particles in a steady state (HarmonicResult::motion) in which the top wall moves as
 /// amplitude·cos ωt: real and imaginary part of the factor of e^(iωt), amplitude and phase.
 std::vector<FieldArray> particle_arrays(const std::vector<std::complex<double>>& motion, double amplitude);
-/// Returns the arrays of the contacts in such a steady state: forces from the complex stiffness of the laws at this
-/// frequency, with the initial geometry.
+/// Returns the arrays of the contacts in a steady state. Forces are computed from the complex stiffness of the laws at
+/// the frequency, with the initial geometry.
 std::vector<FieldArray> contact_arrays(const ContactNetwork& network, const LawTable& laws, double frequency_hz,
                                        const std::vector<std::complex<double>>& motion, double amplitude);
 

@@ -82,16 +82,15 @@ struct KelvinConversion {
   double largest_error = 0;  ///< largest |E*_chain − E*|/|E*| at 100 frequencies per decade of the range
 };
 
-/// Returns the chain with the fewest units whose error relative to |E*| (of the complex number) is at most
-/// `largest_error` from `lowest_hz` to `highest_hz`. It has a dashpot in series if the model flows, that is if E_00 = 0
-/// and β is finite. \throws InputError for an impossible range or error, and if GeneralisedKelvin::max_units do not
-/// suffice.
+/// Returns the Kelvin chain with the fewest units whose relative error |E*_chain − E*|/|E*| is at most `largest_error`
+/// from `lowest_hz` to `highest_hz`. It has a dashpot in series if the model flows, that is if E_00 = 0 and β is
+/// finite. \throws InputError for an impossible range or error, and if GeneralisedKelvin::max_units do not suffice.
 KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double highest_hz, double largest_error);
 
 /// The model that is fitted.
 enum class FitModel : std::uint8_t { kelvin, two_s2p1d, huet_sayegh };
 enum class ShiftKind : std::uint8_t { none, wlf, arrhenius, free };  ///< free: one factor for each temperature
-/// Information criterion that chooses among chains: corrected Akaike, or Bayes.
+/// Information criterion that chooses the number of units of a chain: corrected Akaike, or Bayes.
 enum class Criterion : std::uint8_t { aicc, bic };
 const char* to_string(FitModel);
 const char* to_string(ShiftKind);
@@ -102,14 +101,14 @@ struct FitOptions {
   FitModel model = FitModel::kelvin;
   std::optional<int> units;  ///< Kelvin units; empty: the criterion chooses
   int most_units = 12;       ///< largest number of units that the criterion may choose
-  std::optional<bool> flow;  ///< a dashpot in series with the chain; empty: the criterion chooses
+  std::optional<bool> flow;  ///< whether a dashpot is in series with the chain; empty: the criterion chooses
   Criterion criterion = Criterion::aicc;
   ShiftKind shift = ShiftKind::none;
   /// Reference temperature [°C]; if empty, the middle one of the measured temperatures. If the shift is free, it must
-  /// be a measured temperature. Its choice only rescales time.
+  /// be a measured temperature. The choice of this temperature only rescales time.
   std::optional<double> reference_temperature;
   /// Used for data without standard deviations: relative standard deviation of |E*|, and standard deviation of φ
-  /// [degrees]. Only their ratio matters; their size is taken from the misfit.
+  /// [degrees]. Only their ratio matters: the covariance is scaled by the misfit.
   double e_star_deviation = 0.03, phase_deviation = 1;
 };
 
@@ -118,14 +117,14 @@ struct FitParameter {
   std::string name, unit;
   double value = 0;
   double deviation = 0;     ///< standard deviation, in units of the value; ∞ if the data do not determine it
-  bool logarithmic = true;  ///< whether the covariance is that of its natural logarithm
+  bool logarithmic = true;  ///< whether the covariance is given for the natural logarithm of the parameter
 };
 
 /// A measurement, and the values of the fitted model at the same frequency and temperature.
 struct FittedPoint {
   ModulusPoint measured;
   double log10_a_T = 0;
-  double e_star_pa = 0, phase_deg = 0;  ///< fitted
+  double e_star_pa = 0, phase_deg = 0;  ///< values of the fitted model
 };
 
 /// A chain that was fitted and compared.
@@ -153,7 +152,8 @@ struct Fit {
   bool temperatures = false;  ///< whether the data have temperatures
   bool deviations = false;    ///< whether the data have standard deviations
   std::vector<FitParameter> parameters;
-  std::vector<double> covariance;  ///< covariance of the parameters (see FitParameter::logarithmic), row by row
+  /// Covariance of parameters or their logarithms (FitParameter::logarithmic), by rows.
+  std::vector<double> covariance;
   std::vector<FittedPoint> points;
   std::vector<FitCandidate> candidates;  ///< chains only
   std::size_t chosen = 0;                ///< index in `candidates`
@@ -181,8 +181,8 @@ struct BandPoint {
 };
 
 /// Returns limits of ln |E*| and of φ at a confidence level in (0, 1). Uses the normal distribution if the data have
-/// standard deviations, Student's t if these come from the misfit. \throws InputError for an impossible level or
-/// frequency.
+/// standard deviations, and Student's t distribution if the standard deviations are computed from the misfit. \throws
+/// InputError for an impossible level or frequency.
 std::vector<BandPoint> confidence_bands(const Fit& fit, const std::vector<double>& frequencies_hz, double level = 0.95);
 
 }  // namespace macadam

@@ -17,7 +17,8 @@ struct FitReport {
   /// report_conversion() has only law.toml.
   std::map<std::string, std::string> files;
   std::string text;  ///< text that is printed
-  /// Why no chain replaces the fitted 2S2P1D or Huet–Sayegh model; empty if one does. The other files are complete.
+  /// The reason if no chain could be found that replaces the fitted 2S2P1D or Huet–Sayegh model; otherwise empty. The
+  /// files except law.toml are complete in either case.
   std::string refusal;
 };
 

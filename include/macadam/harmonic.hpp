@@ -25,25 +25,26 @@
 
 namespace macadam {
 
-/// Largest number of particles for which the direct solver is chosen automatically. Its memory grows as about n^(4/3):
-/// 2 GB for 35,760 particles.
+/// Largest number of particles for which the direct solver is chosen automatically. Its memory grows about as n^(4/3)
+/// with the number n of particles: 2 GB for 35,760 particles.
 inline constexpr std::size_t largest_direct = 100'000;
 
 /// Options of the solver.
 struct HarmonicOptions {
-  /// Largest relative residual ‖f − K·u‖ / ‖f‖, in excess of the part that the rounding of u alone causes in K·u.
+  /// Largest accepted relative residual ‖f − K·u‖ / ‖f‖. The part of the residual that is explained by the rounding of
+  /// u is not counted.
   double tolerance = 1e-11;
   LinearMethod linear = LinearMethod::automatic;
   /// Backend of the iterative solver, cpu or cuda (automatic: as select_backend()). Everything else runs on the CPU.
   Backend backend = Backend::cpu;
   DeviceList devices = {};          ///< for cuda; the first one becomes the current device of the calling thread
   std::function<bool()> stop = {};  ///< called between iterations; true ends a solution with InterruptedError
-  /// Typical real part of s [1/s]; the preconditioner is made for it and the typical frequency.
+  /// Typical real part of s [1/s]; the preconditioner is made for this s and the typical frequency.
   double typical_growth = 0;
 };
 
-/// One problem to solve: motions proportional to e^(s·t) with s = growth + 2πi·frequency. Inertia (`density_scaling`)
-/// and viscous damping are those of a run in time; see Harmonic::solve().
+/// One problem to solve: motions proportional to e^(s·t) with s = growth + 2πi·frequency. `density_scaling` (inertia)
+/// and viscous damping have the same meaning as in a stepped run; see Harmonic::solve().
 struct HarmonicLoad {
   double frequency_hz = 0, density_scaling = 0, viscous_damping = 0;
   double growth = 0;  ///< real part of s [1/s]: 0 for the steady state; positive for Laplace transforms
@@ -56,16 +57,17 @@ struct HarmonicLoad {
 
 /// Result of one problem.
 struct HarmonicResult {
-  double frequency_hz = 0, growth = 0;  ///< those of the problem, a HarmonicLoad
+  double frequency_hz = 0, growth = 0;  ///< as in the problem (HarmonicLoad)
   Stiffness top;                        ///< from the reaction of the top wall, computed from the energy of the motion
   Stiffness bottom;                     ///< from the reaction of the bottom wall; equal to `top` without inertia
-  ModulusParts parts;                   ///< their sum gives `top`
-  double residual = 0;                  ///< relative, computed afresh from the solution
+  ModulusParts parts;                   ///< parts of E*; their sum is the complex modulus of `top`
+  double residual = 0;                  ///< relative residual, computed from the solution after the iteration
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
-  std::string why_factors;                        ///< why the direct solver was used although it was not asked for
-  /// Force that holds free rigid motions, divided by the reaction of the wall. Without a fault it is only a rounding
-  /// error.
+  /// The reason if the direct solver was used although the options do not request it.
+  std::string why_factors;
+  /// Force of the springs that hold free rigid motions, divided by the reaction of the wall. In a correct solution it
+  /// is only a rounding error.
   double held_force = 0;
   double seconds = 0;
   /// Complex displacement and rotation of each particle (ux uy uz θx θy θz) per unit displacement of the top wall.
@@ -76,7 +78,8 @@ struct HarmonicResult {
 /// this object.
 class Harmonic {
  public:
-  /// `typical_frequency`: a frequency in the middle of the range to be solved [Hz]. The preconditioner is made for it.
+  /// `typical_frequency`: a frequency in the middle of the range to be solved [Hz]. The preconditioner is made for this
+  /// frequency.
   ///
   /// \throws InputError naming the particles of a cluster that does not touch both walls, or a pair without a law;
   /// RunError if the stiffness is singular (a mechanism), or if a device does not exist or has too little memory.
@@ -101,8 +104,8 @@ class Harmonic {
 };
 
 /// Returns the state from which an explicit run is periodic at once. It is the state of `motion`
-/// (HarmonicResult::motion, solved with the inertia and damping of the run) under the loading without its ramp. The
-/// states of a chain follow from f = k*(ω)·x and x_l = f/(k_l + iω·η_l).
+/// (HarmonicResult::motion, solved with the inertia and damping of the run) under the cyclic loading, if the loading
+/// has no ramp. The states of a chain follow from f = k*(ω)·x and x_l = f/(k_l + iω·η_l).
 StartState steady_start(const ContactNetwork& network, const LawTable& laws,
                         const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading);
 

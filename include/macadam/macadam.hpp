@@ -4,9 +4,9 @@
 ///   scene ─► Specimen ─► Tessellation ─► ContactNetwork ─┬─► Stepper ─► Observation ─► Results
 ///                                                        └─► Harmonic (frequency domain) ─► Results
 ///
-/// A newcomer should read the headers in this order. Each is implemented in the folder or file of host/ or kernels/
-/// with the same name and tested under that name in tests/. docs/model.md describes the whole model and names the
-/// source that "[1]" and "Eq. 13" in comments refer to.
+/// A newcomer should read the headers in this order. Each header is implemented in the folder or file of host/ or
+/// kernels/ that has the same name, and its tests have this name in tests/. docs/model.md describes the whole model and
+/// names the source that "[1]" and "Eq. 13" in comments refer to.
 #pragma once
 
 #include "macadam/version.hpp"

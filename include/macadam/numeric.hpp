@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file numeric.hpp  Defines small vectors that the CPU (scalars or SIMD packs) and devices use in the same code.
+/// \file numeric.hpp  Defines vectors with three components, for code that is compiled for the CPU (components are
+/// scalars or SIMD packs) and for devices (GPUs).
 #pragma once
 
 #include <cmath>
@@ -12,8 +13,8 @@
 
 namespace macadam {
 
-/// Returns a·b + c. On a device it is rounded only once, in every context, so that different kernels compute the same
-/// bits.
+/// Returns a·b + c. On a device (GPU) the result is always rounded only once, so that different kernels compute the
+/// same bits.
 template <class R>
 MACADAM_HD R multiply_add(R a, R b, R c) {
 #ifdef __CUDA_ARCH__

@@ -22,7 +22,7 @@ struct PhantomSpec {
   double voxel = 0;  ///< edge [m]
   std::uint64_t seed = 1;
   CoreShape shape = CoreShape::prism;
-  double sawn = 0;    ///< thickness taken off each of the six sides of the box before the scan [m]
+  double sawn = 0;    ///< thickness that is sawn off each of the six sides of the box before the scan [m]
   double air = 1e-3;  ///< smallest thickness of air around the specimen [m]
   int samples = 3;    ///< sample columns along each edge of a voxel, for the contents of partly filled voxels
   double grey_air = 6000, grey_mastic = 30000, grey_aggregate = 42000;
@@ -35,15 +35,17 @@ struct PhantomSpec {
 
 /// A grain of a phantom.
 struct PhantomGrain {
-  std::uint32_t id = 0;      ///< its number in the label image, from 1
-  std::int32_t body = 0;     ///< Specimen::body of its spheres
-  Surface surface;           ///< the whole surface in its place; for a single sphere, 642 points with the same volume
+  std::uint32_t id = 0;   ///< its number in the label image, from 1
+  std::int32_t body = 0;  ///< Specimen::body of its spheres
+  /// The whole surface, at its position; a single sphere is approximated by 642 points and has the same volume.
+  Surface surface;
   double sphere_radius = 0;  ///< radius if the grain is a single sphere [m]; otherwise 0
   std::string shape;         ///< name of its template, or "sphere"
-  Vec3d centre{};            ///< centroid of the part within the specimen [m]; the next two also describe this part
-  double volume = 0;         ///< [m³]
-  bool border = false;       ///< whether the saw cuts it; the members below describe the whole grain
-  double area = 0;           ///< [m²]
+  /// Centroid of the part within the specimen [m]; `volume` and `border` also describe this part.
+  Vec3d centre{};
+  double volume = 0;    ///< [m³]
+  bool border = false;  ///< whether the saw cuts it; the members below describe the whole grain
+  double area = 0;      ///< [m²]
   double d_long = 0, d_intermediate = 0, d_short = 0;  ///< [m]
   double sieve = 0;                                    ///< side of the smallest square mesh that the grain passes [m]
   Vec3d axis_long{};                                   ///< unit vector; zero for a sphere
@@ -66,9 +68,9 @@ struct Phantom {
   double voids = 0, mastic = 0, aggregate = 0;  ///< volume fractions of the scanned body
 };
 
-/// Generates the scene's specimen and scans it. The same scene and spec give the same bits for any number of threads.
-/// \throws InputError if the scene reads a specimen with several spheres per aggregate from a file, because their
-/// surfaces are not known, and for impossible values.
+/// Generates the scene's specimen and computes a synthetic scan of it. The same scene and spec give the same bits for
+/// any number of threads. \throws InputError if the scene reads a specimen with several spheres per aggregate from a
+/// file, because their surfaces are not known, and for impossible values.
 Phantom make_phantom(const Scene& scene, const PhantomSpec& spec,
                      const std::function<void(const std::string& stage, double share)>& progress = {});
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file piecewise_stepper.hpp  Takes the steps of a long run in pieces, so that a signal is answered soon.
+/// \file piecewise_stepper.hpp  Takes the steps of a long run in pieces of some tenths of a second, so that the run can
+/// react to a signal between two pieces.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +21,12 @@ class PiecewiseStepper {
   explicit PiecewiseStepper(Stepper& stepper) : stepper_(stepper) {}
 
   /// Takes the steps from step `from` up to step `to`, and calls look(step) with the number of the step reached after
-  /// each piece. An exception of look() ends the work after a whole step.
+  /// each piece. If look() throws, no further steps are taken, and the stepper is at a whole step.
   void advance(std::int64_t from, std::int64_t to, const std::function<void(std::int64_t step)>& look);
 
   /// Takes the steps up to the next sample, at step `to`. If several samples fit into one piece, also takes the steps
-  /// to the samples that follow at the same distance, at most `times` of them. Returns all samples that it reached, at
-  /// least one. look() is not called after the last of these steps.
+  /// to the samples that follow at the same distance, at most `times` of them. Returns the samples at all these steps,
+  /// at least one. look() is not called after the last of these steps.
   std::vector<Sample> sample(std::int64_t from, std::int64_t to, std::int64_t times,
                              const std::function<void(std::int64_t step)>& look);
 

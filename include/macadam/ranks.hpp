@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ranks.hpp  Declares ranks, which are processes that step one specimen together, on one host or several, each
-/// with its own device.
+/// \file ranks.hpp  Declares ranks: processes that step one specimen together, on one host or several hosts, each with
+/// its own device (GPU).
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,9 @@
 namespace macadam {
 
 /// The processes started by `mpirun`, as seen by one of them. All read the same scene and call the same functions of
-/// their steppers in the same order. Each holds all arrays, steps its own tiles, and sends the data that others read.
-/// All calls of a process must come from one thread. See docs/several-gpus.md.
+/// their steppers in the same order. Each process holds all arrays, steps its own tiles (groups of neighbouring
+/// particles), and sends the data that other processes read. All calls of a process must come from one thread. See
+/// docs/several-gpus.md.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -34,22 +35,22 @@ class Ranks {
   /// Prepares messages between devices; `device` is the current one. Waits for all processes. \throws RunError naming a
   /// device that cannot be connected.
   virtual void connect(int device) = 0;
-  /// Bytes on the device that are sent to another rank, or received from it.
+  /// Bytes in device memory that are sent to another rank, or received from another rank.
   struct Message {
     int rank = 0;
     void* data = nullptr;
     std::size_t size = 0;  ///< [byte]
   };
-  /// Enqueues messages in the stream, a cudaStream_t; they are transferred together. For each message that one rank
-  /// sends there must be one of the same size that the other rank receives. \throws RunError
+  /// Enqueues messages in the stream, a cudaStream_t; all these messages are transferred together. For each message
+  /// that one rank sends there must be one of the same size that the other rank receives. \throws RunError
   virtual void queue(const std::vector<Message>& sent, const std::vector<Message>& received, void* stream) = 0;
   /// Checks the connections to the other ranks. \throws RunError if enqueued messages can no longer arrive.
   virtual void require_link() = 0;
   /// Returns whether queue() may be recorded into a CUDA graph.
   virtual bool goes_into_graphs() const = 0;
 
-  /// Ends the collaboration. All processes must call this before they end; a rank that ends without it also ends the
-  /// others.
+  /// Ends the collaboration. All processes must call this before they end; if a rank ends without this call, the other
+  /// ranks are ended too.
   virtual void leave() = 0;
   /// Ends all processes at once, this one with exit code `code`. Called after an error, because the other processes
   /// would otherwise wait forever.
@@ -60,7 +61,7 @@ class Ranks {
     take_of_first(&value, sizeof value);
     return value;
   }
-  /// Returns whether `value` is true on any rank. Waits for all processes. \throws RunError
+  /// Returns whether `value` is true on at least one rank. Waits for all processes. \throws RunError
   bool any(bool value) { return least(value ? 0 : 1) == 0; }
   /// Checks that all ranks pass the same value. \throws RunError if the values differ: the ranks then no longer run the
   /// same scene and would wait for each other forever.
@@ -68,7 +69,7 @@ class Ranks {
 };
 
 /// The symbol that a ranks plugin exports, with the C name `macadam_ranks_plugin`. `join`: returns the processes that
-/// this one belongs to; they exist until the program ends. \throws RunError
+/// this process belongs to; the returned object exists until the program ends. \throws RunError
 struct RanksPlugin {
   int interface;        ///< ranks_interface of the plugin's build
   const char* version;  ///< version of Macadam

@@ -22,14 +22,14 @@ namespace macadam {
 /// One sieve of a gradation curve.
 struct SievePassing {
   double size = 0;     ///< [m]
-  double passing = 0;  ///< fraction of the aggregate's mass that passes it, 0…1
+  double passing = 0;  ///< fraction of the aggregate's mass that passes this sieve, 0…1
   int line = 0;        ///< line in MixDesign::source, for messages; 0: none
 };
 
 /// One sieve of the envelope that a specification prescribes for the curve.
 struct EnvelopePoint {
   double size = 0;             ///< [m]
-  double least = 0, most = 0;  ///< limits of the fraction of the aggregate's mass that passes it, 0…1
+  double least = 0, most = 0;  ///< limits of the fraction of the aggregate's mass that passes this sieve, 0…1
   int line = 0;                ///< line in MixDesign::source, for messages; 0: none
 };
 
@@ -42,8 +42,8 @@ struct MixDesign {
   double cut = 0.002;                   ///< one of the sieves [m]; aggregate retained on it becomes particles
   double binder = 0;                    ///< binder content as a fraction, absorbed binder included
   BinderOf binder_of = BinderOf::mix;
-  /// Particle densities including the pores (oven-dried, EN 1097-6) [kg/m³]: one for all, or one for every two
-  /// neighbouring sieves, coarsest first.
+  /// Particle densities including the pores (oven-dried, EN 1097-6) [kg/m³]: one density for all aggregate, or one for
+  /// every two neighbouring sieves, coarsest first.
   std::vector<double> aggregate_density;
   /// Density of the material that passes the finest sieve [kg/m³]; empty: the last of aggregate_density.
   std::optional<double> filler_density;
@@ -53,13 +53,14 @@ struct MixDesign {
   std::optional<double> absorbed_binder;
   /// Measured maximum density [kg/m³], from which the absorbed binder is computed.
   std::optional<double> maximum_density;
-  std::optional<double> air_voids;      ///< fraction of the bulk volume; either this or the next is given
+  std::optional<double> air_voids;      ///< fraction of the bulk volume; either this or bulk_density is given
   std::optional<double> bulk_density;   ///< measured [kg/m³]; the air voids are computed from it
   std::vector<EnvelopePoint> envelope;  ///< in any order; only compared and drawn
 
-  std::string source = "recipe";     ///< the scene's file, for messages
-  int line = 0;                      ///< line of its section in that file; 0: none
-  std::map<std::string, int> lines;  ///< lines of its keys in that file, by the scene's names
+  std::string source = "recipe";  ///< the scene's file, for messages
+  int line = 0;                   ///< line of `[specimen.recipe]` in that file; 0: none
+  /// Lines of the keys of `[specimen.recipe]` in that file, by the names in the scene.
+  std::map<std::string, int> lines;
 };
 
 /// One size class of aggregate particles.
@@ -91,28 +92,29 @@ struct MixVolumes {
   double mastic_density = 0;      ///< [kg/m³]
   double mastic_fine_mass = 0;    ///< aggregate below the cut without filler, dry, fraction of the mix
   double mastic_filler_mass = 0;  ///< material that passes the finest sieve, dry, fraction of the mix
-  /// Binder in the mastic, including that in the pores of its fines, fraction of the mix.
+  /// Binder in the mastic, including the binder in the pores of the fine aggregate; fraction of the mix.
   double mastic_binder_mass = 0;
 };
 
 /// Checks a mix design and computes its volumes.
 ///
-/// \throws InputError for impossible or contradictory numbers. The message gives the sum, the place, the value found
-/// and the value expected.
+/// \throws InputError for impossible or contradictory numbers. The message gives file and line, the key or the
+/// calculation that is wrong, the value found and the value expected.
 MixVolumes volumes_of(const MixDesign& design);
 
 /// Sets the classes and the porosity of a specimen from a mix design. `spec.mastic` must be set, with its radii.
 /// \throws InputError as volumes_of(), and if `spec` has classes, a porosity or a count of its own.
 void follow(const MixDesign& design, SpecimenSpec& spec);
 
-/// A sieve of the curve with the fractions of the aggregate's mass that pass it, as designed and as reached.
+/// A sieve of the curve with the fractions of the aggregate's mass that pass this sieve: in the design (`asked`) and in
+/// the specimen (`reached`).
 struct GradationRow {
   double size = 0;  ///< [m]
   double asked = 0, reached = 0;
 };
 
-/// Returns the curve of a generated specimen, from the volumes that its classes and its mastic reached. No particle is
-/// smaller than the cut; the mastic holds its fines in the proportions of the design.
+/// Returns the curve of a generated specimen, from the volumes that its classes and its mastic reached. No aggregate
+/// particle is smaller than the cut size. The mastic contains the finer aggregate in the proportions of the design.
 ///
 /// \throws InputError if the composition does not have the classes of the design.
 std::vector<GradationRow> gradation_of(const MixDesign& design, const std::vector<CompositionRow>& composition);

@@ -26,10 +26,10 @@ struct Stiffness {
 /// Result of one cyclic test.
 struct CyclicResult {
   Stiffness fit;             ///< from a fit of the fundamental with offset and trend over the last `fit_cycles` cycles
-  Stiffness peaks;           ///< by Eq. 24–25 from the last cycle
+  Stiffness peaks;           ///< from the extreme values in the last cycle, by Eq. 24–25
   double fit_rms = 0;        ///< rms difference of the stress from its fit, over the stress amplitude
   double change_e_star = 0;  ///< relative change of |E*| from the last but one cycle to the last (NaN with one cycle)
-  double change_phase_deg = 0;  ///< the same change of φ, as a difference
+  double change_phase_deg = 0;  ///< change of φ from the last but one cycle to the last, as a difference
 };
 
 /// Fits offset, trend, fundamental and second harmonic to strain and stress over the last `fit_cycles` whole cycles

@@ -27,14 +27,14 @@ struct JobOutcome {
 
 /// Options and callbacks of run_many().
 struct ManyOptions {
-  /// Number of scenes at a time. 0: four per device, so that some specimens are prepared while others are stepped, but
-  /// not more than there are cores; without a device, one per core.
+  /// Number of scenes at a time. 0: four per device (GPU), so that some specimens are prepared while others are
+  /// stepped, but not more scenes than cores; without a device, one per core.
   ///
   /// Two specimens per device are prepared and planned at a time. They share the cores; one core per device is left
   /// free if there are at least eight cores per device. With several devices, the first two specimens of each device
-  /// are prepared one after the other with twice as many cores, so that the device need not wait long. After
-  /// tessellation, a scene gives half of its cores to scenes that are waiting. Without a device the scenes have equal
-  /// numbers of cores, unless [solver] threads says otherwise.
+  /// are prepared one after the other with twice as many cores, so that the device need not wait long. When a scene has
+  /// finished its tessellation, it keeps half of its cores, and waiting scenes get the other half. Without a device the
+  /// scenes have equal numbers of cores, unless [solver] threads says otherwise.
   int at_once = 0;
   bool resume = false;  ///< continue from checkpoints, in folders that have them
   /// Called by one thread at a time, as are `warn` and `done`. `job`: position in the list. If `done` throws, no scene
@@ -47,12 +47,13 @@ struct ManyOptions {
 };
 
 /// Calls run() for every scene, each on one device. A scene may use the devices that its [solver] names or, if it names
-/// none, all usable devices. It gets an idle one of these or, if none is idle, the one that has been given the fewest
-/// scenes so far. Once all scenes have begun, a cyclic test may continue with its next frequency on another device, if
-/// the other scenes there have less work left. Several small specimens on one device are stepped at the same time.
-/// Larger specimens cannot be; the two that came first take turns in short pieces. The results are the same as those of
-/// run(). An error of one scene does not end the others, unless it makes a device unusable for the whole process.
-/// Scenes on the same device share its memory, so a scene can run out of memory because of another one.
+/// none, all usable devices. It gets an idle one of these devices or, if none is idle, the one that has been given the
+/// fewest scenes so far. Once all scenes have begun, a cyclic test may continue with its next frequency on another
+/// device, if the scenes on that device have less work left. Several small specimens on one device are stepped at the
+/// same time. Larger specimens cannot be stepped at the same time: the two scenes that came first take turns, each for
+/// a short time. The results are the same as those of run(). An error of one scene does not end the others, unless it
+/// makes a device unusable for the whole process. Scenes on the same device share its memory, so a scene can run out of
+/// memory because of another one.
 ///
 /// Returns the outcomes in the order of the jobs; a job that was not begun has an InterruptedError. \throws InputError
 /// if two jobs have the same folder.

@@ -42,7 +42,7 @@ using ShiftLaws = std::array<laws::Shift, pair_types>;
 /// `explicit_`: time stepping; `harmonic`: the frequency domain.
 enum class SolverMethod : std::uint8_t { explicit_, harmonic };
 
-/// `[solver]`. make_plan() decides options that are empty.
+/// The section `[solver]` of a scene. Options that are empty are chosen by make_plan().
 struct SolverSpec {
   SolverMethod method = SolverMethod::explicit_;
   std::optional<double> tolerance;                     ///< largest error of |E*| (relative) and φ [rad]; explicit only
@@ -64,13 +64,13 @@ struct SolverSpec {
   bool inertia = false;                           ///< harmonic only: include −ω²M, multiplied by density_scaling
 };
 
-/// `[output]`.
+/// The section `[output]` of a scene.
 struct OutputSpec {
   bool contacts = false;       ///< write contacts.csv
   bool response = true;        ///< write response.csv; without it, only what the result needs is sampled
   bool sensitivities = false;  ///< harmonic only: write derivatives of |E*| and φ to summary.json
-  FieldSpec fields;            ///< files for viewers
-  /// Wall time between two checkpoints [s]; 0: only when interrupted; empty: 600 s.
+  FieldSpec fields;            ///< field files for viewers
+  /// Wall time between two checkpoints [s]; 0: a checkpoint is written only when the run is interrupted; empty: 600 s.
   std::optional<double> checkpoint;
 };
 
@@ -117,11 +117,12 @@ std::string read_scene_text(const std::filesystem::path& file);
 
 /// Returns a scene's laws at a temperature [°C]. Viscosities are NaN if a shift law has no value there.
 LawTable laws_at(const Scene& scene, double temperature);
-/// Does the same for `laws`, given at the scene's temperature, instead of the scene's laws.
+/// Returns `laws`, which are given at the scene's temperature, at another temperature [°C], as the function above does
+/// with the scene's own laws.
 LawTable laws_at(const Scene& scene, double temperature, LawTable laws);
 
-/// Returns log10 a_T at a temperature if all laws with viscosities follow the same shift, so that the specimen follows
-/// it too; otherwise nothing.
+/// Returns log10 a_T at a temperature if all laws with viscosities follow the same shift, which is then the shift of
+/// the specimen; otherwise nothing.
 std::optional<double> common_log10_shift(const Scene& scene, double temperature);
 
 /// Checks that every pair type present in the network has a law and every phase present a density.

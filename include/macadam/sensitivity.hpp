@@ -17,7 +17,7 @@
 
 namespace macadam {
 
-/// The parts whose sum is E* [Pa]; products are formed without conjugation.
+/// The parts whose sum is E* [Pa]; no factor of a product is conjugated.
 struct ModulusParts {
   std::array<std::complex<double>, pair_types> normal{};  ///< by PairType: opening and bending
   std::array<std::complex<double>, pair_types> shear{};   ///< slip and twist, α included
@@ -40,8 +40,8 @@ std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable
 std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
                                        double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
 
-/// Returns the fraction of E* that each pair carries, by PairType: its component along E*, over |E*|. Without inertia
-/// the fractions add up to 1.
+/// Returns the fraction of E* that each pair carries, by PairType: the component of the pair's part along E* (in the
+/// complex plane), divided by |E*|. Without inertia the fractions add up to 1.
 std::array<double, pair_types> shares(const ModulusParts& parts);
 
 }  // namespace macadam

@@ -27,15 +27,17 @@ struct Surface {
 
 /// Faults of a surface, each with the facets (or points) concerned; empty lists without a fault.
 struct SurfaceVerdict {
-  std::vector<std::int32_t> stray;              ///< points of no facet, which would distort a shape's dimensions
+  /// Points that belong to no facet; they would distort a shape's dimensions.
+  std::vector<std::int32_t> stray;
   std::vector<std::int32_t> degenerate;         ///< facets without area, or with the same point twice
   std::vector<std::int32_t> non_manifold;       ///< facets at an edge of more than two facets, or at a pinched point
-  std::vector<std::int32_t> open;               ///< facets at an edge of one facet
+  std::vector<std::int32_t> open;               ///< facets with an edge that belongs to no other facet
   std::vector<std::int32_t> misoriented;        ///< facets oriented against the majority of those connected with them
   std::vector<std::int32_t> self_intersecting;  ///< facets that intersect another one
   std::int64_t pieces = 0;                      ///< connected parts
-  std::int64_t inner = 0;                       ///< pieces inside the piece of the largest volume: closed pores
-  bool inside_out = false;                      ///< closed, but the normals point inwards
+  /// Number of pieces inside the piece with the largest volume; these are closed pores.
+  std::int64_t inner = 0;
+  bool inside_out = false;  ///< closed, but the normals point inwards
 
   /// Returns whether the surface can be measured and filled.
   bool good() const;
@@ -68,8 +70,8 @@ void write_surface(const std::filesystem::path& file, const Surface& surface, do
 /// Checks a surface for every fault of SurfaceVerdict.
 SurfaceVerdict check_surface(const Surface& surface);
 
-/// Report of repair_surface(). "Before" refers to the given surface without repeated facets, with its holes filled and
-/// without its closed pores.
+/// Report of repair_surface(). Members with `before` describe the given surface, but without repeated facets, with its
+/// holes filled and without its closed pores.
 struct SurfaceRepair {
   std::string what;                            ///< in words: "filled 1 hole with 2 facets, 9.1 % of the area"
   double volume_before = 0, volume_after = 0;  ///< [m³]; before: NaN if holes could not be filled
@@ -78,7 +80,8 @@ struct SurfaceRepair {
 
   /// Largest relative change of volume and area that is accepted without `wrap`.
   static constexpr double bound = 0.01;
-  /// Largest part of the area that may fill holes without `wrap`: the shape of the missing part is a guess.
+  /// Largest part of the area that may consist of filled holes without `wrap`. It is limited because the shape of a
+  /// filled hole is a guess.
   static constexpr double most_filled = 0.25;
   /// Returns whether volume and area changed by at most `bound`, and filled holes are at most `most_filled`.
   bool within_bound() const;
@@ -101,12 +104,12 @@ struct ShapeMeasure {
   std::int64_t points = 0, facets = 0;
   double d_long = 0;          ///< D^L: between the two most distant points of the surface
   double d_intermediate = 0;  ///< D^I: longest chord of the surface perpendicular to D^L
-  double d_short = 0;         ///< D^S: longest chord perpendicular to both
+  double d_short = 0;         ///< D^S: longest chord perpendicular to D^L and D^I
   Vec3d axis_long{}, axis_intermediate{}, axis_short{};
   double volume = 0;           ///< V [m³]
   double area = 0;             ///< A [m²]
   double sphericity_true = 0;  ///< ψ^w, Eq. 22: area of the sphere with the same volume, over A
-  Vec3d centroid{};            ///< centroid of the volume
+  Vec3d centroid{};            ///< centroid of the volume [m]
   double radius_bounding = 0;  ///< radius of the smallest enclosing sphere
   Vec3d centre_bounding{};     ///< its centre
 
@@ -158,7 +161,7 @@ struct FillSpec {
 /// How well a cluster represents its shape. Volumes are accurate to about 1e-4 (computed by columns). Deviations are
 /// taken over the shape's points and at least 20,000 samples of its facets. The dimensions are those of ShapeMeasure
 /// with chords between points of any two spheres' surfaces: D^L is the longest, D^I the longest perpendicular to it,
-/// D^S the longest perpendicular to both; for a single sphere all are 2R.
+/// D^S the longest perpendicular to D^L and D^I; for a single sphere all three are 2R.
 struct FillReport {
   double sphere_volume = 0;    ///< Σ sphere volumes [m³]
   double covered = 0;          ///< fraction of the shape's volume inside a sphere
@@ -190,8 +193,8 @@ Surface scale_to_radius(Surface surface, double radius);
 /// so that any viewer of meshes shows it. \throws RunError; InputError if another command is writing into the folder.
 void write_filling(const std::filesystem::path& out, const Surface& surface, const MultiSphere& cluster);
 
-/// Returns the shape library that comes with the program (examples/shapes): the 82 aggregates of
-/// generate_shape_library().
+/// Returns the shape library that comes with the program (examples/shapes): the 82 aggregates that
+/// generate_shape_library() makes.
 std::vector<Surface> shape_library();
 
 /// Makes a shape library: `shapes` aggregates with the statistics of Table 1 of [1]. The same seed gives the same bits.

@@ -20,7 +20,7 @@ namespace macadam {
 
 class Stepper;
 
-/// Particles, cells and contacts of a scene, and the time it took to make them.
+/// Particles, cells and contacts of a scene, and the wall time in which they were made.
 struct Preparation {
   Specimen specimen;
   std::vector<CompositionRow> composition;  ///< empty for a specimen read from a file, as is `aggregates`
@@ -39,13 +39,13 @@ struct Skip {
   std::string effect;  ///< effect on the result: "none: same bits", or its size
 };
 
-/// Wall time of the phases of a run in this process [s], in addition to the times of its Preparation. Every moment
-/// belongs to exactly one phase.
+/// Wall time of the phases of a run in this process [s], in addition to the times in the run's Preparation. Every
+/// moment belongs to exactly one phase.
 struct PhaseSeconds {
   double start = 0;           ///< finding a device and waiting for it, reading a checkpoint
   double planning = 0;        ///< explicit: critical step and settings
   double preconditioner = 0;  ///< making the preconditioner or the factorisation for harmonic solutions
-  double harmonic = 0;        ///< harmonic solutions: for the plan, for the start, or as the result
+  double harmonic = 0;        ///< harmonic solutions: for the plan, for a steady start, or as the result of the run
   double stepper = 0;         ///< explicit: making the steppers and their states
   double stepping = 0;        ///< explicit: the steps, including response.csv, which grows by one line per sample
   double writing = 0;         ///< all other files
@@ -56,21 +56,21 @@ struct PhaseSeconds {
 /// Result of a run.
 struct RunResult {
   ExperimentResult found;              ///< result of the scene's experiment
-  PhaseSeconds phases;                 ///< a phase is included once it has ended
+  PhaseSeconds phases;                 ///< the time of a phase is added when the phase has ended
   std::vector<std::string> decisions;  ///< choices that the scene left open, and the reason for each
   std::vector<Skip> skips;
   std::vector<std::string> warnings;  ///< warnings for the reader of the results, one sentence each
   std::string solver;  ///< description of the solver that ran: Stepper::description(), or "harmonic, …"
   Backend backend = Backend::automatic;  ///< the backend that ran
 
-  /// Returns the stepped cyclic test, or the cyclic test solved in the frequency domain. \throws
-  /// std::bad_variant_access if the run was another one.
+  /// Return the result of a cyclic test: stepped() if it was stepped in time, harmonic() if it was solved in
+  /// the frequency domain. \throws std::bad_variant_access if the run had another result.
   const experiments::SteppedCyclic& stepped() const { return std::get<experiments::SteppedCyclic>(found); }
   const experiments::HarmonicCyclic& harmonic() const { return std::get<experiments::HarmonicCyclic>(found); }
 };
 
-/// Called as work proceeds, with the current stage and the fraction of it that is done, 0…1. An exception thrown by it
-/// ends the work.
+/// A function that is called as work proceeds, with the name of the current stage and the fraction of this stage that
+/// is done, 0…1. An exception thrown by it ends the work.
 using Progress = std::function<void(const std::string& stage, double share)>;
 
 /// Returns the results of a run as lines of text to be printed.
@@ -78,12 +78,12 @@ std::string results_table(const RunResult& result);
 
 /// Makes specimen (reads or generates it), tessellation and network; checks that every pair that is present has a law.
 Preparation prepare(const Scene& scene, const Progress& progress = {});
-/// Does the same with the given particles in place of the scene's own.
+/// Prepares a scene as above, but with the given particles in place of the scene's own.
 Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progress = {});
 
 /// Prepares a scene and writes specimen.csv, aggregates.csv (generated specimens), gradation.csv (recipes by mass),
-/// contacts.csv (if the scene asks for it), section_*.csv of the planes, and summary.json without results. Nothing is
-/// written before the work is done.
+/// contacts.csv (if the scene asks for it), section_*.csv of the cross-sections, and summary.json without results.
+/// Nothing is written before the work is done.
 ///
 /// \throws InputError also if the folder holds a run, whose results these files would replace, or if another command
 /// is writing into it; RunError.
@@ -97,25 +97,26 @@ struct Watcher {
   /// Called with the decisions, before the first step. The scene has then been accepted and the specimen's files are
   /// written.
   std::function<void(const RunResult&)> planned;
-  /// Called at once for each warning; RunResult::warnings has all of them too.
+  /// Called at once for each warning. RunResult::warnings also has all warnings.
   std::function<void(const std::string&)> warn;
   /// Called before the first sample, at least once per second while steps are taken, and between iterations of the
   /// frequency domain. If it returns true, the run ends; a stepped run leaves a checkpoint.
   std::function<bool()> stop;
-  /// Called before the steps of each frequency of a cyclic test on backend cuda, with the number of steps left,
-  /// including all of this frequency. Returns the devices that take the steps. An empty list means the devices of the
-  /// previous frequency or, at first, of the scene. If the steps cannot be taken on another device, the previous device
-  /// continues, and this function is not called again. The results have the same bits on any device.
+  /// Called before the steps of each frequency of a cyclic test on backend cuda, with the number of steps that the test
+  /// still has to take, including the steps of this frequency. Returns the devices that take the steps. An empty list
+  /// means the devices of the previous frequency or, for the first frequency, the devices of the scene. If the steps
+  /// cannot be taken on another device, the previous device continues, and this function is not called again. The
+  /// results have the same bits on any device.
   std::function<DeviceList(std::int64_t steps)> devices;
-  /// Called after every `every` steps of a stepped test, with the frequency of a cyclic one, otherwise with 0. `every`
+  /// Called after every `every` steps of a stepped test, with the frequency of a cyclic test, otherwise with 0. `every`
   /// = 0: never.
   std::function<void(const Stepper&, double frequency_hz)> stepped;
   std::int64_t every = 0;
 };
 
-/// Does the whole job: prepares, plans, steps every frequency, writes every file. The folder is not changed until
-/// preparing and planning are done, so a scene that is refused leaves older results unchanged. After planning, older
-/// results are replaced.
+/// Does the whole job: prepares the scene, plans the run, computes the results and writes every file. The folder is not
+/// changed until preparing and planning are done, so a scene that is refused leaves older results unchanged. After
+/// planning, older results are replaced.
 ///
 /// At any time response.csv is complete up to the last sample, and summary.json up to the last frequency. (If a
 /// frequency takes less than ten times as long as saving, summary.json is saved less often, so that saving takes at
@@ -123,9 +124,9 @@ struct Watcher {
 ///
 /// A stepped run of a scene that was read from a file writes `checkpoint.h5` as it goes (OutputSpec::checkpoint). The
 /// file is replaced by renaming, and the previous checkpoint is kept as `checkpoint-previous.h5`. A checkpoint that
-/// cannot be written causes a warning. At the end the run removes its own checkpoints and older ones of the same scene,
-/// but no other checkpoints. The first checkpoint of a run replaces any checkpoint that is already in the folder.
-/// Backend reference writes none.
+/// cannot be written causes a warning. At the end the run removes its own checkpoints and older checkpoints of the same
+/// scene, but no other checkpoints. The first checkpoint of a run replaces any checkpoint that is already in the
+/// folder. Backend reference writes no checkpoints.
 ///
 /// With `resume`, the run continues from the checkpoint. Its results have the same bits as those of a run that was
 /// never interrupted. If the newest checkpoint is missing or damaged, there is a warning, and the run continues from
@@ -139,7 +140,7 @@ struct Watcher {
 /// If `watcher` calls functions of a stepper, it must call them in all processes. If one process fails, the others wait
 /// for it until Ranks::end_all().
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
-/// Does the same with an existing preparation, of this scene or of one with the same particles.
+/// Runs a scene as above with an existing preparation, of this scene or of another scene with the same particles.
 RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
               const Watcher& watcher = {}, bool resume = false);
 

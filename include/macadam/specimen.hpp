@@ -48,7 +48,7 @@ struct Specimen {
   std::vector<std::int32_t> body;  ///< number of the aggregate that the sphere belongs to; −1 for mastic
   std::vector<VoidSphere> voids = {};
 
-  std::string source = "specimen";  ///< origin for messages: the specimen's file, or the scene's
+  std::string source = "specimen";  ///< name of the specimen's file, or of the scene's file, for messages
   int first_line = 0;               ///< line of particle 0 in that file, which has one line per particle; 0: no lines
 
   std::size_t size() const { return centre.size(); }
@@ -75,7 +75,7 @@ inline double gauge_length(const Box& box) { return box.size.z; }
 inline double gauge_length(const Specimen& specimen) { return gauge_length(specimen.box); }
 /// @}
 
-/// Returns a copy in which the voids have become particles, after all other particles.
+/// Returns a copy in which the voids are particles, which follow all other particles.
 Specimen with_voids_as_cells(const Specimen& specimen);
 
 /// Checks every particle and void: finite centre inside the box; finite positive radius; `body` −1 exactly for mastic;
@@ -89,7 +89,7 @@ void validate(const Specimen& specimen, const std::string& source);
 /// \throws InputError with file, line, the value found and the value expected.
 Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box);
 
-/// Writes the same format, with enough digits to recover each double.
+/// Writes a specimen in the format of read_specimen_csv(), with enough digits to recover each double.
 ///
 /// \throws RunError if the file cannot be written.
 void write_specimen_csv(const std::filesystem::path& file, const Specimen& specimen);
@@ -125,7 +125,7 @@ struct VoidSpec {
 
 /// How positions of shaped aggregates are found.
 enum class PlacementMethod : std::uint8_t {
-  insertion,  ///< one by one at random, largest first, each where it touches none placed before it, as in [1]
+  insertion,  ///< one by one, largest first, each at a random position where it touches no earlier one, as in [1]
   packing     ///< all at once: they grow from a smaller scale while overlaps push them apart; reaches higher fractions
 };
 
@@ -146,12 +146,14 @@ struct ShapeSpec {
     folder                       ///< every surface of a folder
   };
   Library library = Library::aggregates;
-  std::filesystem::path folder;  ///< folder of surfaces, in any unit of length; with Library::folder
-  FillSpec fill;                 ///< its seed is not used, because every aggregate has its own
+  std::filesystem::path folder;  ///< folder of surfaces, in any unit of length; only with Library::folder
+  /// How shapes are filled with spheres; the seed is not used, because every aggregate has a seed of its own.
+  FillSpec fill;
   PlacementMethod placement = PlacementMethod::packing;
-  bool allow_short = false;  ///< insertion: a class that finds no more space may stay below the requested amount
-  PlacementTest test = PlacementTest::surfaces;  ///< insertion
-  double gap = 0.01;  ///< packing: smallest distance between two surfaces, over the smaller D^I
+  /// With insertion: whether a class may stay below the requested amount if there is no more space.
+  bool allow_short = false;
+  PlacementTest test = PlacementTest::surfaces;  ///< with insertion
+  double gap = 0.01;  ///< with packing: smallest distance between two surfaces, divided by the smaller D^I of the two
   /// Stiffness with which the surfaces of the shapes resist the mastic while it relaxes, divided by the stiffness of a
   /// pair of mastic spheres, 0 to 10. With 0, only the spheres that fill the shapes keep the mastic out.
   double hold_out = 0;
@@ -174,7 +176,7 @@ struct SpecimenSpec {
   SizeLaw size_law = SizeLaw::log_uniform;
   double spacing = 0;  ///< smallest distance between two aggregates inserted one after the other [m]
   bool fix_aggregates =
-      true;  ///< whether aggregates are fixed while the mastic relaxes (otherwise |E*| changes by 6–7 %)
+      true;  ///< whether aggregates are fixed while the mastic relaxes; if they are not, |E*| changes by 6–7 %
   std::int64_t attempts = 2'000'000;  ///< number of positions tried for one aggregate before the generator gives up
   std::string source = "specimen";    ///< the scene's file, for messages
   int line = 0;                       ///< line of its section in that file; 0: none
@@ -200,7 +202,7 @@ struct Aggregate {
   std::int64_t spheres = 1;
   Vec3d centre{};             ///< centroid of its volume [m]
   std::int32_t surface = -1;  ///< index in GeneratedSpecimen::surfaces; −1 for a single sphere
-  Pose pose;                  ///< maps this surface to the aggregate's position
+  Pose pose;                  ///< maps the surface `surface` to the aggregate's position
 };
 
 /// A generated specimen, and the report of its generation.

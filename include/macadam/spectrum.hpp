@@ -53,16 +53,16 @@ struct CreepSeries {
   double after_ramp(double t, double duration) const;
 };
 
-/// Returns the relaxation of a contact law, from the poles and residues of its stiffness. \throws InputError for a law
-/// that is not a chain with positive constants.
+/// Returns the relaxation of a contact law, from the poles and residues of its complex stiffness. \throws InputError
+/// for a law that is not a chain with positive constants.
 PronySeries prony_series(const Law& law);
 
-/// Returns the creep of the same material. Its times follow from the zeros of the relaxation, which lie between its
-/// poles. \throws InputError for a series whose moduli are all zero.
+/// Returns the creep of the material with this relaxation. The retardation times follow from the zeros of E*(s), which
+/// lie between the poles of E*(s). \throws InputError for a series whose moduli are all zero.
 CreepSeries creep_series(const PronySeries& relaxation);
 
-/// Returns a series that keeps only a few units of `series`, with new moduli. Within a relative tolerance, it
-/// reproduces E(0), and E(t) from `shortest` to `longest` [s].
+/// Returns a series with only a few of the units of `series`, with new moduli. The returned series reproduces E(0), and
+/// E(t) from `shortest` to `longest` [s], within a relative tolerance.
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance);
 
 /// Returns the largest relative difference of E(t) of `series` from E(t) of `exact`, at t = 0 and from `shortest` to
@@ -73,7 +73,7 @@ double difference(const PronySeries& series, const PronySeries& exact, double sh
 struct SpectrumOptions {
   double shortest = 1e-3, longest = 1e4;  ///< range of times [s]
   double tolerance = 1e-6;                ///< relative tolerance of E(t), for both error measures of Spectrum
-  Backend backend = Backend::cpu;         ///< where the solutions are computed
+  Backend backend = Backend::cpu;         ///< the backend that computes the solutions
   LinearMethod linear = LinearMethod::automatic;
   DeviceList devices = {};
   std::function<bool()> stop = {};  ///< true ends the computation with InterruptedError
@@ -88,11 +88,11 @@ std::vector<double> log_range(double first, double last, int per_decade);
 struct Spectrum {
   PronySeries relaxation;
   CreepSeries creep;
-  /// Estimate of the largest relative error of E(t) between `shortest` and `longest`: from the change by the last two
-  /// rounds of solutions and the effect of their residuals.
+  /// Estimate of the largest relative error of E(t) between `shortest` and `longest`. It is computed from the changes
+  /// of E(t) in the last two rounds of solutions and from the effect of the solutions' residuals.
   double error = 0;
-  /// Largest relative difference of E*(iω) from solutions that were not used for the series, at frequencies of the
-  /// range.
+  /// Largest relative difference of E*(iω) of the series from solutions that were not used to make the series, at
+  /// frequencies within the range.
   double checked = 0;
   int solutions = 0;  ///< number of solutions of the whole network
 };

@@ -21,9 +21,10 @@
 
 namespace macadam {
 
-/// A state of motion to start from. Displacements and chains belong to step −1. The stepper takes the step from −1 to 0
-/// when it is made, and then has the forces of step 0. With updated geometry, contact frames are carried from the
-/// undeformed specimen to step −1 in one step. docs/model.md, section 18.
+/// A state of motion from which a stepper starts. Displacements and chains (the force and the Kelvin units of one
+/// relative displacement) belong to step −1. The stepper takes the step from −1 to 0 when it is made, and then has the
+/// forces of step 0. With updated geometry, contact frames are carried from the undeformed specimen to step −1 in one
+/// step. docs/model.md, section 18.
 struct StartState {
   std::vector<Vec3d> displacement, rotation;  ///< at step −1, specimen order [m] [rad]
   std::vector<Vec3d> velocity, spin;          ///< half a step before step 0 [m/s] [rad/s]
@@ -43,22 +44,24 @@ struct StepperOptions {
   Damping damping_kind = Damping::none;
   double damping = 0;          ///< χ, or β [1/s]
   double density_scaling = 1;  ///< multiplies mass and inertia
-  bool skip_shear = true;      ///< leave out shear chains if α = 0
+  bool skip_shear = true;      ///< leave out the chains of shear displacements if α = 0
   bool skip_rotations = true;  ///< leave out rotations if nothing_turns()
   int threads = 0;             ///< cpu: 0 is OpenMP's choice; results do not depend on it
-  DeviceList devices;       ///< cuda: devices that step the specimen together; the first becomes the calling thread's
-                            ///< current device
-  int multiprocessors = 0;  ///< cuda: plan as if the device had only this number; 0: all; results do not depend on it
-  int side_by_side = 1;     ///< cuda: number of specimens on the device at the same time, so that small ones leave
-                            ///< multiprocessors to others; results do not depend on it
-  Ranks* ranks = nullptr;   ///< cuda: the processes that step this specimen together; they must outlive the stepper;
-                            ///< null: this process alone
-  Boundary boundary;        ///< drives walls, fixes and loads particles; the drives' dt() must be dt
-  const StartState* start = nullptr;  ///< only read by make_stepper(); with it, a cyclic drive must not have a ramp
+  DeviceList devices;  ///< cuda: devices that step the specimen together; the first becomes the calling thread's
+                       ///< current device
+  /// cuda: use only this number of the device's multiprocessors; 0: all; results do not depend on it.
+  int multiprocessors = 0;
+  int side_by_side = 1;    ///< cuda: number of specimens on the device at the same time, so that small ones leave
+                           ///< multiprocessors to others; results do not depend on it
+  Ranks* ranks = nullptr;  ///< cuda: the processes that step this specimen together; they must outlive the stepper;
+                           ///< null: this process alone
+  Boundary boundary;       ///< motion of the walls, and fixed and loaded particles; the drives' dt() must be dt
+  /// State of motion to start from; only read by make_stepper(); a cyclic drive must then have no ramp.
+  const StartState* start = nullptr;
   /// Mixed and single precision may take steps in blocks, within which viscoelastic states are not updated (model
   /// (6.8)). This is the smallest number of blocks in the shortest characteristic time of the drives and the laws. The
-  /// error of a block is of second order in its length. If no law has a memory and the geometry is fixed, blocks are
-  /// exact, and a tenth of this number is used.
+  /// error of a block is of second order in its length. If no law has a memory and the geometry is fixed, blocks have
+  /// no error, and a tenth of this number is used.
   double blocks = 4000;
   /// Number of steps from one observe() to the next; 0: not known. If possible, blocks end at these observations.
   std::int64_t observed_every = 0;
@@ -109,12 +112,13 @@ struct StateArray {
   Values values;
 };
 
-/// Resources of a multiprocessor that a kernel of the step uses.
+/// Resources of a GPU multiprocessor that a kernel of the step uses.
 struct KernelUse {
   std::string name;
   int registers = 0;              ///< per thread
   std::int64_t shared_bytes = 0;  ///< per thread block
-  double occupancy = 0;  ///< number of threads that fit, over the largest number that a multiprocessor can have
+  /// Number of threads of this kernel that fit on a multiprocessor, over the largest number that it can have.
+  double occupancy = 0;
 };
 
 /// Bytes that a step moves, by kind of memory.
@@ -130,14 +134,15 @@ struct PartTime {
   double seconds = 0;
 };
 
-/// Device addresses of the motion of the bodies, for code that continues with it on the device. Valid until the next
-/// call of the stepper or its end. Body b is particle[b] of the specimen; the walls follow, by wall_index().
+/// Device addresses of the motion of the bodies (particles and walls), for code on the device that reads this motion.
+/// They are valid until the next call of the stepper or until the stepper is destroyed. Body b is particle[b] of the
+/// specimen; the walls follow, by wall_index().
 struct DeviceMotion {
   int device = 0;
   bool doubles = false;                  ///< whether `velocity` is double, not float
   const void* velocity = nullptr;        ///< [body][8] v, –, ω, – at the last half step [m/s, rad/s]
   const double* displacement = nullptr;  ///< [body][8] u, –, θ, – at the whole step [m, rad]
-  std::vector<std::int32_t> particle;    ///< [body]
+  std::vector<std::int32_t> particle;    ///< [body]: number of the particle in the specimen
 };
 
 /// Forces and deformation of all contacts, network order.
@@ -151,7 +156,7 @@ struct ContactState {
   /// displacements or, in points form, for the three of each point, one point after another. If steps are taken in
   /// blocks, the states of the units belong to the beginning of the block.
   std::vector<double> chain;
-  std::vector<std::size_t> chain_begin;  ///< contact c has the numbers from chain_begin[c] to chain_begin[c + 1]
+  std::vector<std::size_t> chain_begin;  ///< contact c has chain[chain_begin[c]] … chain[chain_begin[c + 1] − 1]
   /// Number of broken points over number of points of each contact. Empty if no law of the scene can break.
   std::vector<double> broken = {};
   /// Whether and how each contact point broke, in the order of the network's points. Empty if no law can break.
@@ -190,7 +195,7 @@ class Stepper {
     return contacts(network).point_breaks;
   }
 
-  /// Returns where the motion is on the device; empty for steppers on the CPU.
+  /// Returns the addresses of the motion in device memory; empty for steppers on the CPU.
   virtual DeviceMotion device_motion() const { return {}; }
 
   /// Sets the half-step velocities and spins (specimen order), for example of free assemblies in tests.
@@ -218,37 +223,39 @@ class Stepper {
   /// Returns the bytes of state and geometry held for the step.
   virtual std::int64_t bytes() const = 0;
 
-  /// Returns the bytes that a step moves at least: states read and written, everything else read once. 0 if not
-  /// counted.
+  /// Returns the least number of bytes that a step moves: states are read and written, everything else is read once.
+  /// Returns 0 if this is not counted.
   virtual std::int64_t traffic() const { return 0; }
 
   /// Returns the bytes of traffic() by kind of memory. By default, all of them count as device memory.
   virtual Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
 
-  /// Does the same as advance(), slower, and returns the mean time per step of each part [s]; empty if not measured.
+  /// Takes steps as advance() does, but slower, and returns the mean time per step of each part of a step [s]; empty if
+  /// the parts are not measured.
   virtual std::vector<PartTime> advance_timed(std::int64_t steps) {
     advance(steps);
     return {};
   }
 };
 
-/// Observes a stepper at once, and then `n` more times, each after `every` further steps. Each time calls
-/// f(observation), which may read the stepper. \throws DivergenceError naming the first particle whose motion is out of
-/// range.
+/// Observes a stepper in its present state, and then `n` more times, each time after `every` further steps. Each time
+/// calls f(observation), which may read the stepper. \throws DivergenceError naming the first particle whose motion is
+/// out of range.
 void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::function<void(const Observation&)>& f);
 
 /// Returns whether the particles never rotate, however they move: no pair has shear stiffness, and the centroid of
-/// every facet lies on the line that joins the centres of its two particles. First moments below 1e-12 of area × size
-/// count as rounding errors.
+/// every facet lies on the line that joins the centres of its two particles. First area moments below 1e-12 of area ×
+/// size count as rounding errors.
 bool nothing_turns(const ContactNetwork& network, const FactsTable& laws);
 inline bool nothing_turns(const ContactNetwork& network, const LawTable& laws) {
   return nothing_turns(network, facts_of(laws));
 }
 
-/// Makes the stepper of a backend (resolves `automatic` first). `used`: a stepper made of the same specimen and network
-/// that is not needed any more. If the laws are of the same kinds and have the same alpha, the data of `used` that do
-/// not depend on time step, masses, loading and start are kept. The new stepper takes the same steps, to the bit, as
-/// without `used`. \throws RunError if the backend is not available; InputError if an option does not fit the backend.
+/// Makes the stepper of a backend (resolves `automatic` first). `used`: a stepper that was made of the same specimen
+/// and network and is not needed any more. If the laws are of the same kinds and have the same alpha, the data of
+/// `used` that do not depend on time step, masses, loading and start are kept. The new stepper takes the same steps, to
+/// the bit, as without `used`. \throws RunError if the backend is not available; InputError if an option does not fit
+/// the backend.
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                       std::unique_ptr<Stepper> used = nullptr);
@@ -258,7 +265,7 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
 /// loads. Local damping χ shortens it by √(1 + χ).
 struct CriticalStep {
   double dt = 0;               ///< [s]
-  std::int32_t particle = -1;  ///< the particle that determines it; −1: a wall under a force
+  std::int32_t particle = -1;  ///< the particle that determines the step; −1: a wall under a force
 };
 CriticalStep critical_step(const ContactNetwork& network, const FactsTable& laws, const Inertia& inertia,
                            const StepperOptions& options);

@@ -40,9 +40,10 @@ struct Facet {
 
 /// Laguerre cells of all particles and voids (weights R²) inside the box. Voids are numbered after the particles.
 struct Tessellation {
-  std::vector<Facet> facets;    ///< sorted by (a, b); for one a, walls (negative b) come first
+  std::vector<Facet> facets;    ///< sorted by (a, b); among the facets of one a, walls (negative b) come first
   std::vector<Vec3d> vertices;  ///< [m]; the vertices of a facet are consecutive, counter-clockwise about its normal
-  std::vector<double> cell_volume;   ///< [m³], one per particle, then one per void; 0 if hidden
+  /// [m³], one per particle, then one per void; 0 for a particle or void without a cell.
+  std::vector<double> cell_volume;
   std::vector<std::int32_t> hidden;  ///< particles and voids without a cell in the box, in rising order
   /// Number of neighbours that meet only in an edge or a point (zero area); these are not facets.
   std::int64_t null_facets = 0;
@@ -53,13 +54,14 @@ struct Tessellation {
   }
 };
 
-/// Builds the tessellation. Deterministic. Works for any positions of the particles, also cospherical ones.
+/// Builds the tessellation. The same specimen always gives the same tessellation. Works for any positions of the
+/// particles, also if many centres lie on one sphere.
 ///
 /// \throws InputError from validate(): coincident centres, particles outside the box and so on.
 Tessellation tessellate(const Specimen& specimen);
 
 /// Returns one sentence for each of the following faults; returns none for a packing that fills its box.
-/// - The spheres fill less than a tenth of the box (see sparse_box()). In this case the next faults are not checked.
+/// - The spheres fill less than a tenth of the box (see sparse_box()). In this case the faults below are not checked.
 /// - A cell reaches far beyond its sphere: more than 4 radii of the largest sphere among the particle and its
 ///   neighbours, and more than 2 mean spacings (box volume per sphere)^(1/3). The sentence names the facet.
 /// - The spheres fill more than 150 % of the box. A sphere of an aggregate of several spheres counts for at most its

@@ -7,7 +7,8 @@
 namespace macadam {
 
 /// Sets the number of OpenMP threads for parallel regions of the calling thread. The destructor restores the earlier
-/// number. Every part of a job uses this number: specimen, cells, contacts, solutions and their BLAS, steps.
+/// number. Every part of a job uses this number of threads: generation of the specimen, tessellation, contacts, linear
+/// solutions (including BLAS) and time steps.
 class ThreadLimit {
  public:
   /// `threads`: 0 or no value changes nothing.

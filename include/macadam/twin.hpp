@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file twin.hpp  Makes a specimen that can be solved from the specimen in a scan (a twin). Works only if the library
-/// was built with ITK (MACADAM_CT).
+/// \file twin.hpp  Makes a twin: a model specimen with particles and contacts, made from a segmented scan of a real
+/// specimen. Works only if the library was built with ITK (MACADAM_CT).
 #pragma once
 
 #include <array>
@@ -31,12 +31,14 @@ struct Twin {
   Vec3d corner{};             ///< corner of the box, in the scan's coordinates [m]
   std::int64_t grains = 0;    ///< number of grains that lie in the box, at least in part
   std::int64_t clusters = 0;  ///< number of grains that are clusters of several spheres
-  std::int64_t lost = 0;      ///< grains with too little volume in the box for a sphere
+  std::int64_t lost = 0;      ///< number of grains that were left out because too little of their volume is in the box
   /// Particles that were removed because they are not connected to both walls.
   std::int64_t enclosed_mastic = 0, enclosed_aggregate = 0;
-  double aggregate = 0, voids = 0;  ///< volumes of the labelled grains and of the void voxels, over the box
-  double voids_left_out = 0;        ///< volume of voids that were too small, over the box
-  double mastic = 0;                ///< Σ volumes of the mastic spheres, over the box
+  /// Volumes of the labelled grains and of the void voxels, divided by the volume of the box.
+  double aggregate = 0, voids = 0;
+  /// Volume of the voids that were left out because they are too small, divided by the volume of the box.
+  double voids_left_out = 0;
+  double mastic = 0;  ///< Σ volumes of the mastic spheres, divided by the volume of the box
 };
 
 /// Makes a specimen from a folder with labels.mha, phases.mha, library/grain_*.off and border/grain_*.off, as written
@@ -47,7 +49,7 @@ struct Twin {
 Twin make_twin(const std::filesystem::path& folder, const Scene& scene, const TwinSpec& spec,
                const std::function<void(const std::string& stage, double share)>& progress = {});
 
-/// Writes scene.toml (the scene with this specimen in place of its own), specimen.csv and twin.json.
+/// Writes scene.toml (the scene with the twin in place of its own specimen), specimen.csv and twin.json.
 ///
 /// \throws RunError naming the file.
 void write_twin(const std::filesystem::path& out, const Twin& twin, const Scene& scene);

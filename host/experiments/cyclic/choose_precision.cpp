@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_precision.cpp  Chooses the lowest precision whose rounding error is a small part of the tolerance, within the
-// range of the measurements.
+// choose_precision.cpp  Chooses the lowest precision whose estimated rounding error is a small part of the tolerance. A
+// precision is chosen only if the run is within the range in which its rounding error was measured.
 #include "host/experiments/cyclic/choose_precision.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-constexpr double precision_share = 0.05;  ///< the part of the tolerance that rounding may take
+constexpr double precision_share = 0.05;  ///< the fraction of the tolerance that rounding errors may reach
 
 }  // namespace
 

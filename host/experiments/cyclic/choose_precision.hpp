@@ -6,9 +6,9 @@
 
 namespace macadam {
 
-/// Takes the precision that the scene asks for. Otherwise, with a tolerance, takes the lowest precision whose estimated
-/// rounding is a small part of the tolerance, and reports it among the decisions; without a tolerance, takes double.
-/// The frequencies of the plan must be set.
+/// Sets the precision of the plan to the one that the scene asks for. If the scene asks for none and has a tolerance,
+/// chooses the lowest precision whose estimated rounding error is a small part of the tolerance, and reports it among
+/// the decisions. Without a tolerance, chooses double precision. The frequencies of the plan must be set.
 void choose_precision(const Scene& scene, const Preparation& prepared, Plan& plan);
 
 }  // namespace macadam

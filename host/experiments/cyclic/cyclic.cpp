@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cyclic.cpp  Implements the cyclic test for both methods.
+// cyclic.cpp  Implements the cyclic test. Calls method "explicit" (time steps) or "harmonic" (steady states), as the
+// scene asks.
 #include "host/experiments/cyclic/methods.hpp"
 #include "host/experiments/experiment.hpp"
 #include "host/run/cracks.hpp"

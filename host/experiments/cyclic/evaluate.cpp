@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// evaluate.cpp  Computes |E*| and φ from the samples of a cyclic test: fit of the fundamental, and Eq. 24–25.
+// evaluate.cpp  Computes |E*| and φ from the samples of a cyclic test: by a fit of the fundamental, and by Eq. 24–25
+// from the peaks of the last cycle.
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,8 @@ struct Fundamental {
 
 /// Fits offset + trend·t + fundamental + second harmonic by least squares, so that drift and start-up offsets do not
 /// leak into the phasor. The second harmonic is fitted because it is not orthogonal to the trend. Without it in the
-/// fit, a second harmonic of amplitude h over one cycle would add −0.78·h to the fundamental. Fits of fewer than 16
-/// samples leave it out.
+/// fit, a second harmonic of amplitude h over one cycle would add −0.78·h to the fundamental. A fit of fewer than 16
+/// samples has no second harmonic.
 template <class Value>
 Fundamental fit(std::span<const ResponseSample> samples, double frequency, Value value) {
   const auto n = static_cast<Eigen::Index>(samples.size());
@@ -34,7 +35,8 @@ Fundamental fit(std::span<const ResponseSample> samples, double frequency, Value
   const double t0 = samples.front().time_s;
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto& s = samples[static_cast<std::size_t>(k)];
-    const double periods = (s.time_s - t0) * frequency;  // of order one: the columns are well scaled
+    // time in periods, which is of order one like the other columns, so that the fit is well conditioned
+    const double periods = (s.time_s - t0) * frequency;
     const double phase = two_pi * (s.time_s * frequency - std::floor(s.time_s * frequency));
     a.row(k).head<4>() << 1, periods, std::cos(phase), std::sin(phase);
     if (second) a.row(k).tail<2>() << std::cos(2 * phase), std::sin(2 * phase);

@@ -9,12 +9,12 @@
 
 namespace macadam {
 
-/// Returns the samples of one frequency, which are contiguous and begin at number `first`.
+/// Returns the samples of one frequency. In `samples` they follow one another from index `first` on.
 std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
                                            double frequency);
 
 /// Returns the result of frequency `number` of a plan. `samples`: the samples of this frequency. `seconds`: wall time
-/// [s]. `rupture`: why the steps of this frequency ended early, if they did; the numbers of the result are then NaN.
+/// [s]. `rupture`: if the steps of this frequency ended early, the reason; the numbers of the result are then NaN.
 experiments::SteppedFrequency finished_frequency(const Scene& scene, const Plan& whole, std::size_t number,
                                                  std::span<const ResponseSample> samples, double seconds,
                                                  const std::optional<experiments::Rupture>& rupture);

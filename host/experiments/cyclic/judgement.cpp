@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// judgement.cpp  Checks limits that hold for every passive specimen.
+// judgement.cpp  Checks that a result is within limits that hold for every specimen of springs and dashpots.
 #include "host/experiments/cyclic/judgement.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +22,9 @@ namespace {
 /// Springs and dashpots give a phase angle of 0 to 90 degrees. Start-up waves can take it beyond this range by up to
 /// this margin.
 constexpr double phase_margin_deg = 1;
-/// Largest residual of the fit, rms over the amplitude. With a residual of half the amplitude the stress is plainly not
-/// a sine. The residual does not measure accuracy.
+/// Largest accepted residual (rms) of the sine that is fitted to the stress, divided by the amplitude of the stress. If
+/// the residual is half of the amplitude, the stress is plainly not a sine. The residual is no measure of the accuracy
+/// of |E*|.
 constexpr double largest_residual = 0.5;
 /// Factor on the modulus bound. The bound holds without inertia; start-up waves can exceed it a little.
 constexpr double bound_margin = 1.05;
@@ -33,7 +34,7 @@ constexpr double wall_difference = 1e-6;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// Returns the properties of a result that no passive specimen can have.
+/// Returns the properties of a result that no specimen of springs and dashpots can have.
 std::vector<std::string> faults_of(const Frequency& f, double stiffest) {
   std::vector<std::string> faults;
   const double phase = f.stiffness.phase_deg;

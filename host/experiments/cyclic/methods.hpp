@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file methods.hpp  Declares the two methods that compute |E*| and φ of a prepared scene.
+/// \file methods.hpp  Declares the two methods that compute |E*| and φ of a prepared scene: time steps, and steady
+/// states in the frequency domain.
 #pragma once
 
 #include <filesystem>
@@ -12,20 +13,20 @@
 namespace macadam {
 
 /// Plans a run that steps in time, from the beginning or from a checkpoint. Each sample is written to response.csv at
-/// once. Decisions are stored in `result`. \throws InputError, also naming the checkpoint if its state is from another
-/// machine; RunError as make_plan() and make_stepper() do.
+/// once. Decisions are stored in `result`. \throws InputError, which names the checkpoint if the checkpoint was written
+/// on another machine and cannot be continued here; RunError as make_plan() and make_stepper() do.
 std::unique_ptr<PlannedExperiment> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                               std::optional<Resumed> resumed, RunResult& result);
 
-/// Returns the part of a frequency's result that time stepping and the frequency domain have in common.
+/// Returns the result of a frequency with those members set that both methods have in common.
 experiments::Frequency frequency_of(const Scene& scene, double frequency_hz, std::optional<double> temperature_c,
                                     double density_scaling, const Stiffness& stiffness, double seconds);
 
 /// A function that returns the list in a result to which solved steady states are added.
 using ListOfStates = std::vector<experiments::HarmonicFrequency>& (*)(RunResult& result);
 
-/// Plans a run that solves the steady states of the experiment's frequencies and temperatures and adds them to a list
-/// in the result. \throws as the constructor of Harmonic does.
+/// Plans a run that solves the steady states of all frequencies and temperatures of the experiment. The run adds them
+/// to a list in the result. \throws as the constructor of Harmonic does.
 std::unique_ptr<PlannedExperiment> plan_harmonic(const Scene& scene, const Preparation& prepared,
                                                  const Watcher& watcher, RunResult& result, ListOfStates states);
 

@@ -50,15 +50,16 @@ class Planner {
   }
 
  private:
-  /// Adds a sentence to the decisions.
+  /// Adds a sentence to the decisions, which are shown to the user.
   template <class... Args>
   void decide(fmt::format_string<Args...> text, Args&&... args) {
     plan_.decisions.push_back(fmt::format(text, std::forward<Args>(args)...));
   }
   bool automatic() const { return scene_.solver.tolerance.has_value(); }
   double tolerance() const { return *scene_.solver.tolerance; }
-  /// Returns the residual to which solutions are computed. The error of E* is of the order of the residual squared. The
-  /// error of the motion in a steady start is the residual times the condition number of K, which is at most about 1e5.
+  /// Returns the relative residual to which harmonic solutions are computed. The error of E* is of the order of the
+  /// residual squared. The relative error of the motion in a steady start is the residual times the condition number of
+  /// the stiffness matrix K, which is at most about 1e5.
   double planning_residual() const {
     return automatic() ? std::clamp(1e-5 * tolerance(), HarmonicOptions{}.tolerance, 1e-8)
                        : HarmonicOptions{}.tolerance;
@@ -66,7 +67,8 @@ class Planner {
   /// Returns β of viscous damping [1/s]; 0 with other damping.
   double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
-  /// Refuses settings that a law excludes because it is not linear or has no complex stiffness. \throws InputError
+  /// Refuses settings that do not go together with a law that is not linear or has no complex stiffness. \throws
+  /// InputError
   void require_laws_to_fit() {
     const FactsTable facts = facts_of(scene_.laws);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -98,7 +100,8 @@ class Planner {
     const double strain = scene_.cyclic().strain_amplitude, error = fixed_geometry_error(strain);
     const bool fixed = plan_.geometry == Geometry::fixed;
     if (automatic()) {
-      // carried frames turn while the points move with them, so the two forms differ by the square of the strain
+      // The contact points turn with the frame of the contact, so the forms condensed and points differ by the square
+      // of the strain.
       decide("contact form {}: |E*| with the other form (condensed or points) would differ only by {}",
              to_string(plan_.form),
              fixed ? "rounding" : fmt::format("about {:.0e}, the square of the strain", strain * strain));
@@ -152,7 +155,8 @@ class Planner {
     }
   }
 
-  /// Solves all loads side by side. A load without a solution has an empty result and is reported among the decisions.
+  /// Solves harmonic problems (loads) side by side. A problem without a solution has an empty result and is reported
+  /// among the decisions.
   std::vector<std::optional<HarmonicResult>> solutions(const std::vector<HarmonicLoad>& loads) {
     std::vector<std::optional<HarmonicResult>> out(loads.size());
     if (!harmonic_) return out;
@@ -163,7 +167,7 @@ class Planner {
       std::move(all.begin(), all.end(), out.begin());
     } catch (const InterruptedError&) { throw; } catch (const RunError&) {
       for (std::size_t i = 0; i < loads.size(); ++i)
-        out[i] = solution(loads[i]);  // one by one, so that the other loads are solved even if one fails
+        out[i] = solution(loads[i]);  // one by one, so that the other problems are solved even if one has no solution
     }
     for (const auto& r : out) {
       if (r && !r->why_factors.empty())
@@ -173,7 +177,7 @@ class Planner {
     return out;
   }
 
-  /// Solves one load. A load without a solution is reported among the decisions.
+  /// Solves one harmonic problem. If it has no solution, reports this among the decisions and returns nothing.
   std::optional<HarmonicResult> solution(const HarmonicLoad& load) {
     try {
       return harmonic_->solve(std::vector{load}).front();
@@ -184,12 +188,12 @@ class Planner {
     }
   }
 
-  /// Plans all frequencies at once: solves them at true mass, chooses their scaling, and solves them again with that
-  /// inertia.
+  /// Plans all frequencies at once: solves them at true mass, chooses their density scaling, and solves them again with
+  /// the inertia of the scaled mass.
   void plan_frequencies() {
     const std::vector<double>& frequencies = scene_.cyclic().frequencies;
     std::vector<HarmonicLoad> loads;
-    // undamped, because damping is not a property of the specimen
+    // without viscous damping, because this damping is not a property of the specimen
     for (const double f : frequencies) loads.push_back({f, 1, 0});
     const auto known = solutions(loads);
     for (std::size_t i = 0; i < frequencies.size(); ++i) {
@@ -207,8 +211,8 @@ class Planner {
     }
   }
 
-  /// Returns the density scaling of frequency i: the given one, or the largest one that the tolerance allows by the
-  /// derivative of E* or, without a solution, by an estimate.
+  /// Returns the density scaling of frequency i: the one in the scene, or the largest one that the tolerance allows.
+  /// The error of a scaling is computed from the derivative of E* or, without a harmonic solution, estimated.
   double scaling_of(std::size_t i, const std::optional<HarmonicResult>& known) const {
     if (const auto given = given_scaling(scene_, i, plan_.critical.dt)) return *given;
     const double frequency = scene_.cyclic().frequencies[i];
@@ -216,8 +220,9 @@ class Planner {
     return std::max(1.0, estimate_part * tolerance() / inertia_estimate(scene_, prepared_, frequency));
   }
 
-  /// If the tolerance is large or a resonance is near, the error does not grow in proportion to the scaling.
-  /// Frequencies whose error is too large get less scaling and are solved again.
+  /// Corrects the density scaling of frequencies whose error is too large, and solves these frequencies again. This is
+  /// needed if the tolerance is large or a resonance is near, because the error then does not grow in proportion to the
+  /// scaling.
   void correct(std::vector<HarmonicLoad>& loads, const std::vector<std::optional<HarmonicResult>>& known,
                std::vector<std::optional<HarmonicResult>>& scaled) {
     if (!automatic() || scene_.solver.density_scaling || scene_.solver.time_step) return;
@@ -247,14 +252,14 @@ class Planner {
     f.cycles = count.cycles, f.fit_cycles = count.fitted;
     f.loading = make_loading(f, frequency, ramp);
     if (scaled && f.known) f.predicted = difference(scaled->top, *f.known);
-    // the linear solution does not measure the error at such strains
+    // at such strains the difference from the linear harmonic solution is not the error of the run
     if (automatic() && nonlinear_ > tolerance()) f.known.reset(), f.predicted.reset();
     if (f.start == Start::steady) f.motion = std::move(scaled->motion);
     say(f, frequency, ramp);
     plan_.frequencies.push_back(std::move(f));
   }
 
-  /// Reports the settings of a frequency among the decisions.
+  /// Adds sentences about the settings of a frequency to the decisions.
   void say(const FrequencyPlan& f, double frequency, double ramp) {
     if (automatic()) {
       std::string error;

@@ -12,7 +12,7 @@
 
 namespace macadam {
 
-/// How one frequency is stepped.
+/// The settings with which one frequency is stepped.
 struct FrequencyPlan {
   drives::Cyclic loading;
   double density_scaling = 1;
@@ -23,21 +23,22 @@ struct FrequencyPlan {
   std::vector<std::complex<double>> motion;  ///< for a steady start: HarmonicResult::motion with the run's inertia
 };
 
-/// How a scene is stepped.
+/// The settings with which a scene is stepped.
 struct Plan {
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
-  double geometry_error = 0;  ///< approximate largest error of |E*| if the initial geometry is kept
-  CriticalStep critical;      ///< critical time step at true mass
+  /// Approximate largest relative error of |E*| from keeping the initial geometry; 0 if the geometry is updated.
+  double geometry_error = 0;
+  CriticalStep critical;  ///< critical time step at true mass
   std::vector<FrequencyPlan> frequencies;
   std::vector<std::string> decisions;  ///< the choices and their reasons, one sentence each
 };
 
-/// Keeps the settings that the scene gives. With a tolerance, chooses the others so that |E*| and φ are expected to
-/// differ by less than the tolerance from those at true mass; without a tolerance, uses fixed defaults. `backend`:
-/// takes the steps and solves in the frequency domain. The time of each part is added to `phases`. \throws RunError if
-/// the step would be hopelessly small.
+/// Keeps the settings that the scene gives. With a tolerance, chooses the other settings so that |E*| and φ are
+/// expected to differ by less than the tolerance from |E*| and φ at true mass. Without a tolerance, uses fixed
+/// defaults. `backend`: the backend that takes the steps and solves in the frequency domain. The time of each part is
+/// added to `phases`. \throws RunError if the time step would be so small that a run is impossible.
 Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
                Backend backend, PhaseSeconds& phases);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_state.cpp  Stores plan and times as text, samples and motions as arrays.
+// run_state.cpp  Stores the state of a stepped cyclic test in a checkpoint: plan and wall times as text, samples and
+// motions as arrays.
 #include "host/experiments/cyclic/run_state.hpp"
 
 #include <nlohmann/json.hpp>
@@ -18,7 +19,8 @@ struct nlohmann::adl_serializer<std::optional<T>> {
 
 namespace macadam {
 
-// JSON numbers have the fewest digits that give the same double again. All of these numbers are finite.
+// A number in JSON is written with the fewest digits from which the same double is read again. JSON has no infinity and
+// no NaN, but all of these numbers are finite.
 namespace drives {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cyclic, amplitude, frequency, steps_per_period, ramp_steps)
 }

@@ -13,14 +13,14 @@ namespace macadam {
 /// Broken contact points of one frequency.
 struct FrequencyCracks {
   std::vector<experiments::CrackEvent> events;
-  std::optional<experiments::Rupture> rupture;  ///< why the steps of this frequency ended early, if they did
+  std::optional<experiments::Rupture> rupture;  ///< the reason if the steps of this frequency ended early
   double time_s = 0, strain = 0;                ///< at the last sample at which broken points were counted
 };
 
-/// Everything that a stepped run needs to continue with the same bits. The results of finished frequencies follow from
-/// plan and samples.
+/// Everything that a stepped run needs to continue, with results that have the same bits. The results of finished
+/// frequencies are not stored: they are computed again from plan and samples.
 struct RunState {
-  Plan plan;  ///< decided once, so its harmonic solutions are not needed again
+  Plan plan;  ///< the plan is made once; a resumed run does not need the harmonic solutions behind it
   double seconds_planning = 0;
   std::vector<double> seconds;          ///< wall time of each finished frequency
   double seconds_running = 0;           ///< wall time of the running frequency until now

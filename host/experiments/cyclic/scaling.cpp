@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scaling.cpp  Finds the largest density scaling by bisection. The inertia part of E* is its derivative with respect to
-// the density scaling, so no system is solved again.
+// scaling.cpp  Finds the largest density scaling by bisection. The part of E* that is due to inertia is the derivative
+// of E* with respect to the density scaling, so no linear system has to be solved again.
 #include "host/experiments/cyclic/scaling.hpp"
 
 #include <cmath>
@@ -18,7 +18,7 @@ double largest_scaling(const HarmonicResult& known, double viscous, double wante
     const Complex relative = each * (scaling * (s * s + s * viscous) - s * s);
     return largest({std::abs(1.0 + relative) - 1, std::arg(1.0 + relative)});
   };
-  if (!(change(1) < wanted)) return 1;  // the damping alone changes E* by more
+  if (!(change(1) < wanted)) return 1;  // even without scaling, damping changes E* by more than `wanted`
   double low = 1, high = 2;
   while (change(high) < wanted && high < 1e15) low = high, high *= 2;
   for (int k = 0; k < 60; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scaling.hpp  Computes how much the mass may be scaled, from one solution at true mass.
+/// \file scaling.hpp  Computes how much the density may be scaled in a stepped run, from one harmonic solution at true
+/// mass.
 #pragma once
 
 #include "macadam/harmonic.hpp"

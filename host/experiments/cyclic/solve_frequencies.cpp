@@ -112,7 +112,8 @@ class PlannedHarmonic : public PlannedExperiment {
         const std::optional<std::vector<HarmonicResult>> solved = try_to_solve(i, end);
         if (solved) {
           take(*solved, result, save);
-        } else {  // one frequency has no solution; those before it are solved one by one and kept
+        } else {
+          // One frequency has no solution. The frequencies before it are solved one by one, and their results are kept.
           for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
         }
       } catch (const InterruptedError&) {

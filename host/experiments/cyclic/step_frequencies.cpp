@@ -33,7 +33,8 @@ using experiments::SteppedFrequency;
 
 namespace {
 
-/// The part of the tolerance that stepping in blocks may take.
+/// The fraction of the tolerance that the error of stepping in blocks may reach. Within a block of steps the
+/// viscoelastic states of the contacts are not updated.
 constexpr double block_share = 0.02;
 /// Number of times per cycle at which broken contact points are counted. Reading them takes longer than a step.
 constexpr std::int64_t looks_per_cycle = 50;
@@ -45,8 +46,8 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   return options;
 }
 
-/// Reports the length of blocks among the decisions if it follows from a tolerance, the backend may step in blocks, and
-/// blocks are not exact.
+/// Reports the length of blocks among the decisions if three conditions hold: the length follows from a tolerance, the
+/// backend may step in blocks, and blocks have an error.
 void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
   const SolverSpec& solver = scene.solver;
   const bool may = backend != Backend::reference && plan.form == ContactForm::condensed &&
@@ -59,9 +60,9 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
                   std::ceil(blocks), block_error(blocks)));
 }
 
-/// Returns the stepper of one frequency. It continues from `from`, a checkpoint's state, unless that is empty;
-/// otherwise it begins with the steady state `start` or, without one, from rest. `used`: the stepper of the frequency
-/// before.
+/// Returns the stepper of one frequency. If `from`, the state in a checkpoint, is not empty, the stepper continues from
+/// it. Otherwise it begins with the steady state `start` or, without a steady state, from rest. `used`: the stepper of
+/// the previous frequency, whose data are reused.
 std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepared, const Inertia& inertia,
                                     Backend backend, const Plan& plan, const FrequencyPlan& p,
                                     const DeviceList& devices, const std::vector<StateArray>& from,
@@ -81,7 +82,7 @@ std::string line_of(const ResponseSample& s) {
   return fmt::format("{},{},{},{}", s.frequency_hz, s.time_s, s.strain, s.stress_pa);
 }
 
-/// A stepped run, after its planning.
+/// A stepped cyclic test whose plan has been made.
 class Steps : public PlannedExperiment {
  public:
   Steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher, const Inertia& inertia, RunState at,
@@ -94,7 +95,8 @@ class Steps : public PlannedExperiment {
         devices_(scene.solver.devices),
         owns_checkpoint_(resumed) {}
 
-  /// Makes the first stepper before any file is changed, so that a scene that it refuses leaves all files as they were.
+  /// Makes the first stepper. This is done before any file is changed, so that all files stay as they were if the
+  /// stepper refuses the scene.
   void make_first(RunResult& result, const std::filesystem::path& checkpoint) {
     if (at_.seconds.size() == at_.plan.frequencies.size()) return;
     const bool resumed = !at_.state.empty();
@@ -129,7 +131,8 @@ class Steps : public PlannedExperiment {
     std::optional<LineWriter> writer;
     if (scene_.output.response) {
       writer.emplace(out / "response.csv", "frequency_hz,time_s,strain,stress_pa");
-      for (const ResponseSample& s : at_.samples) writer->add(line_of(s));  // no sample is lost or written twice
+      // a resumed run writes the whole file again, so that no sample is missing or written twice
+      for (const ResponseSample& s : at_.samples) writer->add(line_of(s));
     }
     begin_cracks(out);
     for (std::size_t i = at_.seconds.size(); i < at_.plan.frequencies.size(); ++i) {
@@ -152,7 +155,7 @@ class Steps : public PlannedExperiment {
   }
 
   /// Makes the stepper of a frequency. If there is a stepper of another frequency, reuses its data. At this point the
-  /// run may move to other devices.
+  /// run may move to other devices (GPUs).
   std::unique_ptr<Stepper> make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const auto& all = at_.plan.frequencies;
@@ -171,7 +174,8 @@ class Steps : public PlannedExperiment {
     std::unique_ptr<Stepper> made;
     try {
       made = on(devices_);
-    } catch (const RunError&) {  // the new device may lack memory; then the run stays where it was
+    } catch (const RunError&) {
+      // for example if the new device has too little memory: the run then stays on its old device
       if (devices_ == before) throw;
       devices_ = before, may_move_ = false;
       made = on(devices_);
@@ -180,7 +184,8 @@ class Steps : public PlannedExperiment {
     return made;
   }
 
-  /// Computes the steady start of a frequency while a device takes the steps of the frequency before.
+  /// Begins to compute the steady start of a frequency in another thread, while a device takes the steps of the
+  /// previous frequency.
   void begin_start(std::size_t i) {
     try {
       next_start_ = std::async(std::launch::async, [this, i] {
@@ -226,8 +231,9 @@ class Steps : public PlannedExperiment {
     }
   }
 
-  /// Counts the points that are broken at a sample of frequency i. When the top wall pulls and no intact path joins the
-  /// walls, the steps of this frequency end. In compression broken points still bear load.
+  /// Counts the contact points that are broken at a sample of frequency i. If the top wall pulls and no path of intact
+  /// contacts joins the walls, ends the steps of this frequency. In compression broken points still bear load, so the
+  /// steps go on.
   void look_for_cracks(std::size_t i, CrackWatch& watch, const Observation& now) {
     FrequencyCracks& cracks = at_.cracks[i];
     write_cracks(i, watch.look(*stepper_, now.time));
@@ -237,7 +243,8 @@ class Steps : public PlannedExperiment {
     cracks.time_s = now.time, cracks.strain = strain;
   }
 
-  /// Warns of points that broke during a frequency: the specimen changed while its |E*| was measured.
+  /// Warns of contact points that broke during a frequency, because the specimen then changed while its |E*| was
+  /// measured.
   void warn_of_cracks(std::size_t i, const experiments::Cracks& found, RunResult& result) {
     const std::string name = fmt::format("{} Hz", at_.plan.frequencies[i].loading.frequency);
     if (const auto& rupture = at_.cracks[i].rupture) {
@@ -247,8 +254,9 @@ class Steps : public PlannedExperiment {
     }
   }
 
-  /// Returns the course of a frequency. Every sample is stored in `at_` and written at once. Without a writer, only the
-  /// fitted cycles and the cycle before them are kept. This cycle is needed for the change from cycle to cycle.
+  /// Returns the course of a frequency: its samples, and the functions that are called at them. Every sample is stored
+  /// in `at_` and written at once. Without a writer, only the fitted cycles and the cycle before them are stored; the
+  /// cycle before them is needed to compute the change from cycle to cycle.
   Course course_of(std::size_t i, LineWriter* writer, CrackWatch& cracks, const Content& content) {
     const FrequencyPlan& p = at_.plan.frequencies[i];
     const std::int64_t per_cycle = scene_.cyclic().samples_per_cycle, per_period = p.loading.steps_per_period;
@@ -272,7 +280,7 @@ class Steps : public PlannedExperiment {
       if (looks(k)) look_for_cracks(i, cracks, now);
       if (k < kept) return;
       const Specimen& specimen = prepared_.specimen;
-      // in tension the particles pull the top wall down, so the force on it is negative
+      // in tension the particles pull the top wall down, so the force on the wall is negative
       at_.samples.push_back({p.loading.frequency, now.time, now.top_displacement() / gauge_length(specimen),
                              -now.top_force() / section_area(specimen)});
       if (writer) writer->add(line_of(at_.samples.back()));
@@ -312,7 +320,9 @@ class Steps : public PlannedExperiment {
   std::optional<LineWriter> cracks_writer_;
   std::size_t samples_read_ = 0;  ///< number of samples of finished frequencies
   bool owns_checkpoint_;
-  std::future<StartState> next_start_;  ///< start of the next frequency; the last member, as its thread uses the others
+  /// Start of the next frequency; it is the last member, so that it is destroyed first, because its thread uses the
+  /// other members.
+  std::future<StartState> next_start_;
 };
 
 }  // namespace

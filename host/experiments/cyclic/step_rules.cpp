@@ -64,7 +64,7 @@ std::optional<double> given_scaling(const Scene& scene, std::size_t frequency, d
   const SolverSpec& solver = scene.solver;
   if (solver.density_scaling || !solver.tolerance) return density_scaling_of(solver, frequency);
   if (!solver.time_step) return {};
-  SolverSpec computed;  // to compute the step that would be taken without the given one
+  SolverSpec computed;  // settings without the given time step, to compute the step that would be chosen
   computed.tolerance = solver.tolerance, computed.safety = solver.safety;
   const double safe = longest_cyclic_step(computed, critical, 1);
   return std::max(1.0, std::pow(*solver.time_step / safe, 2));  // the least scaling with which the given step is stable
@@ -75,7 +75,7 @@ double longest_cyclic_step(const SolverSpec& solver, double critical, double den
   const double safety = solver.safety.value_or(solver.tolerance ? 0.95 : 0.8);
   const double step = safety * critical * std::sqrt(density_scaling);
   const bool viscous = solver.damping_kind == Damping::viscous && solver.damping > 0;
-  return viscous ? std::min(step, 1 / solver.damping) : step;  // so that steps resolve the decay
+  return viscous ? std::min(step, 1 / solver.damping) : step;  // so that several steps resolve the decay by damping
 }
 
 double steps_per_period(double frequency, double step, int samples) {

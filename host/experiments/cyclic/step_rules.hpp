@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_rules.hpp  Defines those rules for stepping a cyclic test that need only the scene. The plan and the
-/// forecast both use them.
+/// \file step_rules.hpp  Defines those rules for stepping a cyclic test that need only the scene. The plan of a run
+/// uses them, and the forecast of its duration.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace macadam {
 
-/// Parts of the tolerance that single errors may take. The error of inertia may take `inertia_part` if a harmonic
-/// solution predicts it, and `estimate_part` if it is only estimated. The fixed geometry may take `geometry_part`. The
-/// remainder is for rounding (choose_precision()), start and time step.
+/// Fractions of the tolerance that single errors may reach. The error from scaled inertia may reach `inertia_part` if a
+/// harmonic solution predicts it, and `estimate_part` if it is only estimated. The error from a fixed geometry may
+/// reach `geometry_part`. The remainder is for the errors from rounding (choose_precision()), start and time step.
 inline constexpr double inertia_part = 0.9, estimate_part = 0.5, geometry_part = 0.02;
-/// Fraction of the allowed error of inertia that the density scaling aims at. The scaling is computed from the
-/// derivative of E*, so a fraction below 1 keeps the exact error within the allowed one.
+/// The density scaling is chosen so that its predicted error is this fraction of the allowed error. The prediction uses
+/// only the derivative of E*; a fraction below 1 leaves room for the difference between predicted and exact error.
 inline constexpr double aimed_part = 0.97;
 
 /// Returns the geometry of the scene. If it gives none, returns fixed if the tolerance allows it, otherwise updated.

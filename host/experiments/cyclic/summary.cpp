@@ -22,8 +22,8 @@ using Json = nlohmann::ordered_json;
 
 Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, {"phase_rad", error.phase_rad}}; }
 
-/// Adds the derivatives with respect to the logarithms of the parameters, and the part of the modulus that each pair
-/// carries.
+/// Adds the derivatives of |E*| and φ with respect to the logarithm of each parameter of the laws, and the fraction of
+/// E* that each pair type carries.
 void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Json& out) {
   out["sensitivities"] = Json::array();
   for (const Sensitivity& s : sensitivities(f.parts, laws, {0, 2 * std::numbers::pi * f.frequency_hz})) {
@@ -36,7 +36,7 @@ void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Json& o
   }
 }
 
-/// Returns the entries that do not depend on the method.
+/// Returns the entries of one frequency in `results` that do not depend on the method.
 Json begun(const Frequency& f, const char* method, double residual, const Scene& scene) {
   Json out = {{"frequency_hz", f.frequency_hz},
               {"e_star_pa", f.stiffness.e_star_pa},

@@ -78,7 +78,7 @@ std::vector<std::string> ExperimentOf<Sweep>::files(const Sweep&, const Scene&) 
 template <>
 std::unique_ptr<PlannedExperiment> ExperimentOf<Sweep>::plan(
     const Sweep&, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-    std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): stepped experiments keep it
+    std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): same signature as stepped experiments
     RunResult& result) {
   result.found.emplace<SweepResult>();
   const auto points = [](RunResult & run) -> auto& { return std::get<SweepResult>(run.found).points; };

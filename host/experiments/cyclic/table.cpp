@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// table.cpp  Makes the table of the cyclic test that the command prints.
+// table.cpp  Makes the table with the results of a cyclic test that the command prints.
 #include <fmt/format.h>
 
 #include "host/experiments/cyclic/frequency_summary.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// creep.cpp  Implements kind "creep": strain under a stress that is held, and after the stress is removed.
+// creep.cpp  Implements kind "creep": the strain under a constant stress, and after the stress has been removed.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error.cpp  Computes the errors of a stepped test as differences from the answer without time steps. If there is
-// no such answer, estimates them from the ramp, the damping and the forces on the walls.
+// load_error.cpp  Computes the errors of a stepped test as differences from the response that is computed without time
+// steps. If that response is not known, estimates the errors from the ramp, the damping and the forces on the walls.
 #include "host/experiments/transient/load_error.hpp"
 
 #include <fmt/format.h>
@@ -20,16 +20,16 @@ using experiments::SteppedPoint;
 
 namespace {
 
-/// Tolerance of E(t) if errors are measured against it.
+/// Relative tolerance with which E(t) is computed if errors of steps are measured against it.
 constexpr double spectrum_tolerance = 1e-5;
-/// Largest strain at which the update of the geometry may be neglected. The update changes stresses by about three
-/// times the strain, that is 0.3 % at this strain.
+/// Largest strain at which the change of the geometry may be neglected. It changes stresses by a fraction of about
+/// three times the strain, that is 0.3 % at this strain.
 constexpr double small_strain = 1e-3;
 /// A row of the result with a larger error than this is named in a warning.
 constexpr double largest_error = 1e-2;
 
-/// Returns the times of a load with the release rounded to a whole step, as in the run. A load that is removed at once
-/// is still held at that step.
+/// Returns the times of a load as in the run, where the release is rounded to a whole step. A load that is removed at
+/// once is still held at the step of the release.
 LoadTimes on_steps(const LoadTimes& asked, double ramp, double dt) {
   LoadTimes out{ramp, {}};
   if (!asked.release) return out;
@@ -127,11 +127,12 @@ bool LoadErrors::is_known(const SteppedPoint& row, const std::vector<SteppedPoin
   if (!spectrum_) return false;
   double strain = std::abs(row.strain);
   for (const SteppedPoint& p : before) strain = std::max(strain, std::abs(p.strain));
-  return !updated_ || strain <= small_strain;  // a larger strain turns contacts, which the spectrum does not contain
+  // a larger strain turns the contacts, and the relaxation spectrum does not contain this effect
+  return !updated_ || strain <= small_strain;
 }
 
-/// Returns the error of a row as a difference from the answer without steps, in two parts: the effect of the run's
-/// ramp, and the remainder.
+/// Returns the error of a row as the difference from the response without time steps, in two parts: the effect of the
+/// run's ramp, and the remainder.
 LoadErrors::Parts LoadErrors::measured(const SteppedPoint& row) const {
   const double asked = value(test_.unstepped(*spectrum_, row.time_s, asked_)),
                run = value(test_.unstepped(*spectrum_, row.time_s, run_));
@@ -165,9 +166,9 @@ double LoadErrors::modulus(const SteppedPoint& row, const std::vector<SteppedPoi
   return std::min(stress / strain, affine_modulus_);
 }
 
-/// Returns the largest relative rate of change [1/s] that the answer can have had over the last `window` seconds. E(t)
-/// is convex and J(t) is concave, so over the last part of a time they change more slowly than on average over the
-/// whole time.
+/// Returns an upper bound of the relative rate of change [1/s] of E(t) or J(t) over the last `window` seconds before
+/// the row. E(t) is convex and J(t) is concave. So in the last part of any interval they change no faster than on
+/// average over the whole interval.
 double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>& before, double modulus,
                         double window) const {
   if (test_.grows) return 1 / row.time_s;
@@ -232,7 +233,7 @@ std::string LoadErrors::warning(const std::vector<SteppedPoint>& rows) const {
                      advice(known ? measured(*worst) : estimated(*worst, before)));
 }
 
-/// Names the larger part of the error and what reduces it.
+/// Returns advice for the warning: which part of the error is larger, and what reduces this part.
 std::string LoadErrors::advice(const Parts& parts) const {
   const std::string lighter =
       plan_.density_scaling > 1 ? fmt::format(", a smaller density_scaling (now {:g})", plan_.density_scaling) : "";

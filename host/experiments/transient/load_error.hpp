@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_error.hpp  Computes the error of a stepped test of a load. It is measured against the answer without
-/// steps if there is one, otherwise estimated.
+/// \file load_error.hpp  Computes the error of a stepped test of a load. The error is the difference from the response
+/// without time steps, if this response is known; otherwise it is estimated.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace macadam {
 
-/// The relaxation of the specimen, from which the answer to any load follows without steps.
+/// The relaxation of the specimen. From it the response to any load is computed without time steps.
 struct UnsteppedAnswer {
   PronySeries relaxation;  ///< relaxation of the whole specimen
-  double error = 0;        ///< relative error of E(t) and J(t)
+  double error = 0;        ///< estimated relative error of E(t) and J(t)
 };
 
-/// Solves the relaxation for the times of the rows. Returns nothing if that fails, and appends the reason to the
-/// decisions of the plan. \throws InterruptedError
+/// Computes the relaxation for the times of the rows of the result. If that fails, returns nothing and appends the
+/// reason to the decisions of the plan. \throws InterruptedError
 std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, const Scene& scene,
                                                const Preparation& prepared, const Watcher& watcher, Backend backend,
                                                LoadPlan& plan);
@@ -34,11 +34,11 @@ class LoadErrors {
   /// Returns the error of a row. `before`: the earlier rows.
   double of(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
 
-  /// Describes how much the ramp of the run changes E(t) or J(t) from those after a step of the load; empty if that is
-  /// not known or zero.
+  /// Returns a text that says by how much the ramp of the run changes E(t) or J(t) from their values after a sudden
+  /// load; empty if the change is not known or zero.
   std::string ramp_words() const;
 
-  /// Describes the meaning of the column `error` in the table of results.
+  /// Returns a text that says what the column `error` in the table of results means.
   std::string meaning() const;
 
   /// Returns a warning that names the row with the largest error, its cause and what reduces it; empty if no error is
@@ -69,7 +69,8 @@ class LoadErrors {
   bool updated_ = true, damping_given_ = false;
   bool remembers_ = false;     ///< whether a law relaxes; if none does, only the present load has an effect
   double affine_modulus_ = 0;  ///< upper bound of the instantaneous modulus [Pa]
-  double wave_ = 0;  ///< ω² of the slowest wave over the modulus: π²/(ρ·H²); a quarter of that with a platen
+  /// ω² of the slowest wave divided by the modulus: π²/(ρ·H²); a quarter of this value if the load is a stress.
+  double wave_ = 0;
 };
 
 }  // namespace macadam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_plan.cpp  Chooses ramp, damping, platen and step from the slowest wave of the specimen and the times of the
-// points.
+// load_plan.cpp  Chooses ramp, damping, platen mass and time step of a stepped test, from the slowest wave of the
+// specimen and the times of the result's points.
 #include "host/experiments/transient/load_plan.hpp"
 
 #include <fmt/format.h>
@@ -82,11 +82,11 @@ class LoadPlanner {
                : fmt::format("waves that a change of load causes die out within {:.3g} s", damping_.pause));
   }
 
-  /// Chooses the lightest platen that does not shorten the step, unless the scene gives one.
+  /// Chooses the lightest platen that does not shorten the time step, unless the scene gives the mass of the platen.
   void choose_platen() {
     plan_.platen_mass = test_.platen_mass.value_or(0);
     if (plan_.platen_mass > 0) return;
-    Inertia heavy = inertia_;  // particles so heavy that the wall alone limits the step
+    Inertia heavy = inertia_;  // particles so heavy that the wall alone limits the time step
     for (auto* list : {&heavy.mass, &heavy.inertia}) std::fill(list->begin(), list->end(), 1e60);
     StepperOptions options;
     const double particles = critical_step(prepared_.network, scene_.laws, inertia_, options).dt;

@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// How a test is stepped.
+/// The settings with which a test is stepped.
 struct LoadPlan {
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::updated;
@@ -21,16 +21,16 @@ struct LoadPlan {
   Damping damping_kind = Damping::none;
   double damping = 0;
   double ramp = 0;         ///< time in which the load grows [s]
-  double platen_mass = 0;  ///< [kg]; 0: the wall is displaced, not loaded
-  double dt = 0;           ///< [s]
+  double platen_mass = 0;  ///< mass of the loaded top wall [kg]; 0: the wall is displaced, not loaded
+  double dt = 0;           ///< time step [s]
   std::vector<std::string> decisions;
 
-  std::int64_t step_at(double time) const;  ///< the nearest step, at least 1
+  std::int64_t step_at(double time) const;  ///< number of the step nearest to a time, at least 1
 };
 
 /// Keeps the settings that the scene gives and chooses the others; docs/relaxation.md explains how. \throws InputError
-/// for settings that do not apply to stepped tests of a load; RunError if the step is hopelessly small, or if the top
-/// wall touches nothing.
+/// for settings that do not apply to stepped tests of a load; RunError if the time step would be so small that a run is
+/// impossible, or if the top wall touches no particle.
 LoadPlan make_load_plan(const TransientExperiment& test, const Scene& scene, const Preparation& prepared,
                         const Inertia& inertia);
 

@@ -16,10 +16,10 @@
 namespace macadam {
 namespace {
 
-/// Largest wave, relative to the stress, that may be left at the time of a point.
+/// Largest amplitude of a wave, relative to the stress, that is allowed at the time of a point.
 constexpr double largest_wave = 2e-5;
 
-/// Returns the shortest time from a change of the load's rate to a point [s].
+/// Returns the shortest time from a change of the load's rate to the next point of the result [s].
 double shortest_pause(const TransientExperiment& test, double ramp) {
   std::vector<double> changes{0};
   if (!test.grows) changes.push_back(ramp);
@@ -68,7 +68,7 @@ double load_step(const TransientExperiment& test, const SolverSpec& solver, doub
   constexpr double usual_safety = 0.8;
   const double safe = solver.safety.value_or(usual_safety) * critical * std::sqrt(density_scaling);
   double step = solver.time_step.value_or(safe);
-  // so that steps resolve the decay
+  // so that several steps resolve the decay by damping
   if (damping.kind == Damping::viscous && !solver.time_step) step = std::min(step, 1 / damping.value);
   const double end = test.history.times.back();
   require_possible(end / step, step, fmt::format("until {:g} s", end));

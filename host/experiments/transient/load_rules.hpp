@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file load_rules.hpp  Computes ramp, damping and time step of a stepped relaxation, creep or constant-rate test. The
-/// plan and the forecast both use these rules.
+/// plan of a run uses these rules, and the forecast of its duration.
 #pragma once
 
 #include "host/experiments/transient/transient_experiment.hpp"
@@ -19,7 +19,7 @@ double ramp_of(const TransientExperiment& test, double slowest);
 struct LoadDamping {
   Damping kind = Damping::none;
   double value = 0;       ///< χ, or β [1/s]
-  bool chosen = false;    ///< chosen by these rules, not by the scene; then it is viscous
+  bool chosen = false;    ///< whether these rules chose the damping, which is then viscous, and not the scene
   bool critical = false;  ///< whether it is the critical damping of the slowest wave; weaker damping would leave waves
                           ///< at the first points
   double pause = 0;       ///< shortest time from a change of the load's rate to the next point of the result [s]

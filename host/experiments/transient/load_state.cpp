@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_state.cpp  Stores plan and times as text, and points, cracks and the answer without steps as arrays.
+// load_state.cpp  Stores the state of a stepped test of a load in a checkpoint. The plan and the wall times are stored
+// as text. The points of the result, the broken contact points and the relaxation of the specimen, which was solved
+// without time steps, are stored as arrays.
 #include "host/experiments/transient/load_state.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +16,8 @@ namespace macadam {
 
 using experiments::SteppedPoint;
 
-// JSON numbers have the fewest digits that give the same double again. All of these numbers are finite.
+// A number in JSON is written with the fewest digits from which the same double is read again. JSON has no infinity and
+// no NaN, but all of these numbers are finite.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadPlan, form, geometry, precision, critical, density_scaling, damping_kind,
                                    damping, ramp, platen_mass, dt, decisions)
@@ -29,7 +32,8 @@ constexpr const char *plan_text = "plan", *points_array = "points", *cracks_arra
                      *unstepped_array = "unstepped";
 constexpr std::size_t point_words = 9;
 
-/// Returns the error and the long-term modulus, then modulus and time of each unit.
+/// Returns the numbers of a relaxation in one list: its error, the long-term modulus, then modulus and time of each
+/// unit.
 std::vector<double> to_numbers(const UnsteppedAnswer& answer) {
   std::vector<double> out{answer.error, answer.relaxation.long_term};
   for (const auto& u : answer.relaxation.units) out.insert(out.end(), {u.modulus, u.time});

@@ -9,11 +9,12 @@
 
 namespace macadam {
 
-/// Everything that a run needs to continue with the same bits.
+/// Everything that a run needs to continue, with results that have the same bits.
 struct LoadState {
   LoadPlan plan;
-  experiments::Peak peak;                         ///< largest stress until now
-  std::optional<UnsteppedAnswer> unstepped;       ///< errors are measured against it; if empty, they are estimates
+  experiments::Peak peak;  ///< largest stress until now
+  /// Relaxation, against which errors are measured; if empty, errors are estimated.
+  std::optional<UnsteppedAnswer> unstepped;
   double seconds_planning = 0, seconds = 0;       ///< wall time [s]; `seconds`: of the stepping until now
   std::vector<std::string> warnings;              ///< warnings about checkpoints that could not be written
   std::vector<experiments::SteppedPoint> points;  ///< points reached until now

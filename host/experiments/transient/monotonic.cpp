@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// monotonic.cpp  Implements kind "monotonic": stress under a strain that grows evenly.
+// monotonic.cpp  Implements kind "monotonic": the stress under a strain that grows at a constant rate.
 #include "host/experiments/transient/transient_experiment.hpp"
 #include "macadam/drives/constant_rate.hpp"
 

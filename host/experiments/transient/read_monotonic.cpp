@@ -13,7 +13,7 @@ template <>
 Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
   using namespace scene;
   constexpr Rule rule{[](double v) { return v != 0; }, "a rate that is not 0"};
-  // at a strain of -1 nothing is left of the specimen; no test of a mixture or a binder goes beyond a strain of 10
+  // at a strain of -1 nothing is left of the specimen; no test of a mixture or a binder reaches a strain of 10
   constexpr Rule any{[](double v) { return v != 0 && v > -1 && v <= 10; }, "a strain above -1 and at most 10, not 0"};
   constexpr int usual_points = 100;
   Monotonic out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// relaxation.cpp  Implements kind "relaxation": stress under a strain that is held.
+// relaxation.cpp  Implements kind "relaxation": the stress under a constant strain.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_load.cpp  Steps a load on the top wall from point to point.
+// step_load.cpp  Steps a test with a load on the top wall, from one point of the result to the next.
 #include "host/experiments/transient/step_load.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ using experiments::SteppedResponse;
 
 namespace {
 
-/// The user is warned of more steps or more seconds than these.
+/// If a run has more steps than this or is predicted to take more seconds than this, the user is warned.
 constexpr std::int64_t many_steps = 100'000'000;
 constexpr double many_seconds = 3600;
 /// Number of times at which a strength test reads the stress, evenly spaced over its steps.
@@ -62,7 +62,8 @@ class SteppedLoad : public PlannedExperiment {
         cracks_(scene, prepared, at_.cracks),
         owns_checkpoint_(resumed) {}
 
-  /// Makes the stepper before any file is changed, so that a scene that it refuses leaves all files as they were.
+  /// Makes the stepper. This is done before any file is changed, so that all files stay as they were if the stepper
+  /// refuses the scene.
   void make(RunResult& result, const std::filesystem::path& checkpoint) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const LoadPlan& p = at_.plan;
@@ -188,7 +189,8 @@ class SteppedLoad : public PlannedExperiment {
                        cracks_.active() ? fmt::format(",{}", p.broken_points) : "");
   }
 
-  /// Returns whether the largest stress is recorded: in a strength test, not under a held load.
+  /// Returns whether the largest stress is recorded: only in a strength test, in which the strain grows and contact
+  /// points can break.
   bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
   /// Keeps the largest stress so far, with its time and strain.
   void follow_peak(const Observation& now) {
@@ -198,8 +200,9 @@ class SteppedLoad : public PlannedExperiment {
     if (sign * stress > sign * at_.peak.stress_pa) at_.peak = {now.time, strain, stress};
   }
 
-  /// Counts the points that are broken at a sample and returns the new events. Under tension the test ends when no
-  /// intact path joins the walls; in compression broken points still bear load.
+  /// Counts the contact points that are broken at a sample and returns the events since the last sample. Under tension
+  /// the test ends when no path of intact contacts joins the walls. In compression broken points still bear load, so
+  /// the test goes on.
   std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
     auto events = cracks_.look(*stepper_, point.time_s);
     at_.cracks = cracks_.found().events;
@@ -212,7 +215,8 @@ class SteppedLoad : public PlannedExperiment {
     return events;
   }
 
-  /// Sample 0 is the initial state, which the fields show; the other samples are the points.
+  /// Returns the course of the run: its samples, and the functions that are called at them. Sample 0 is the initial
+  /// state, which is drawn in the field files. The other samples are the points of the result.
   Course course_of(const std::function<void(SteppedPoint)>& add, Content content) {
     const std::vector<double>& times = test_.history.times;
     Course course;
@@ -268,7 +272,7 @@ class SteppedLoad : public PlannedExperiment {
     return out;
   }
 
-  /// Returns the largest kinetic energy over the work of the load; 0 without work.
+  /// Returns the largest kinetic energy divided by the work of the load; 0 if the load does no work.
   double kinetic_share(const SteppedResponse& found) const {
     double kinetic = 0, strain = 0, stress = 0;
     for (const SteppedPoint& p : found.points) {
@@ -280,13 +284,13 @@ class SteppedLoad : public PlannedExperiment {
     return work > 0 ? kinetic / work : 0;
   }
 
-  /// Returns advice for a run with too many steps.
+  /// Returns a text that advises how to get fewer steps.
   static std::string fewer_steps() {
     return "a larger density_scaling reduces their number, and method = \"harmonic\" needs none if all laws are linear";
   }
 
-  /// Adds a warning if the error of a row is large. A specimen in two pieces has no equilibrium: its rupture is
-  /// reported instead. In a strength test the rupture is a result and not a warning.
+  /// Adds a warning if the error of a row is large. A specimen in two pieces has no equilibrium, so its rupture is
+  /// reported instead of an error. In a strength test the rupture is a result and causes no warning.
   void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
     if (found.rupture && !test_.grows) return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
     std::vector<SteppedPoint> whole = found.points;

@@ -6,9 +6,9 @@
 
 namespace macadam {
 
-/// Plans one run from the beginning or from a checkpoint. Each point is written to the kind's file at once. Decisions
-/// are stored in `result`. \throws InputError, also naming a checkpoint whose state is from another machine; RunError
-/// as make_load_plan() and make_stepper() do.
+/// Plans one run from the beginning or from a checkpoint. Each point is written at once to the result file of this kind
+/// of test. Decisions are stored in `result`. \throws InputError, which names the checkpoint if the checkpoint was
+/// written on another machine and cannot be continued here; RunError as make_load_plan() and make_stepper() do.
 std::unique_ptr<PlannedExperiment> plan_load_steps(const TransientExperiment& test, const Scene& scene,
                                                    const Preparation& prepared, const Watcher& watcher,
                                                    std::optional<Resumed> resumed, RunResult& result);

@@ -40,7 +40,7 @@ constexpr bool is_listed(std::string_view kind) {
   return std::any_of(all_words.begin(), all_words.end(), [&](const LoadWords& words) { return words.kind == kind; });
 }
 
-/// Returns whether every experiment that tests a load has an entry in all_words.
+/// Returns whether all_words has an entry for every relaxation, creep and constant-rate test.
 template <class... Spec>
 constexpr bool are_all_listed(const std::variant<Spec...>* /*experiments*/) {
   const auto listed = []<class One>(const One* /*spec*/) {

@@ -23,19 +23,21 @@ struct LoadTimes {
   std::optional<double> release;  ///< time at which the removal begins [s]; empty: never
 };
 
-/// Describes one of these tests. Both methods, stepped and without steps, use it.
+/// Describes a relaxation, creep or constant-rate test. It is used for stepped tests and for tests computed without
+/// time steps.
 struct TransientExperiment {
   std::string kind;
   History history;
   double poisson_ratio = 0;
   /// values that the scene requests, each with its name in summary.json
   std::vector<std::pair<const char*, std::optional<double>>> load;
-  /// Returns the response at a time to this load, applied at the times `when`, from the specimen's spectrum.
+  /// Returns the response at a time to this load, applied at the times `when`, from the specimen's relaxation spectrum.
   std::function<experiments::ResponsePoint(const Spectrum&, double time, const LoadTimes& when)> unstepped;
 
-  bool by_stress = false;             ///< the load is a stress; else a strain
-  LoadTimes when;                     ///< times as given in the scene
-  bool grows = false;                 ///< whether the load grows during the whole test; the ramp is then the whole test
+  bool by_stress = false;  ///< whether the load is a stress; otherwise it is a strain
+  LoadTimes when;          ///< times as given in the scene
+  /// Whether the load grows during the whole test; the duration of the ramp is then that of the test.
+  bool grows = false;
   std::optional<double> platen_mass;  ///< mass of the top wall if a stress loads it [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand
   double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
@@ -56,11 +58,12 @@ TransientExperiment load_test_of(const Scene& scene);
 /// Names and units of the numbers in the results of one kind of test.
 struct LoadWords {
   const char *kind, *file, *ratio;  ///< ratio: the name of ResponsePoint::ratio in files
-  const char* comment;              ///< comment in the file of a run without steps
-  bool stress_first;                ///< whether the load's column comes before the response's
-  const char* shown;                ///< the ratio's name for people, with its unit
-  const char* shown_stepped;        ///< the same in a stepped run, for the ratio of strain and stress of a row
-  double unit;                      ///< unit in which people see the ratio
+  const char* comment;              ///< comment in the file of a run without time steps
+  bool stress_first;                ///< whether the column of the stress comes before the column of the strain
+  const char* shown;                ///< name of the ratio in printed text, with its unit
+  /// The same for a stepped run, where the ratio is computed from strain and stress of a row.
+  const char* shown_stepped;
+  double unit;  ///< unit of the ratio in printed text
 };
 /// Returns the names and units for a kind of test. \throws RunError for a kind that is not a test of a load.
 const LoadWords& load_words(const std::string& kind);
@@ -78,11 +81,12 @@ std::string shown_line(const LoadWords& words, const char* ratio, const experime
 /// Adds the load that the scene requests to an entry of `results`.
 void add_load(const TransientExperiment& test, nlohmann::ordered_json& out);
 
-/// Returns the names of a kind's result files: its table, the table of cracks if points can break, and without steps
-/// the tables of the material.
+/// Returns the names of the result files of a kind of test: its table; the table of cracks if contact points can break;
+/// the tables of the material if the test is computed without time steps.
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
-/// Plans one test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
+/// Plans one test by the scene's method: from the relaxation spectrum, or in time steps. \throws InputError, RunError
+/// as plan_material() and plan_load_steps() do.
 std::unique_ptr<PlannedExperiment> plan_load_test(const TransientExperiment& test, const Scene& scene,
                                                   const Preparation& prepared, const Watcher& watcher,
                                                   std::optional<Resumed> resumed, RunResult& result);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cholesky.cpp  Factors the matrix. METIS orders particles instead of degrees of freedom, so its graph has six times
-// fewer nodes. CHOLMOD works on supernodes (groups of columns with the same structure) as dense blocks.
+// cholesky.cpp  Factors the matrix. METIS computes an order of the particles, not of the degrees of freedom, so its
+// graph has six times fewer nodes. CHOLMOD treats supernodes (groups of columns with the same structure) as dense
+// blocks.
 #include "host/harmonic/direct/cholesky.hpp"
 
 #include <cholmod.h>
@@ -23,7 +24,8 @@ extern "C" void dgemm_(const char*, const char*, const int* m, const int* n, con
 namespace macadam::harmonic {
 namespace {
 
-/// Returns the position of each particle in an order that keeps the factors sparse; the given order if METIS fails.
+/// Returns the position of each particle in an order that keeps the factors sparse; if METIS fails, the given order is
+/// kept.
 std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::size_t particles) {
   std::vector<idx_t> begin{0}, neighbour;
   for (std::size_t i = 0; i < particles; ++i) {
@@ -45,10 +47,10 @@ std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::
   return {place.begin(), place.end()};
 }
 
-/// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. OpenBLAS divides products among its
-/// threads, so the last digits of the factors would depend on their number. Its threads would also not be counted among
-/// the threads of a job. More threads would not help either: most supernodes are small, and 16 threads took twice as
-/// long as four.
+/// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. OpenBLAS divides matrix products among
+/// its threads, so the last digits of the factors would depend on the number of threads. The threads of OpenBLAS would
+/// also exceed the number of threads that a job may use. More threads would not help either: most supernodes are small,
+/// and 16 threads took twice as long as four.
 void limit_blas_threads() {
   if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
 }
@@ -98,7 +100,8 @@ struct Cholesky::Factor {
     make_room_for_blas();
     cholmod_start(&common);
   }
-  /// Checks CHOLMOD's last call. `what` names the operation, for the message. \throws RunError if the call failed.
+  /// Checks the status of CHOLMOD's last call. `what` names the operation in the message. \throws RunError if the call
+  /// failed.
   void require(const char* what, std::size_t particles) const {
     if (common.status >= CHOLMOD_OK) return;
     const char* why = common.status == CHOLMOD_OUT_OF_MEMORY ? "not enough memory"

@@ -2,10 +2,10 @@
 // direct_solver.cpp  Solves by COCG (conjugate gradients for complex symmetric matrices) with a real Cholesky
 // preconditioner.
 //
-// K*(s) is the real stiffness matrix of the network with each contact multiplied by the complex number of its pair.
-// The preconditioner is the same matrix with the real parts of these numbers at one frequency. The eigenvalues of the
-// preconditioned matrix lie close to the ratios of the complex numbers to these real parts. There are only a few
-// ratios, one for each pair, so about ten iterations suffice.
+// K*(s) is a sum over the contacts, in which each contact has the complex stiffness of its pair type as a factor. The
+// preconditioner is the same sum with the real parts of these stiffnesses at one frequency. The eigenvalues of the
+// preconditioned matrix lie close to the ratios of complex stiffness to real part. There are only a few such ratios,
+// one for each pair type, so about ten iterations suffice.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,7 +28,7 @@ Complex product(const Vector& x, const Vector& y) {
 double energy_of(const Vector& r, const Vector& z) {
   double sum = 0;
   for (std::size_t i = 0; i < r.size(); ++i) sum += (std::conj(r[i]) * z[i]).real();
-  return std::max(sum, 0.0);  // may be negative if r is rounding error only
+  return std::max(sum, 0.0);  // the sum may be negative if r consists of rounding errors only
 }
 /// The solver that make_direct_solver() returns.
 class DirectSolver : public LinearSolver {
@@ -45,8 +45,8 @@ class DirectSolver : public LinearSolver {
   }
 
  private:
-  /// Solves a task, then computes its energy from a new residual, because the residual that the iteration updates has
-  /// accumulated rounding errors.
+  /// Solves a task, then computes its energy rᴴ·P⁻¹·r from r = f − K·x. The r that the iteration updates is not used
+  /// for this, because it has accumulated rounding errors.
   void solve(LinearTask& task, const std::function<bool()>& stop) const {
     iterate(task, stop);
     Vector r, z;
@@ -88,7 +88,7 @@ class DirectSolver : public LinearSolver {
     }
   }
 
-  /// Computes r = f − K·x.
+  /// Computes the residual r = f − K·x.
   void rest(const LinearTask& task, Vector& r) const {
     apply(task, task.motion, r);
     for (Complex& z : r) z = -z;
@@ -101,13 +101,14 @@ class DirectSolver : public LinearSolver {
   void precondition(const LinearTask& task, const Vector& r, Vector& z) const {
     factors_.solve(r, z);
     // The load does not act on the free motions, so with inertia they are absent from the solution. The preconditioner,
-    // which has pins in place of inertia, would add some of these motions to z, and the number of iterations would
-    // triple.
+    // which has pins in place of inertia, would add some of these motions to z. Without removing them, the number of
+    // iterations would triple.
     if (task.inertia == 0.0) return;
     for (const FreeMotion& motion : free_.motions) motion.remove_from(z, inertia_);
   }
 
-  /// Computes out = (K* − inertia·M)·x with inertia, or (K* + pins)·x without. With inertia free motions need no pins.
+  /// Computes out = (K* − inertia·M)·x with inertia, or (K* + pins)·x without. With inertia the matrix is not singular,
+  /// so free motions need no pins.
   void apply(const LinearTask& task, const Vector& x, Vector& out) const {
     contacts_.resistance(task.stiffness, task.inertia, inertia_, x, out);
     if (task.inertia != 0.0) return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stiffness_matrix.cpp  Sums K = Σ Gᵀ·D·G over the contacts and writes it straight into compressed columns.
+// stiffness_matrix.cpp  Computes K = Σ Gᵀ·D·G over the contacts, where G gives the relative displacements of a contact
+// and D its stiffness. The sums are written directly into the compressed columns of the sparse matrix.
 #include "host/harmonic/direct/stiffness_matrix.hpp"
 
 #include <algorithm>

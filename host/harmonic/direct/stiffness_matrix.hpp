@@ -9,8 +9,9 @@
 
 namespace macadam::harmonic {
 
-/// Returns the lower triangle of Σ Re k_pair · K_pair over the pairs, plus the pins, in 6 × 6 blocks for pairs of
-/// particles. `place[i]` is the position of particle i in the matrix.
+/// Returns the lower triangle of Σ Re k_p · K_p over the pair types p, plus the stiffness of the pins. The matrix has a
+/// 6 × 6 block for every two particles in contact and for every particle. `place[i]` is the position of particle i in
+/// the matrix.
 Eigen::SparseMatrix<double> assemble_lower(const ContactNetwork& network, const PairStiffness& stiffness,
                                            const std::vector<std::int32_t>& place, const std::vector<Pin>& pins);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// apply_row.cpp  Applies the contact kinematics of the kernels to registers that hold all solutions.
+// apply_row.cpp  Applies the contact kinematics of kernels/ to SIMD registers, each of which holds one number of every
+// solution.
 #include "host/harmonic/iterative/apply_row.hpp"
 
 #include "kernels/harmonic/particle_block.hpp"

@@ -16,7 +16,7 @@ struct BlockStiffness {
   bool inert = true;  ///< whether no solution has inertia
 };
 
-/// Computes (K* − inertia·M)·x for one body and all F solutions.
+/// Computes the six rows of (K* − inertia·M)·x that belong to one body, for all F solutions.
 template <int F>
 void apply_row(const kernels::LinearSystem& system, const BlockStiffness<F>& stiffness, std::size_t body,
                const LaneVector<F>& x, Lanes<F> (&out)[6]);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // block_cocg.cpp  Implements COCG, the conjugate-gradient method with products xᵀ·y without conjugates, for complex
-// symmetric matrices. The preconditioner adds a fine level (the inverse block of each particle) and a coarse level
-// (rigid motions of boxes). One iteration has three sweeps over the particles. The first computes q = K·p, the second
-// x, r and the fine level of z, the third the coarse level of z and then p. Sums are computed per block of particles
-// and then added in order, so that they do not depend on the number of threads.
+// symmetric matrices. The preconditioned residual z is the sum of a fine level (the inverse stiffness block of each
+// particle times its residual) and a coarse level (rigid motions of boxes of particles). One iteration has three sweeps
+// over the particles. The first computes q = K·p. The second updates x, r and the fine level of z. The third adds the
+// coarse level to z and then computes p. Sums over all particles are computed as partial sums over a fixed number of
+// particles, which are then added in order. So they do not depend on the number of threads.
 #include "host/harmonic/iterative/block_cocg.hpp"
 
 #include <algorithm>
@@ -56,7 +57,7 @@ class BlockCocg {
       L drop[kernels::most_free_motions];
       precondition(sums, drop);
       Factor<F> beta;
-      const double worst = judge(k, sums, beta);  // the largest residual of the tasks that are not done
+      const double worst = judge(k, sums, beta);  // the largest relative residual of the tasks that are not done
       if (worst < 0.9 * best) best = worst, best_at = k;
       if (worst == 0 || k >= kernels::most_iterations || k - best_at > kernels::most_stagnant) break;
       require_not_stopped(stop);
@@ -76,7 +77,8 @@ class BlockCocg {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// Sums over particles: rᵀ·z, rᵀ·r, and the mass-weighted products of z with the free motions (`drop`).
+  /// Sums over particles: rᵀ·z, rᵀ·r, and the mass-weighted products of z with the free motions, which will be removed
+  /// from z (`drop`).
   struct Sums {
     Products<F> rz, rr;
     L drop[kernels::most_free_motions];
@@ -86,7 +88,8 @@ class BlockCocg {
     }
   };
 
-  /// Calls work(body, sums) for all bodies in parallel and returns the total.
+  /// Calls work(body, sums), which adds the terms of one body to `sums`, for all bodies in parallel. Returns the sums
+  /// over all bodies.
   template <class Work>
   Sums sum(Work&& work) {
 #pragma omp parallel for schedule(static)
@@ -139,8 +142,8 @@ class BlockCocg {
   }
 
   /// Updates the state of each task and computes β = rᵀz / (rᵀz of the previous iteration). For tasks that are done β
-  /// is 0, and they no longer change. Returns the largest relative residual of the tasks that are not done, or 0 if all
-  /// are done.
+  /// is 0, and their solutions no longer change. Returns the largest relative residual of the tasks that are not done,
+  /// or 0 if all are done.
   double judge(int k, const Sums& sums, Factor<F>& beta) {
     double worst = 0;
     for (int f = 0; f < F; ++f) {
@@ -151,7 +154,7 @@ class BlockCocg {
         done_[f] = residual <= task.tolerance && task.energy <= task.energy_limit;
         task.converged = done_[f];
         task.iterations += k > 0;
-        if (!std::isfinite(residual)) done_[f] = true;  // not finite: this task is lost, the others continue
+        if (!std::isfinite(residual)) done_[f] = true;  // this task cannot converge any more; the other tasks continue
         if (!done_[f]) worst = std::max(worst, residual);
       }
       const Complex rho = done_[f] ? Complex(0) : sums.rz.plain(f) + coarse_product_.plain(f);
@@ -174,7 +177,8 @@ class BlockCocg {
     for (int f = 0; f < F; ++f) tasks_[static_cast<std::size_t>(f)]->energy = energy_of(sums, f);
   }
 
-  /// Computes r = f − K·x (r must hold f) and the fine level of the preconditioner. Returns the sums.
+  /// Computes r = f − K·x (r must hold f on entry) and the fine level of z. Returns rᵀ·z, rᵀ·r and the products with
+  /// the free motions.
   Sums start() {
     return sum([&](std::size_t i, Sums& own) {
       L kx[6];
@@ -184,7 +188,7 @@ class BlockCocg {
     });
   }
 
-  /// Computes z = K_ii⁻¹·r of one body, and adds its terms to the sums.
+  /// Computes z = K_ii⁻¹·r of one body (the fine level), and adds the terms of this body to the sums `own`.
   void fine(std::size_t i, Sums& own) {
     const double* inverse = &inverse_[36 * i];
     const L* r = &r_[6 * i];
@@ -201,8 +205,8 @@ class BlockCocg {
     }
   }
 
-  /// Computes the coarse level, coarse = (RᵀKR)⁻¹·Rᵀ·r, and in `drop` the products of the whole z with the free
-  /// motions.
+  /// Computes the coarse level, coarse = (RᵀKR)⁻¹·Rᵀ·r. Stores in `drop` the mass-weighted products of the complete z,
+  /// with both levels, with the free motions.
   void precondition(const Sums& sums, L (&drop)[kernels::most_free_motions]) {
     const std::size_t boxes = system_.boxes();
 #pragma omp parallel for schedule(static)
@@ -264,7 +268,7 @@ class BlockCocg {
         .rz;
   }
 
-  /// Computes x += α·p, r −= α·q and the fine level. Returns the sums.
+  /// Computes x += α·p, r −= α·q and the fine level of z. Returns rᵀ·z, rᵀ·r and the products with the free motions.
   Sums advance(const Factor<F>& alpha) {
     return sum([&](std::size_t i, Sums& own) {
       for (std::size_t c = 0; c < 6; ++c) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file block_cocg.hpp  Solves by conjugate gradients for complex symmetric matrices (COCG), for several frequencies
-/// side by side.
+/// \file block_cocg.hpp  Solves by conjugate gradients for complex symmetric matrices (COCG), for several linear
+/// systems side by side.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // invert.cpp  Computes the Cholesky factors by blocks, then the columns of the inverse by triangular solves. Eigen
-// would use one thread for both.
+// would use only one thread for the factorisation and the solves.
 #include "host/harmonic/iterative/invert.hpp"
 
 #include <Eigen/Cholesky>
@@ -13,7 +13,7 @@
 namespace macadam::harmonic {
 namespace {
 
-constexpr Eigen::Index width = 48;  ///< rows of a block: small enough to give a dozen threads work
+constexpr Eigen::Index width = 48;  ///< rows of a block: small enough to give work to a dozen threads
 
 /// A matrix seen as square blocks.
 struct Blocks {
@@ -58,7 +58,8 @@ bool invert_in_parallel(Eigen::MatrixXd& matrix) {
   if (!factor(blocks)) return false;
   const Eigen::Index size = matrix.rows();
   Eigen::MatrixXd inverse(size, size);
-  // The inverse is symmetric: each block of columns is computed from the diagonal down and then mirrored.
+  // The inverse is symmetric. So each block of columns is computed from the diagonal downwards, and the part above the
+  // diagonal is copied from it.
   for_each_in_parallel(static_cast<std::size_t>(blocks.count), [&](std::size_t number) {
     const auto j = static_cast<Eigen::Index>(number);
     const Eigen::Index first = width * j, rest = size - first, columns = blocks.size(j);

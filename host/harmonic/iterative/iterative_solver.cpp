@@ -43,7 +43,7 @@ class CpuSolver : public LinearSolver {
   std::vector<double> inverse_;
 };
 
-/// The iterative solver on CUDA devices, where the whole iteration runs.
+/// The iterative solver on CUDA devices (GPUs). The whole iteration runs on the devices.
 class CudaSolver : public LinearSolver {
  public:
   CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system, const DeviceList& devices)
@@ -83,10 +83,10 @@ class CudaSolver : public LinearSolver {
     std::future<void> room;
     try {
       room = std::async(std::launch::async, make_room);
-    } catch (const std::system_error&) {}  // no thread available: memory is allocated afterwards
+    } catch (const std::system_error&) {}  // no thread is available: the memory is allocated after the iteration
     const std::vector<kernels::LinearState> states = solver_->solve(loads, [&] { require_not_stopped(stop); });
     if (room.valid())
-      room.get();  // rethrows if there was not enough memory
+      room.get();  // throws std::bad_alloc if there was not enough memory
     else
       make_room();
     for (std::size_t t = 0; t < tasks.size(); ++t) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_system.cpp  Builds the arrays of the iterative solver. The coarse matrix RᵀKR is summed only over contacts
-// between boxes, because a rigid motion of a box does not strain the contacts inside it.
+// make_system.cpp  Builds the arrays of the iterative solver. The columns of R are rigid motions of boxes of particles.
+// The coarse matrix RᵀKR is summed only over contacts between boxes, because a rigid motion of a box does not strain
+// the contacts inside it.
 #include "host/harmonic/iterative/make_system.hpp"
 
 #include "host/harmonic/iterative/invert.hpp"
@@ -24,7 +25,7 @@ using kernels::Twist;
 
 namespace {
 
-/// Returns a contact as its first particle sees it.
+/// Returns the data of a contact for its first particle, with the normal pointing away from this particle.
 ContactEnd seen_from_a(const Contact& c, const kernels::Layout& layout) {
   const double d = c.distance;
   const AreaMoments& m = c.moments;
@@ -37,7 +38,8 @@ ContactEnd seen_from_a(const Contact& c, const kernels::Layout& layout) {
           static_cast<std::int32_t>(c.pair)};
 }
 
-/// Returns a contact as its second particle sees it, in the frame (−n, s, −t): coordinates along t change their sign.
+/// Returns the data of a contact for its second particle. Its frame is (−n, s, −t), so coordinates along t change their
+/// sign.
 ContactEnd seen_from_b(const Contact& c, const kernels::Layout& layout) {
   ContactEnd e = seen_from_a(c, layout);
   for (double& x : e.n) x = -x;
@@ -105,12 +107,14 @@ Twist<double> box_motion(const Lever& lever, int c) {
   return kernels::moved_with_box(lever, y);
 }
 
-/// Returns RᵀKR, [6·boxes][6·boxes]. Each box writes only its own six rows, so that boxes run in parallel.
+/// Returns RᵀKR, [6·boxes][6·boxes]. For each box only its own six rows are written, so that boxes can be computed in
+/// parallel.
 Eigen::MatrixXd coarse_stiffness(const LinearSystem& system) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   std::vector<std::int32_t> box_of(system.bodies());
   for_each_body(system, [&](std::size_t b, std::size_t i) { box_of[i] = static_cast<std::int32_t>(b); });
-  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);  // symmetric: rows are written as columns
+  // the matrix is symmetric, so rows are written as columns, which are contiguous
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);
   for_each_body(system, [&](std::size_t box, std::size_t i) {
     const auto row = static_cast<Eigen::Index>(6 * box);
     for (std::size_t at = system.row_begin[i]; at < system.row_begin[i + 1]; ++at) {
@@ -153,7 +157,7 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
 }
 
 /// Returns the mass-weighted products of a free motion of some particles with the motions of the boxes. They are not
-/// zero for a motion of the boxes that contains the free motion.
+/// all zero if the boxes can move as in the free motion.
 Eigen::VectorXd weights_of_boxes(const LinearSystem& system, int motion) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   return Eigen::Map<const Eigen::VectorXd>(system.weight.data() + motion * size, size);
@@ -212,7 +216,7 @@ LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen
   Eigen::MatrixXd k = coarse_stiffness(out);
   // Free motions of the whole specimen have no stiffness among the boxes either, so the coarse matrix would be
   // singular. This loop gives them some stiffness. It has no effect on the solution, because the iteration removes the
-  // free motions from z.
+  // free motions from the preconditioned residual z.
   const double usual = k.trace() / static_cast<double>(k.rows());
   for (int m = 0; m < out.free; ++m) {
     const bool of_all = free.motions[static_cast<std::size_t>(m)].particles.size() == layout.particles();

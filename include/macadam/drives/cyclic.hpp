@@ -10,8 +10,8 @@
 
 namespace macadam::drives {
 
-/// A period is a whole number of steps, so the phase of step k is exact in runs of any length. The ramp r(t) rises from
-/// 0 to 1 over `ramp_steps` as a half cosine; with 0 ramp steps, r = 1 from the start.
+/// The drive −A·r(t)·sin(2πft). A period is a whole number of steps, so the phase of step k is exact in runs of any
+/// length. The ramp r(t) rises from 0 to 1 over `ramp_steps` as a half cosine; with 0 ramp steps, r = 1 from the start.
 struct Cyclic final : Drive {
   double amplitude = 0;  ///< A [m] or [N]
   double frequency = 0;  ///< f [Hz]
@@ -35,7 +35,7 @@ struct Cyclic final : Drive {
   double rate(std::int64_t k) const override {
     const double half_step = std::numbers::pi / static_cast<double>(steps_per_period);
     double v = 2 * ramp(k, 1) * std::sin(half_step) * std::cos(phase(k, 1));
-    if (ramping(k)) {  // adds the rise of r over the step times the sine at mid-step; second order in Δt
+    if (ramping(k)) {  // the rise of r over the step times the sine at mid-step; the error is of second order in Δt
       v += (ramp(k + 1, 0) - ramp(k, 0)) * std::sin(phase(k, 1));
     }
     return -amplitude * v / dt();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file drive.hpp  Defines the contract of a drive: a displacement or a force as a function of the step number.
+/// \file drive.hpp  Defines the interface of a drive: a displacement or a force of a wall as a function of the step
+/// number.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +16,23 @@ class Drive {
   virtual ~Drive() = default;
 
   /// Returns the value at step k [m] or [N]. A displacement must be 0 at step 0, unless the run starts from a state of
-  /// motion; such a run also asks for step −1.
+  /// motion (StartState); such a run also asks for the value at step −1.
   virtual double value(std::int64_t k) const = 0;
 
-  /// Returns the mean rate of a displacement between steps k and k + 1 [m/s]. Override it if the difference of two
-  /// values cancels.
+  /// Returns the mean rate of a displacement between steps k and k + 1 [m/s]. Override this function if the difference
+  /// of two values has a large rounding error.
   virtual double rate(std::int64_t k) const { return (value(k + 1) - value(k)) / dt(); }
 
   /// Returns the time step for which the drive is made [s].
   virtual double dt() const = 0;
 
-  /// Returns the shortest time in which the value changes much [s]: a period, or the length of a ramp; ∞ if it never
-  /// does. In a run with blocks of steps, viscoelastic states are updated many times within this time.
+  /// Returns the shortest time in which the value changes much [s]: a period, or the length of a ramp; ∞ if the value
+  /// never changes much. Some runs take steps in blocks and update viscoelastic states only between blocks; the blocks
+  /// are then much shorter than this time.
   virtual double shortest_time() const = 0;
 
   /// Returns whether the drive changes its form at step 0, for example by a ramp. A run that starts from a state of
-  /// motion needs drives for which this is false.
+  /// motion (StartState) accepts only drives that return false.
   virtual bool begins() const { return true; }
 
   /// Returns the largest absolute rate [m/s] or [N/s].

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file haversine.hpp  Defines pulses with pauses between them: the load of resilient modulus, permanent deformation
-/// and fatigue tests.
+/// \file haversine.hpp  Defines pulses with pauses between them: the load in tests of resilient modulus, permanent
+/// deformation and fatigue.
 #pragma once
 
 #include <cmath>
@@ -12,10 +12,10 @@
 namespace macadam::drives {
 
 /// height·sin²(π·t/pulse), which equals ½·height·(1 − cos(2π·t/pulse)), within a pulse, and 0 in the pause after it.
-/// Pulse and pause are whole numbers of steps, so the last pulse is as exact as the first.
+/// Pulse and pause are whole numbers of steps, so no rounding error accumulates from pulse to pulse.
 struct Haversine final : Drive {
   static constexpr std::int64_t forever = std::numeric_limits<std::int64_t>::max();
-  double height = 0;             ///< peak value [m] or [N]; negative: compression, if on the top wall
+  double height = 0;             ///< peak value [m] or [N]; on the top wall, a negative value is compression
   double step = 0;               ///< Δt [s]
   std::int64_t pulse_steps = 1;  ///< steps of a pulse
   std::int64_t rest_steps = 0;   ///< steps from the end of a pulse to the next one

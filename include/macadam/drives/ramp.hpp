@@ -16,7 +16,7 @@ namespace macadam::drives {
 /// `ramp_steps`.
 struct Ramp final : Drive {
   static constexpr std::int64_t forever = std::numeric_limits<std::int64_t>::max();
-  double height = 0;            ///< [m] or [N]
+  double height = 0;            ///< value during the hold [m] or [N]
   double step = 0;              ///< Δt [s]
   std::int64_t ramp_steps = 1;  ///< at least 1
   std::int64_t hold_steps = forever;

@@ -28,8 +28,8 @@ struct Cyclic {
   static constexpr std::array files = {"response.csv"};  ///< files that a run may write
 
   std::vector<double> frequencies;  ///< [Hz]
-  /// [°C]; every frequency is solved at each temperature. Harmonic method only. If empty, Materials::temperature is
-  /// used.
+  /// Temperatures [°C]. Every frequency is solved at each of these temperatures. For the harmonic method only. If
+  /// empty, Materials::temperature is used.
   std::vector<double> temperatures;
   double strain_amplitude = 1e-4;  ///< relative to the height of the specimen
   std::optional<Start> start;
@@ -50,13 +50,13 @@ struct SteppedFrequency : Frequency {
   std::int64_t steps = 0;
   int cycles = 0;
   Start start = Start::rest;
-  /// Whether the requested tolerance was kept; empty without a harmonic solution to compare with.
+  /// Whether the error is within the requested tolerance; empty without a harmonic solution to compare with.
   std::optional<bool> kept;
   /// Predicted and measured difference from the harmonic solution at true mass; empty without such a solution.
   std::optional<ErrorEstimate> predicted, achieved;
   /// Contact points that broke; empty if no law of the scene can break. Each frequency begins with an intact specimen.
   std::optional<Cracks> cracks = {};
-  /// Why the steps of this frequency ended early, if they did. |E*| and φ are then NaN.
+  /// The rupture, if it ended the steps of this frequency early. |E*| and φ are then NaN.
   std::optional<Rupture> rupture = {};
 
   double residual() const { return cyclic.fit_rms; }  ///< rms difference of the stress from its fit, over its amplitude

@@ -19,7 +19,7 @@ struct ErrorEstimate {
 
 namespace experiments {
 
-/// The part of the result that does not depend on the method.
+/// The members of the result that both methods have.
 struct Frequency {
   double frequency_hz = 0;
   std::optional<double> temperature_c;  ///< empty if the scene has none
@@ -27,17 +27,18 @@ struct Frequency {
   bool confined = false;                ///< whether the sides were held; the modulus is then a confined one
   double density_scaling = 1;           ///< density scaling of the inertia that the result includes
   double seconds = 0;                   ///< wall time of the solution
-  std::string fault;                    ///< why the result cannot be right; empty if no fault is known
+  std::string fault;                    ///< the reason if the result cannot be right; otherwise empty
 };
 
 /// Result of a solution in the frequency domain.
 struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
-  ModulusParts parts;   ///< parts of E*; |E*| and φ belong to their sum
+  ModulusParts parts;   ///< parts of E*; |E*| and φ are those of the sum of the parts
   Stiffness bottom;     ///< from the reaction of the bottom wall
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
-  double held_force = 0;                          ///< force that holds free rigid motions, over the wall's reaction
+  /// Force of the springs that hold free rigid motions, divided by the wall's reaction; nearly 0 in a correct solution.
+  double held_force = 0;
 };
 
 }  // namespace experiments

@@ -10,9 +10,10 @@ namespace macadam::experiments {
 /// Viscoelastic functions of the mixture, and their accuracy.
 struct Material {
   Spectrum spectrum;                     ///< spectrum as solved
-  double shortest_s = 0, longest_s = 0;  ///< range of times for which it holds
+  double shortest_s = 0, longest_s = 0;  ///< range of times for which the spectrum is accurate
   bool confined = false;                 ///< whether the sides were held, so that the moduli are confined ones
-  /// Series with few units that reproduce the spectrum to `table_error`; they are written in every table.
+  /// Relaxation and creep as series with few units, which reproduce the spectrum with an error of `table_error`. Every
+  /// table contains these series.
   PronySeries relaxation;
   CreepSeries creep;
   double table_error = 0;  ///< largest relative difference of E(t) from `spectrum`, within the range of times

@@ -29,7 +29,7 @@ struct SpectrumResponse {
   std::vector<ResponsePoint> points;
 };
 
-/// A point of a stepped test, with measures of how near it is to equilibrium. Stresses are forces over the
+/// A point of a stepped test, with measures of how near the specimen is to equilibrium. Stresses are forces over the
 /// cross-section.
 struct SteppedPoint : ResponsePoint {
   double top_pa, bottom_pa;  ///< stresses from the forces of the particles on the top and bottom walls
@@ -59,7 +59,7 @@ struct SteppedResponse : Stepped {
   double seconds = 0;        ///< wall time of the stepping; for a resumed run, of all its processes
 
   std::optional<Cracks> cracks = {};    ///< empty if no law of the scene can break
-  std::optional<Rupture> rupture = {};  ///< why the test ended early, if it did
+  std::optional<Rupture> rupture = {};  ///< the rupture, if it ended the test early
   std::optional<Peak> peak = {};        ///< constant rate only, and only if a law of the scene can break
 
   double error() const;  ///< Returns the largest error of the points before the rupture.

@@ -9,20 +9,20 @@
 
 namespace macadam::experiments {
 
-/// Whether an experiment is stepped. `never`: it cannot be stepped. `if_asked`: only if the scene asks for it. `usual`:
-/// unless the scene asks for another method.
+/// Whether an experiment is stepped in time. `never`: it cannot be stepped. `if_asked`: it is stepped only if the scene
+/// asks for this. `usual`: it is stepped unless the scene asks for another method.
 enum class Stepping : std::uint8_t { never, if_asked, usual };
 
 /// Report on how an experiment was stepped.
 struct Stepped {
   double seconds_planning = 0;  ///< wall time before the first stepper was made, harmonic solutions included; for a
                                 ///< resumed run, of the interrupted run
-  ContactForm form = ContactForm::condensed;  ///< form, geometry and precision with which it ran
+  ContactForm form = ContactForm::condensed;  ///< contact form, geometry and precision of the run
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
   std::int64_t bytes = 0;               ///< Stepper::bytes()
-  std::int32_t critical_particle = -1;  ///< the particle that determines the critical step; −1: the platen
-  double critical_dt_s = 0;             ///< the critical step at true mass
+  std::int32_t critical_particle = -1;  ///< the particle that determines the critical time step; −1: the platen
+  double critical_dt_s = 0;             ///< the critical time step at true mass
 };
 
 }  // namespace macadam::experiments

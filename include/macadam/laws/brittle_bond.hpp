@@ -10,7 +10,7 @@
 namespace macadam::laws {
 
 /// f = E·x in all directions, until at a contact point the normal stress f_n/d exceeds the tensile strength, or the
-/// shear stress α·|f_s|/d exceeds the shear strength. From then on that point only bears compression: f_n = min(E·x_n,
+/// shear stress α·|f_s|/d exceeds the shear strength. After that, the point bears only compression: f_n = min(E·x_n,
 /// 0).
 struct BrittleBond {
   static constexpr const char* name = "brittle_bond";

@@ -51,7 +51,8 @@ struct Elastic {
     return {static_cast<R>(E)};
   }
 
-  /// A block of steps. Nothing flows, so a block is as exact as single steps.
+  /// The coefficients of a block of steps. An elastic law has no states that change in time, so a block is as exact as
+  /// single steps.
   struct Block {
     static constexpr int most_units = 0;
     double rate, relax, follow;

@@ -31,11 +31,13 @@ struct LawFacts {
   double instantaneous = 0;                                        ///< [Pa]
   double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
   int units = 0;                                                   ///< state numbers per component besides f
-  int only_units = -1;                                     ///< the number of units, if fixed at compile time; −1: any
+  /// The number of units, if it is fixed at compile time; −1: not fixed.
+  int only_units = -1;
   bool memoryless = false, linear = true, blocks = false;  ///< see law.hpp
-  bool coupled = false;                                    ///< whether opening and slips of a point act on one another
-  bool stiffness = true;                                   ///< whether the law can be used in the frequency domain
-  bool breaks = false;                                     ///< whether its contact points can break
+  /// Whether opening and slips of a contact point act on one another.
+  bool coupled = false;
+  bool stiffness = true;  ///< whether the law can be used in the frequency domain
+  bool breaks = false;    ///< whether its contact points can break
 };
 
 /// Traits for the optional parts of a law's contract (law.hpp).
@@ -89,7 +91,7 @@ constexpr int units_of() {
 }
 /// @}
 
-/// Returns the properties of a law. The overload below does so for each law of a table.
+/// Returns the properties of a law. The overload below returns the properties of each law of a table.
 template <class L>
 LawFacts facts_of(const L& law) {
   return {L::name,       law.alpha,      law.instantaneous(), law.shortest_time(),

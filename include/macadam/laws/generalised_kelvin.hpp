@@ -4,7 +4,8 @@
 ///
 /// Displacement x = f/k_m + ∫f/η_m dt + Σ x_l with η_l·dx_l/dt + k_l·x_l = f. The trapezoidal rule over one step gives
 ///   c·f(t+Δt) = Δx + Σ (1 − b_l/a_l)·x_l(t) − g·f(t),   x_l(t+Δt) = [b_l·x_l(t) + Δt/(2η_l)·(f(t+Δt) + f(t))]/a_l.
-/// The code uses increments, because 1 − b_l/a_l is only 1e-9…1e-6.
+/// The code computes increments of f and x_l, because 1 − b_l/a_l is only 1e-9…1e-6 and would be lost in a sum with
+/// larger numbers.
 #pragma once
 
 #include <algorithm>
@@ -105,7 +106,7 @@ struct GeneralisedKelvin {
       const S f_new = f + (S(inv_c) * stretched - S(relax) * f);  // model (6.6)
       const S sum = f_new + f;
       for (int l = 0; l < m; ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // model (6.6)
-      return f_new;  // NOLINT(performance-no-automatic-move): numbers in registers
+      return f_new;  // NOLINT(performance-no-automatic-move): the numbers are in registers
     }
   };
 
@@ -116,25 +117,27 @@ struct GeneralisedKelvin {
     double sum = 0;
     for (int l = 0; l < out.n; ++l) {
       const double a = 1 + E[l] * dt / (2 * C[l]);
-      out.recover[l] = static_cast<R>(E[l] * dt / C[l] / a);  // a − b = k·Δt/η, computed without a subtraction
+      out.recover[l] = static_cast<R>(E[l] * dt / C[l] / a);  // (a − b)/a, computed as k·Δt/η/a without a subtraction
       out.compliance[l] = static_cast<R>(dt / (2 * a * C[l]));
       sum += dt / (2 * a * C[l]);
     }
     if (std::isfinite(C_m)) sum += dt / (2 * C_m);
-    const double inv_c = E_m / (1 + E_m * sum);  // exactly E_m if nothing flows
+    const double inv_c = E_m / (1 + E_m * sum);  // this form gives exactly E_m if no dashpot moves
     out.inv_c = static_cast<R>(inv_c);
     out.relax = static_cast<R>(2 * sum * inv_c);
     return out;
   }
 
   /// Coefficients of M steps taken as one block, in which f changes little. x_l at step k of the block is the sum of
-  /// three parts: x_l at the beginning of the block, its decay since then, and its growth by f. The first two, and the
-  /// part of f at the beginning, are evaluated at the mean step (M − 1)/2. The part of the change δf of f since the
-  /// beginning is exact, from the sum s of δf' + δf over the steps so far:
+  /// three parts: x_l at the beginning of the block, its decay since then, and its growth by f. The first two parts,
+  /// and the growth by the f of the beginning, are evaluated at the mean step (M − 1)/2. The growth by δf, the change
+  /// of f since the beginning, is exact. It follows from s, the sum of δf' + δf over the steps so far, where δf' is the
+  /// value after a step and δf the value before it:
   ///   δf(t+Δt) = δf(t) + rate·Δx + drift + follow·s − relax·δf(t)   (model (6.8)),
   ///   drift = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
   /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with the same weight for all steps (model (6.9)). The error
-  /// has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
+  /// has a mean of zero over a block. It is of second order in M·Δt divided by the characteristic times of the load and
+  /// of the units.
   struct Block {
     static constexpr int most_units = max_units;
     double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file law.hpp  Defines the contract of a contact law: the members that a law must have, and those that it may have.
+/// \file law.hpp  Defines the contract of a contact law: the members that a law must have, and the members that it may
+/// have.
 ///
 /// A law relates one displacement component x of a contact (opening, slip, relative rotation) to a force-like value f
 /// along it, tension positive (docs/model.md, section 6). Moduli are per unit of area over distance: the force of a
@@ -80,7 +81,7 @@ enum class ValueKind : std::uint8_t { modulus, viscosity, strength };
 /// Whether a scene must give a value. A value that may be infinite is also optional.
 enum class ValueNeed : std::uint8_t { required, optional, may_be_infinite };
 
-/// A value of a law that is valid by itself but does not fit the others.
+/// A value of a law that is valid by itself but contradicts other values of the law.
 struct LawFault {
   std::string key, found, expected;
 };

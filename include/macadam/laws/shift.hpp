@@ -30,7 +30,7 @@ struct Arrhenius {
   double reference_temperature = 0;  ///< T_r [°C]
 };
 
-/// log10 a_T at given temperatures, linear in between; not defined outside them.
+/// log10 a_T at given temperatures, linear in between; not defined outside the range of the temperatures.
 struct ShiftTable {
   std::vector<double> temperatures;  ///< [°C], increasing, at least one
   std::vector<double> log10_a_T;     ///< one per temperature
