@@ -21,7 +21,7 @@ nitpicky = False
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 6
 myst_fence_as_directive = ["math"]
-highlight_language = "none"  # of blocks without a language: commands and what they print
+highlight_language = "none"  # for blocks without a language, which show commands and their output
 
 breathe_projects = {"macadam": os.environ["MACADAM_DOXYGEN"]}
 breathe_default_project = "macadam"

@@ -51,7 +51,7 @@ def add(app, docname, source):
 
 
 def reached_by_links(app, docname, source):
-    """Pages that are in no table of contents are no mistake."""
+    """Marks pages outside all tables of contents as orphans, so that Sphinx does not warn about them."""
     if not docname.startswith(("docs/", "api/")):
         source[0] = "---\norphan: true\n---\n" + source[0]
 

@@ -15,7 +15,7 @@ log = logging.getLogger(__name__)
 
 def made(node, text, block):
     try:
-        # an index of what has an accent stands beside it; docutils puts it below, as below a sum
+        # the index of an accented symbol stands beside the symbol; docutils puts it below, as for a sum
         return ACCENTED.sub(r"<msub><mover>\1\5</mover>\3</msub>", latex2mathml.tex2mathml(text.strip(), as_block=block))
     except MathError as error:
         log.warning("an equation cannot be made into MathML: %s: %s", error, text.strip(), location=node)

@@ -16,7 +16,7 @@ def plain(app, what, name, obj, options, lines):
 
 
 def escaped(line):
-    """`code` becomes literal; what else would be markup is escaped."""
+    """Returns the line with `code` as literal text and all other markup characters escaped."""
     parts = re.split(r"(`[^`]+`)", line)
     return "".join(f"`{p}`" if k % 2 else re.sub(r"([*|_\\])", r"\\\1", p) for k, p in enumerate(parts))
 

@@ -47,7 +47,7 @@ def headers(name="macadam/macadam.hpp", seen=None):
 
 
 def brief(header):
-    """The first sentence of what the header says that it is."""
+    """Returns the first sentence of the description of a header."""
     text = (HEADERS / header).read_text(encoding="utf-8")
     said = re.search(r"\\file \S+ +((?:.*\n)(?:///.+\n)*)", text)
     words = " ".join(re.sub(r"^///", "", line).strip() for line in said[1].splitlines())
@@ -106,7 +106,7 @@ def paths(folder):
 
 
 def write(file, text):
-    """Only where it differs, so that Sphinx reads anew what changed."""
+    """Writes the file only if its text differs, so that Sphinx reads only changed files again."""
     if not file.is_file() or file.read_text(encoding="utf-8") != text:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")

@@ -32,7 +32,7 @@ def page_of(path, found_docs):
 
 
 def resolve(app, doctree):
-    """Sphinx has resolved links between pages; what is left are paths."""
+    """Resolves the links that Sphinx has left: paths of files in the repository."""
     document = app.env.docname
     wanted = app.env.__dict__.setdefault("repository_files", {})
     wanted[document] = set()
@@ -85,7 +85,7 @@ def body(app, page, path):
 
 
 def pages(app):
-    """The linked files, and what the linked folders list."""
+    """Returns the pages of linked files and of the files in linked folders."""
     paths = sorted(set().union(*app.env.__dict__.get("repository_files", {}).values(), set()))
     done = set()
     while paths:
@@ -105,7 +105,7 @@ def purge(app, env, docname):
 
 
 def merge(app, env, docnames, other):
-    """Of a process that read a part of the pages."""
+    """Merges the links that another process found in its part of the pages."""
     mine, found = env.__dict__.setdefault("repository_files", {}), other.__dict__.get("repository_files", {})
     mine.update({name: found[name] for name in docnames if name in found})
 

@@ -5,7 +5,7 @@
 /// These numbers do not change results, with one exception: tile sizes change the layout, and the executor with two
 /// kernels per step sums loads in the order of the layout. The times [µs] are per step of the full specimen (35,760
 /// particles, some 221,000 contacts) on one H200, unless another device is named. They come from
-/// bench/results/tried-gpu-step.csv ("tried" below). If there is no record of measurements with other values, the
+/// bench/results/tried-gpu-step.csv ("tried" below). If measurements with other values are not recorded, the
 /// comment says so. Two numbers of the tile path are in layout/tile_plan.hpp, because the plan is made without CUDA:
 /// TilePlan::couple and TilePlan::longest_short_list.
 #pragma once
@@ -32,10 +32,10 @@ inline constexpr unsigned body_blocks = 4;
 /// before records were requested in batches, 58.4 µs with batches of eight (tried).
 inline constexpr unsigned records_requested = 8;
 /// A body with more load records than this gets a thread block of its own. A large aggregate has hundreds of records.
-/// There is no record of measurements with other values.
+/// Measurements with other values are not recorded.
 inline constexpr std::uint32_t long_list = 64;
-/// Steps that ExecCuda records in one graph; a graph of one step takes the remaining steps. There is no record of
-/// measurements with other values.
+/// Steps that ExecCuda records in one graph; a graph of one step takes the remaining steps. Measurements with other
+/// values are not recorded.
 inline constexpr std::int64_t steps_per_graph = 64;
 
 // ---- tiles in registers and shared memory (cuda/tiles/resident_kernel.hpp) ----
@@ -59,7 +59,7 @@ __host__ __device__
   return memory ? 0 : 2;
 }
 /// Smallest number of contacts per resident tile. Smaller tiles would consist mostly of halo (particles of other
-/// tiles). There is no record of measurements with other values.
+/// tiles). Measurements with other values are not recorded.
 inline constexpr std::size_t least_resident_contacts = 128;
 /// Expected size of the fullest tile, divided by the mean size of the tiles. After the tiles are balanced the fullest
 /// has 68 packets and the mean is 65 (tried), a ratio of 1.05.
@@ -71,19 +71,19 @@ inline constexpr double computed_per_contact = 1.3;
 
 // ---- tiles streamed from global memory (cuda/tiles/streamed_kernel.hpp) ----
 
-/// Threads per tile, and tiles per multiprocessor. With two tiles, one works while the other waits at a barrier. There
-/// is no record of measurements with other values.
+/// Threads per tile, and tiles per multiprocessor. With two tiles, one works while the other waits at a barrier.
+/// Measurements with other values are not recorded.
 inline constexpr int streamed_threads = 256, streamed_blocks = 2;
 /// Contacts per streamed tile: `streamed_contacts`, or fewer if two tiles would not fit in the shared memory of a
 /// multiprocessor. `shared_bytes_per_contact` is about twice the shared memory that a tile needs per contact, its halo
-/// included. There is no record of measurements with other values. With tiles of this size a lattice of 1e6 particles
+/// included. Measurements with other values are not recorded. With tiles of this size a lattice of 1e6 particles
 /// takes 514 µs per step in single precision (bench/results/bench-h200-2026-11-26-chip.csv).
 inline constexpr std::size_t streamed_contacts = 1500, shared_bytes_per_contact = 115;
 
 // ---- resident and streamed tiles ----
 
 /// Samples that a device takes before the host reads them. After a particle has diverged, at most this many intervals
-/// between samples are computed in vain. There is no record of measurements with other values.
+/// between samples are computed in vain. Measurements with other values are not recorded.
 inline constexpr std::size_t samples_per_read = 64;
 /// Threads per block of kernels that do little work per thread: the first move of streamed tiles, and body forces.
 inline constexpr unsigned short_kernel_threads = 128;
@@ -92,17 +92,17 @@ inline constexpr unsigned copy_threads = 256;
 
 // ---- frequency domain (cuda/harmonic) ----
 
-/// Threads per block of all kernels of the iterative solver. There is no record of measurements with other values.
+/// Threads per block of all kernels of the iterative solver. Measurements with other values are not recorded.
 inline constexpr unsigned cocg_threads = 256;
 /// A body with at least this many contacts is computed by all warps of a block. A large aggregate has hundreds of
-/// contacts; one warp would need more time for it than all other warps for all other bodies. There is no record of
-/// measurements with other values.
+/// contacts; one warp would need more time for it than all other warps for all other bodies. Measurements with other
+/// values are not recorded.
 inline constexpr unsigned many_contacts = 64;
 /// Segments (ranges of bodies that one thread block works on) per multiprocessor. This number is small enough for one
-/// device and large enough for two. There is no record of measurements with other values.
+/// device and large enough for two. Measurements with other values are not recorded.
 inline constexpr std::size_t segments_per_multiprocessor = 16;
-/// Iterations that the host enqueues before it looks at the residuals of the previous batch. There is no record of
-/// measurements with other values.
+/// Iterations that the host enqueues before it looks at the residuals of the previous batch. Measurements with other
+/// values are not recorded.
 inline constexpr int iterations_per_batch = 8;
 
 }  // namespace macadam::kernels
