@@ -191,7 +191,8 @@ TEST(Recipe, ASieveMoreChangesNothing) {
   EXPECT_NEAR(more.mastic_density / one.mastic_density, 1, 1e-14);
 }
 
-/// The classes of the specimen are fractions of its solid volume, and the air voids are its porosity.
+/// The specimen takes its aggregate classes from the recipe, as fractions of its solid volume, and its porosity from
+/// the air voids of the recipe.
 TEST(Recipe, IsFollowedByASpecimen) {
   SpecimenSpec spec;
   EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "[specimen.mastic] with its radii");

@@ -241,7 +241,8 @@ TEST(Dimensions, DoNotDependOnPoseOrScale) {
                                : std::string(property.column).ends_with("_m") ? 1
                                                                               : 0;
       const double expected = property.value(m) * std::pow(scale, dimension);
-      // rounding: a centre at a distance of 7 sizes costs a digit, and V is a sum of 320 terms
+      // The tolerance allows for rounding: the shape lies 7 times its own size from the origin, which costs one digit,
+      // and its volume is a sum of 320 terms.
       EXPECT_NEAR(property.value(t), expected, 1e-12 * expected) << property.column;
     }
     EXPECT_NEAR(norm(t.centroid - pose(m.centroid)), 0, 1e-13 * scale);

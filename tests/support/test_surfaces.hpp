@@ -44,7 +44,8 @@ inline Surface box_surface(double a, double b, double c) {
   return s;
 }
 
-/// Returns an L-shaped prism in the corner of the axes, with two arms of the given length and width.
+/// Returns an L-shaped prism with its outer corner at the origin and its two arms, of the given length and width, along
+/// x and y.
 inline Surface l_surface(double length, double width, double height) {
   const double l = length, w = width;
   return prism({{0, 0}, {l, 0}, {l, w}, {w, w}, {w, l}, {0, l}}, height);

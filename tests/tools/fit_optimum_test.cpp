@@ -178,8 +178,8 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   ASSERT_EQ(table.temperatures.size(), nominal.size());
   for (std::size_t i = 0; i < nominal.size(); ++i) EXPECT_NEAR(table.temperatures[i], nominal[i], 0.2);
   EXPECT_EQ(table.log10_a_T[1], 0);
-  // At the nominal temperatures log10 a_T is 1.4 and −1.2, see WLF below. The misfit of the chain of four Kelvin units
-  // is a few per cent.
+  // At the first and the last nominal temperature log10 a_T is 1.4 and −1.2 (the WLF law below). The tolerance is wide,
+  // because a chain of four Kelvin units fits the data only to a few per cent.
   const laws::Shift truth = laws::Wlf{13.5, 140, 20};
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}})
     EXPECT_NEAR(table.log10_a_T[i], laws::log10_shift(truth, nominal[i]) - laws::log10_shift(truth, 15), 0.1);

@@ -175,7 +175,8 @@ class Steps : public PlannedExperiment {
     try {
       made = on(devices_);
     } catch (const RunError&) {
-      // for example if the new device has too little memory: the run then stays on its old device
+      // The stepper could not be made on the new device, for example because it has too little memory. The run returns
+      // to its old device; if it was on this device already, the error ends the run.
       if (devices_ == before) throw;
       devices_ = before, may_move_ = false;
       made = on(devices_);

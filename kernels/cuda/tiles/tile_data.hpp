@@ -112,10 +112,11 @@ class TileData {
   void allocate_body_data(std::size_t m, std::size_t bytes) {
     tables_[m].body_data = store_.template zeros<unsigned char>((cuts_.tile(m + 1) - cuts_.tile(m)) * bytes);
   }
-  /// Makes the walls' table begin at row `row` of the last upload, or `rows` rows later than now.
+  /// Makes the walls' table begin at row `row` of the last upload.
   void set_wall_row(std::int64_t row) {
     arrays_.motion.wall.table = wall_table_ + static_cast<std::size_t>(row) * arrays_.motion.wall.row_words();
   }
+  /// Moves the beginning of the walls' table forward by `rows` rows.
   void skip_wall_rows(std::uint32_t rows) { arrays_.motion.wall.table += rows * arrays_.motion.wall.row_words(); }
 
   /// Returns the arrays that the update between blocks reads and writes.

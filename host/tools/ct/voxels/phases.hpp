@@ -11,9 +11,9 @@ struct Thresholds {
   double air = 0, aggregate = 0;
 };
 
-/// Returns thresholds half-way between the levels, where the grey value of a blurred plane boundary is half-way between
-/// the phases. If the laboratory's volume fractions are given, returns thresholds that reproduce them, and warns if
-/// they do not agree with the grey values.
+/// Returns thresholds half-way between the grey levels of neighbouring phases: the blur of a scan does not move a plane
+/// boundary at this grey value. If the laboratory's volume fractions are given, returns thresholds that reproduce these
+/// fractions instead, and warns if the fractions do not agree with the grey values.
 Thresholds thresholds_of(const Histogram& histogram, const GreyLevels& levels, const SegmentOptions& options,
                          std::vector<std::string>& warnings);
 
