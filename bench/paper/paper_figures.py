@@ -94,7 +94,7 @@ def of_mix(found, mix, figure):
     e, phi = CALIBRATED[mix]
     return [f"### {mix} (Fig. {figure})", "",
             *table(["", "δ_MA (paper)", "d_m of \\|E*\\| (%)", "2 … 20 Hz", "d_m of φ (%)", "2 … 20 Hz"], lines),
-            *wrapped(f"""In the paper d_m of |E\\*| is {e} %, and d_m of φ from {minus(f'{phi[0]:+d}')} to
+            *wrapped(f"""In the paper d_m of |E\\*| is {e} %, and d_m of φ is from {minus(f'{phi[0]:+d}')} to
                 {phi[1]:+d} %."""), ""]
 
 

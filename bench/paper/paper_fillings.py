@@ -60,11 +60,12 @@ def hints(facts):
             {several(budget['fine'])} (fine). {rest} the assumption of an equal sum, and on mastic radii uniform in
         0.75–1 mm.""",
         f"""*From the number of aggregates* at the same share: the clusters of Ico have voids of
-            {several(v.number for v in ico)} (coarse and fine) if the sizes of the aggregates are considered, and
-            {several(1 - 1 / v.ratio for v in ico)} if not. The table has the
+            {several(v.number for v in ico)} (coarse and fine) if the sizes of the aggregates are considered; if
+            not, these voids are {several(1 - 1 / v.ratio for v in ico)} (coarse and fine). The table has the
             standard deviation that follows from the small number of sizes. {rest} shapes like ours. The estimate is
-        therefore informative for Ico, whose shape is known, and not for Poly ({several(v.number for v in poly)}). A
-        negative void means that the paper's shapes have more volume than ours at the same D^I.""",
+            therefore useful for Ico, whose shape is known. It is not useful for Poly, for which it gives voids of
+            {several(v.number for v in poly)}. A negative void means that the paper's shapes have more volume than
+            our shapes at the same D^I.""",
         f"""*From the spheres of an aggregate*: the clusters of Ico have voids of {several(spheres)} (coarse and fine;
             coarse without the class with many single spheres), which is near zero
             ([filling.md](filling.md#spheres-against-radius)). {rest} uniform radii, and the
@@ -92,8 +93,8 @@ def making(runs, times):
         seed 1
         ([paper-specimens-time.csv](../bench/results/paper-specimens-time.csv)):"""), "",
             *table(["", "seconds", "cores", "measured"], [list(t.values()) for t in times]),
-            *wrapped(f"""Most of the time is spent in inserting the last shapes. To generate one of the specimens and
-                solve it at four frequencies took {min(wall):.0f} to {max(wall):.0f} s and up to
+            *wrapped(f"""Most of this time is needed to insert the last shapes. The generation of one of the specimens and
+                its solution at four frequencies took {min(wall):.0f} to {max(wall):.0f} s and up to
                 {memory(used)} with {runs[0].threads} threads, while other runs used the machine."""), ""]
 
 

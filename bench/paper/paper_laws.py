@@ -85,12 +85,12 @@ def mastic():
         reduce it."""), "",
             *table(["δ_MM", *[f"{hz} Hz" for hz in FREQUENCIES], "mean (paper)", "φ minus φ of the law (°)"], lines),
             *wrapped(f"""The values of the paper, {DELTA_MM['AM1']:.2f} (AM1) and {DELTA_MM['AM2']:.2f} (AM2), differ
-                from ours by
-                {100 * (DELTA_MM['AM1'] / said[0] - 1):+.0f} and {100 * (DELTA_MM['AM2'] / said[1] - 1):+.0f} %. The paper
-                found its factors by trial against a measured mastic, so these factors also correct the misfit of its
-                law. Our factor is exact for a law that has the moduli of the mastic. The measured moduli are not in
-                the paper. The fit of [laws-from-data.md](laws-from-data.md) recovers the laws of Table 4 from their
-                own curves."""), ""]
+                from ours by {100 * (DELTA_MM['AM1'] / said[0] - 1):+.0f} and
+                {100 * (DELTA_MM['AM2'] / said[1] - 1):+.0f} %. The paper found its factors by trial against a
+                measured mastic, so these factors also correct the misfit of its law. Our factor is exact for a
+                law that has the moduli of the mastic. The measured moduli are not in the paper. The fit of
+                [laws-from-data.md](laws-from-data.md) recovers the laws of Table 4 from the curves of these
+                laws."""), ""]
 
 
 def ratios():
@@ -98,11 +98,12 @@ def ratios():
     aa = laws("AM1")["A-A"]["E"]
     halves = {mix: 2 / (1 / aa + 1 / laws(mix)["M-M"]["E_m"]) / laws(mix)["M-M"]["E_m"] for mix in MIXES}
     return ["### δ_MA", "", *wrapped(f"""The row M-A of Table 4 is the row M-M times {values['AM1']:.2f} (AM1) and
-        {values['AM2']:.2f} (AM2), which are the stated values of δ_MA; the row M-M includes δ_MM. The paper assumes
-        that an M-A contact is the
-        elastic A-A contact and the viscoelastic M-M contact in series. Two such halves in series would multiply E_m
-        by {halves['AM1']:.2f} (AM1) and {halves['AM2']:.2f} (AM2), and would not multiply all constants of the row by
-        one number. The row is therefore a fit; our scenes use it without a change."""), ""]
+        {values['AM2']:.2f} (AM2), which are the stated values of δ_MA; the row M-M includes δ_MM. The paper assumes that
+        an M-A contact is the elastic A-A contact and the viscoelastic M-M contact in series. Two half
+        contacts in series, each with half of the distance and therefore twice the stiffness, would
+        multiply E_m by {halves['AM1']:.2f} (AM1) and {halves['AM2']:.2f} (AM2), and they would not
+        multiply all constants of the row M-M by one number. The row M-A is therefore a fit of the
+        paper's authors. Our scenes use this row without a change."""), ""]
 
 
 def springs():
