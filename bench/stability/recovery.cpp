@@ -32,9 +32,10 @@ laws::GeneralisedKelvin test_law(double step, bool flows) {
   return {1e10, flows ? 1e10 * 2000 * step : INFINITY, {0.5e10, 2e10}, {0.5e10 * 500 * step, 2e10 * 100 * step}, 0.3};
 }
 
-/// The exact solution of the stages. It solves y' = f/C_m, x_l' = (f − E_l·x_l)/C_l, f = E_m·(x − y − Σ x_l). x' is
-/// constant in a stage, so (y, x_1, x_2, x, x') follows a linear system with a constant matrix. The largest
-/// displacement is 1.
+/// The exact solution of the stages of loading for one chain. x is the imposed displacement, y the displacement of the
+/// Maxwell dashpot, x_l that of Kelvin unit l, and f the force: y' = f/C_m, x_l' = (f − E_l·x_l)/C_l,
+/// f = E_m·(x − y − Σ x_l). The rate x' is constant within a stage, so (y, x_1, x_2, x, x') follows a linear system
+/// with a constant matrix. The largest imposed displacement is 1.
 struct Exact {
   std::vector<double> force;  ///< f/E_m at the end of each stage
   double flow = 0;            ///< y at the release

@@ -25,7 +25,7 @@ FourNumbers real_lanes(Of&& of) {
   return FourNumbers::Register{a, b, c, d, a, b, c, d};
 }
 
-/// Returns the complex numbers of(f), f = 0 … 3: first the real parts, then the imaginary parts.
+/// Packs the four complex numbers `of(0)` … `of(3)`: first the four real parts, then the four imaginary parts.
 template <class Of>
 FourNumbers complex_lanes(Of&& of) {
   const std::complex<double> a = of(0), b = of(1), c = of(2), d = of(3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sampled_run.cpp  Runs the loop over samples for every experiment that is stepped in time. Steps are taken in pieces
-// of some tenths of a second; after each piece the run checks whether it must stop or write a checkpoint. If samples
-// need only an observation, one call of the stepper takes several of them.
+// that last some tenths of a second of wall time; after each piece the run checks whether it must stop or write a
+// checkpoint. If nothing but an observation is made at each sample, one call of the stepper covers several samples.
 #include "host/run/sampled_run.hpp"
 
 #include <fmt/format.h>

@@ -181,11 +181,11 @@ class Pool {
     }
   }
 
-  /// The cores that a scene has. A scene that is stepped on a device has them until the steps begin; any other scene
-  /// until it ends.
+  /// The cores reserved for a scene. A scene that is stepped on a device gives them back when its steps begin, any
+  /// other scene when it ends.
   class Cores {
    public:
-    /// `most`: the largest number of threads that the scene may use; 0: its number of cores.
+    /// `most`: largest number of threads that the scene may use; 0: as many as the cores that it has reserved.
     Cores(Pool& pool, bool first_of_scene, int most) : pool_(pool), most_(most) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;

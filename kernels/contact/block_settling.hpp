@@ -106,9 +106,9 @@ struct BlockSettling {
     return {w[0], w[1], w[2]};
   }
 
-  /// Returns the frame by Eq. 5–6 after a whole block. ContactForces::carry() does the same for one step, but also
-  /// needs the frame in the middle of the step, and computes the previous normal by a series instead of a root. Both
-  /// functions use follow_branch() and turn_tangent() (carried_frame.hpp).
+  /// Returns the frame of a contact at the end of a whole block (Eq. 5–6 of [1]). ContactForces::carry() is the
+  /// counterpart for one step: it also computes the frame in the middle of the step, and finds the previous normal with
+  /// a series instead of a root. Both functions use follow_branch() and turn_tangent() (carried_frame.hpp).
   template <class Item>
   MACADAM_HD Placement<double> frame_after_block(const Item& item, std::uint32_t packet, std::size_t slot,
                                                  const Vec3<double>& n0, double arm_a, double arm_b, double d0,

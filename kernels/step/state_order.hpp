@@ -72,7 +72,8 @@ inline std::vector<std::uint32_t> slots_in_order(const GroupLayout& group) {
   return out;
 }
 
-/// Returns the order of arrays [packet][words][lane] of a group or, with `by_points`, [row][words][lane].
+/// Returns where the state of each contact of a group lies in an array [packet][words][lane] or, with `by_points`, in
+/// an array [row][words][lane] with one row per contact point of a packet.
 inline StateOrder contact_order(const Layout& layout, const GroupLayout& group, std::size_t words, bool by_points) {
   const auto lanes = static_cast<std::size_t>(layout.lanes);
   StateOrder out{{}, strided(words, lanes), {}};

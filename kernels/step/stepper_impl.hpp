@@ -251,7 +251,8 @@ class StepperImpl final : public Stepper {
       return x && y ? kind(*x) == kind(*y) : x.has_value() == y.has_value();
     });
   }
-  /// Returns the options. Leaves `skip_rotations` set only if no body can rotate, now or after a later start.
+  /// Returns the given options, with `skip_rotations` cleared if any body can rotate, now or after the stepper is
+  /// started again from another state.
   static StepperOptions decided(StepperOptions options, const ContactNetwork& network, const FactsTable& laws) {
     options.skip_rotations = options.skip_rotations && nothing_turns(network, laws);
     return options;

@@ -34,7 +34,7 @@ struct WallMotion {
   }
 };
 
-/// Fills in the rows of a boundary's walls.
+/// Computes the table of the motion of a boundary's walls, with one row per time step.
 template <class R>
 class WallTable {
  public:

@@ -98,7 +98,8 @@ struct Coupled : UnknownAndNotLinear {
   }
 };
 
-// The requirements of a stepper form a concept; types that lack one of them do not satisfy it.
+// The concept SteppableLaw lists what a stepper requires of a law. A type that lacks one requirement does not satisfy
+// the concept.
 TEST(Contract, IsAConcept) {
   using laws::SteppableLaw;
   static_assert(SteppableLaw<Elastic> && SteppableLaw<GeneralisedKelvin> && SteppableLaw<Unknown>);

@@ -44,8 +44,8 @@ class Element {
   double f_;
 };
 
-/// One displacement component with the chain (springs and dashpots in series) of the reference implementation. Area
-/// over distance is 1.
+/// Computes the force for one component of a contact's relative displacement, with the chain (springs and dashpots in
+/// series) of the reference implementation. The ratio of facet area to distance is 1.
 class ReferenceElement {
  public:
   ReferenceElement(const Law& law, double dt, double f = 0) : law_(reference::make_reference_law(law, "M-M")), dt_(dt) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file void_test.cpp  Tests air voids, which are cells without particles whose facets are free surfaces: in files, in
-/// generated specimens and in every solver.
+/// \file void_test.cpp  Tests air voids in files, in generated specimens and in every solver. An air void is a cell
+/// without a particle; its facets are free surfaces.
 #include <algorithm>
 #include <numbers>
 

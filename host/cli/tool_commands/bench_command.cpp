@@ -128,7 +128,7 @@ void bench_command(BenchArguments arguments) {
   });
 }
 
-/// Adds an option that takes several of the names, separated by commas.
+/// Adds an option that takes one or several of the names in `choices`, separated by commas.
 template <class T>
 void add_choices(CLI::App& command, const std::string& name, std::vector<T>& target, const std::string& description,
                  const std::vector<std::pair<std::string, T>>& choices) {

@@ -52,7 +52,7 @@ TransientExperiment load_test(const experiments::Relaxation& spec);
 TransientExperiment load_test(const experiments::Creep& spec);
 TransientExperiment load_test(const experiments::Monotonic& spec);
 /// @}
-/// Returns the description of the scene's test; an empty one for other experiments.
+/// Returns the description of the scene's experiment, or an empty one if the experiment is not a transient one.
 TransientExperiment load_test_of(const Scene& scene);
 
 /// Names and units of the numbers in the results of one kind of test.

@@ -12,10 +12,10 @@
 namespace macadam {
 namespace {
 
-// Contacts have the stiffness 1 and the smallest body has the mass 1. For rotations a contact at the radius of a body
-// is stiffer by the factor (radius/lever_)² = 4. A body has up to about twelve contacts, so stiffness divided by mass
-// reaches about
-// 50. An iteration with momentum is stable if this ratio is below 2·(1 + momentum)/step, which is 65.
+// Contacts have the stiffness 1 and the smallest body has the mass 1. For rotations, a contact at a distance of one
+// radius from the centre of a body is stiffer by the factor (radius/lever_)² = 4, where lever_ is the length that
+// converts rotations to displacements. A body has up to about twelve contacts, so stiffness divided by mass reaches
+// about 50. An iteration with momentum is stable if this ratio is below 2·(1 + momentum)/step, which is 65.
 constexpr double step = 0.06, momentum = 0.95;
 constexpr double longest_move = 0.02;  // largest movement per iteration, divided by D^I of the smallest body
 constexpr double skin_share = 0.2;     // skin of the neighbour lists, divided by D^I of the smallest body

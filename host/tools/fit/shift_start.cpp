@@ -37,7 +37,8 @@ double distance(const Curve& cold, const Curve& hot, double otherwise) {
   return cold.front().first - hot.back().first - (cold.front().second - hot.back().second) / mean;
 }
 
-/// Returns log10 a_T of every temperature that lays the curves on each other, 0 at the first temperature.
+/// Returns, for every temperature, the shift log10 a_T with which the curves of all temperatures form one master curve.
+/// The shift of the first temperature is 0.
 std::vector<double> master_curve_shift(const std::vector<Target>& targets, const std::vector<double>& temperatures) {
   std::vector<Curve> curves(temperatures.size());
   for (const Target& t : targets) curves[t.place.isotherm].emplace_back(std::log10(t.place.omega), t.log_modulus);

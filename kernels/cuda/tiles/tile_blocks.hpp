@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_blocks.hpp  Takes steps block by block: updates the contacts between two blocks, and launches the steps
-/// of each block.
+/// \file tile_blocks.hpp  Takes the time steps in blocks of several steps: updates all contacts after each block, and
+/// launches the steps of the next block.
 ///
 /// At the end of each block, settle() updates the viscoelastic states and the constants of the contacts
 /// (settle_kernels.hpp) and sums the base loads of the bodies. Then TileLaunch takes the steps of the next block.
-/// ExecCudaTiles calls begin(), set_group() for each group and start() for each start, then run() any number of times.
-/// docs/gpu-step.md explains why steps are taken in blocks.
+/// ExecCudaTiles calls begin(), set_group() for each group and, whenever a new start state is set, start(); then run()
+/// any number of times. docs/gpu-step.md explains why steps are taken in blocks.
 #pragma once
 
 #include <algorithm>

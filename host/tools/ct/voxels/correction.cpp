@@ -143,7 +143,7 @@ double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, Cor
   return in_contrasts(std::sqrt(squares / static_cast<double>(slices)), parts.whole);
 }
 
-// The brightness of each ring (one voxel of radius wide) is compared with the median of the rings up to 8 voxels away.
+// The brightness of each ring, one voxel wide in radius, is compared with the median of the rings up to 8 voxels away.
 // The median follows smooth changes, which belong to beam hardening; the difference is the ring's offset.
 double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
