@@ -65,7 +65,7 @@ def test_ctrl_c_leaves_a_stepper_that_goes_on(small_file, tmp_path):
             stepper.advance(10**9)
         except KeyboardInterrupt as error:
             stepper.advance(1)
-            print("KeyboardInterrupt", error)""", "may go on", tmp_path)
+            print("KeyboardInterrupt", error)""", "can continue", tmp_path)
 
 
 def test_python_runs_beside_a_long_call(specimen):

@@ -51,7 +51,7 @@ def test_an_interrupted_relaxation_goes_on_to_the_same_bits(specimen, tmp_path):
         mc.run(file, out=tmp_path / "out", on_step=stop, every=300)
     mc.run(file, out=tmp_path / "out", resume=True)
     assert (tmp_path / "out" / "relaxation.csv").read_bytes() == (scene.folder / "relaxation.csv").read_bytes()
-    with pytest.raises(mc.InputError, match="resume: found no out"):
+    with pytest.raises(mc.InputError, match="resume: found no value of out"):
         CALLS["relaxation"](specimen, method="explicit", resume=True)
 
 

@@ -194,7 +194,7 @@ def _columns(folder: Path) -> None:
         (_empty, "not a results folder of macadam"),
         (_no_json, "summary.json: "),
         (_other_json, "found a list, expected an object"),
-        (_no_status, "found no status"),
+        (_no_status, "found no key \"status\""),
         (_columns, "specimen.csv: found the columns a, b; expected also x"),
     ],
 )

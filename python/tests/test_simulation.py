@@ -77,7 +77,7 @@ def test_what_a_callback_sees(specimen):
         i = int(np.argmin(abs(response.time_s - time)))
         if abs(response.time_s[i] - time) < 1e-12:
             assert (strain, stress) == (response.strain[i], response.stress_pa[i])
-    with pytest.raises(mc.RunError, match="after its callback has returned"):
+    with pytest.raises(mc.RunError, match="after the callback had returned"):
         kept[0].particles()
 
 

@@ -151,7 +151,7 @@ def test_files_come_first_and_keep_the_order_of_the_pairs(folder: Path) -> None:
             "latin_hypercube 1: found no value for contacts.M-A.E, which list 1 gives",
         ),
         ({"grid": {DELTA: [1, 1.0]}}, f"grid.{DELTA}: found 1 and 1.0, which are the same value"),
-        ({"grid": {"loading.frequencies": [[1, 2.0], [1.0, 2]]}}, "which are one value"),
+        ({"grid": {"loading.frequencies": [[1, 2.0], [1.0, 2]]}}, "which are the same value"),
         ({"grid": {"specimen.x": ["2 %", "2.0 %"]}}, "found '2 %' and '2.0 %', which are the same value"),
     ],
 )

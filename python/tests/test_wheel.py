@@ -62,7 +62,7 @@ def test_every_file_of_bindings_is_compiled():
 
 def test_every_script_that_the_program_starts_is_in_a_wheel():
     lists = (ROOT / "python" / "CMakeLists.txt").read_text()
-    started = {name for f in (ROOT / "host" / "cli").glob("*.cpp") for name in re.findall(r'draw_results\("([\w-]+)"', f.read_text())}
+    started = {name for f in (ROOT / "host" / "cli").rglob("*.cpp") for name in re.findall(r'draw_results\("([\w-]+)"', f.read_text())}
     assert started and all(f"scripts/{name}" in lists for name in started)
 
 

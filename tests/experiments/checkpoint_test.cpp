@@ -150,7 +150,7 @@ TEST_F(CheckpointedRun, AnythingElseIsRefusedAndNamed) {
   EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "backend reference keeps no checkpoints");
   other = scene;
   other.solver.method = SolverMethod::harmonic;
-  EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "method harmonic writes no checkpoints");
+  EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "method harmonic keeps no checkpoints");
   other = scene;
   other.text.clear();
   EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "not read from a file");
