@@ -230,7 +230,7 @@ TEST(FitOptimum, AReferenceTemperatureBelowTheLawsPoleIsRefused) {
   EXPECT_HAS(message_of([&] {
                fit_modulus(measured({0, 10, 20, 30}, 0, 1), options);
              }),
-             "reference temperature: found -270, expected one above");
+             "reference temperature: found -270, expected a temperature above");
 }
 
 }  // namespace
