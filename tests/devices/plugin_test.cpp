@@ -48,7 +48,7 @@ TEST_F(Plugin, BesideTheLibraryIsFound) {
 TEST_F(Plugin, OfAnotherInterfaceIsRefused) {
   const Outcome info = with(FAKE_OLD_PLUGIN);
   EXPECT_TRUE(contains(info.out, "cuda       no: ")) << info.out;
-  EXPECT_TRUE(contains(info.out, "(interface 99), expected one of ")) << info.out;
+  EXPECT_TRUE(contains(info.out, "(interface 99), expected a plugin of Macadam ")) << info.out;
   const Outcome run =
       with(FAKE_OLD_PLUGIN, fmt::format("run '{}' --backend cuda --out {}", write_scene().string(), path("out")));
   EXPECT_EQ(run.code, 1);

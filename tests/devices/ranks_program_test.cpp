@@ -160,7 +160,7 @@ TEST_F(RanksProgram, RefusesDifferentScenes) {
                                            path("scene.toml"), path("other.toml"), path("two"), MACADAM_PROGRAM));
   EXPECT_EQ(two.code, 1) << two.err;
   EXPECT_THAT(two.err, HasSubstr("ranks: checksum of "));
-  EXPECT_THAT(two.err, HasSubstr("they do not run the same scene"));
+  EXPECT_THAT(two.err, HasSubstr("the ranks no longer run the same scene"));
 }
 
 TEST_F(RanksProgram, SaysWhatItNeeds) {

@@ -160,7 +160,7 @@ TEST_F(LoadError, IsEstimatedWhereALawIsNotLinear) {
     EXPECT_HAS(read(out("out") / (found.kind + ".csv")), "error: estimated relative error of the ");
     bool said = false;
     for (const std::string& d : result.decisions)
-      said |= d.starts_with("errors are estimates, because brittle_bond of ");
+      said |= d.starts_with("errors are estimates, because law brittle_bond of ");
     EXPECT_TRUE(said) << c.name;
   }
 }

@@ -230,7 +230,7 @@ TEST_F(SteppedLoad, LongRunsAreForetold) {
   EXPECT_HAS(warned, "steps of ");
   EXPECT_HAS(warned, "method = \"harmonic\" needs none");
   const std::string hopeless = message_of([&] { run(scene("kind = \"relaxation\"\ntimes = [1e7]\n"), out("out")); });
-  EXPECT_HAS(hopeless, "steps until 1e+07 s; raise density_scaling");
+  EXPECT_HAS(hopeless, "steps until 1e+07 s; increase density_scaling");
 }
 
 TEST_F(SteppedLoad, WhatDoesNotFitStepsIsRefused) {

@@ -203,7 +203,7 @@ TEST(Recipe, IsFollowedByASpecimen) {
   expect_hand(*spec.aggregate[0].volume_fraction, 0.1358262 / 0.95);
   EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "no classes, because they follow from the recipe");
   spec.aggregate.clear();
-  EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "a porosity or count of the mastic together with it");
+  EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "a porosity or count of the mastic together with the recipe");
 }
 
 /// If half of the first class is missing, 1 kg of aggregate lacks 0.0815 kg.
@@ -220,7 +220,7 @@ TEST(Recipe, ReachedCurveByHand) {
   ASSERT_EQ(rows.size(), std::size(by_hand));  // 0.837/0.9185, 0.712/0.9185, …
   for (std::size_t k = 0; k < rows.size(); ++k) expect_hand(rows[k].reached, by_hand[k]);
   reached.pop_back();
-  EXPECT_HAS(message_of([&] { gradation_of(d, reached); }), "4 and the mastic");
+  EXPECT_HAS(message_of([&] { gradation_of(d, reached); }), "the 4 classes of the recipe and the mastic");
 }
 
 /// A program can make a design whose envelopes the scene reader would refuse. The recipe functions must refuse them

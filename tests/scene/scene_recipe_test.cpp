@@ -173,13 +173,10 @@ INSTANTIATE_TEST_SUITE_P(
          {{14, "maximum_density = 2400"}},
          14,
          "2400 kg/m3, by which -0.6397",
-         "at least 2435.61 kg/m3, without absorption: 1 kg / (0.952381 kg / 2623.96 kg/m3 + 0.047619 kg / 1000 kg/m3)"},
+         "at least 2435.61 kg/m3, which is the value without absorption: 1 kg / (0.952381 kg / 2623.96 kg/m3 + "
+         "0.047619 kg / 1000 kg/m3)"},
         // If all binder is absorbed, the maximum density is 1.05/3.811030e-4 = 2755.16 kg/m³.
-        {"NegativeEffectiveBinder",
-         {{14, "maximum_density = 2800"}},
-         14,
-         "an effective binder of -",
-         "at most 2755.16"},
+        {"NegativeEffectiveBinder", {{14, "maximum_density = 2800"}}, 14, "absorbed binder and -", "at most 2755.16"},
         {"VoidsTwice", {{16, "bulk_density = 2400"}}, 16, "air_voids and bulk_density", "exactly one"},
         {"NoVoids", {{15, ""}}, 3, "neither air_voids nor bulk_density", "exactly one"},
         {"AllVoids", {{15, "air_voids = \"100 %\""}}, 15, "100 %", "below 100 %"},

@@ -147,7 +147,7 @@ const std::vector<Wrong> wrong_scenes = {
      {{6, "volume_fraction = 0.6\n[[specimen.aggregate]]\nsieve = [0.002, 0.004]\nvolume_fraction = 0.4"}},
      4, "sum 1", "below 1"},
     {"FractionWithoutMastic", {{7, ""}, {8, ""}, {9, ""}}, 4, "volume_fraction without [specimen.mastic]", "count"},
-    {"AggregatesLargerThanTheBox", {{6, "count = 1000"}}, 4, "a total volume of aggregates of at least", "less than the box"},
+    {"AggregatesLargerThanTheBox", {{6, "count = 1000"}}, 4, "a total volume of aggregates of at least", "less than the volume of the box"},
     {"AggregatesLeaveNoMastic", {{6, "count = 200"}, {9, "porosity = 0.9"}},
      4, "a total volume of aggregates of at least", "solid volume"},
     {"SpheresOfDust", {{8, "radius = [1e-9, 1e-9]"}}, 7, "particles", "at most 100000000"},

@@ -179,7 +179,7 @@ TEST_F(ShapesCommand, FillWritesSpheresAndSaysHowWellTheyFit) {
   EXPECT_GT(spheres, 24u);  // the shape holds 24 spheres if all have a radius of 2 mm
   EXPECT_EQ(csv.rfind("x,y,z,radius\n", 0), 0u);
   EXPECT_TRUE(contains(done.out, fmt::format("ball: {} spheres of 1.5", spheres))) << done.out;
-  for (const char* word : {"D^L", "covered", "overlap", "deviation"}) EXPECT_TRUE(contains(done.out, word)) << done.out;
+  for (const char* word : {"D^L", "cover", "overlap", "deviation"}) EXPECT_TRUE(contains(done.out, word)) << done.out;
   EXPECT_EQ(read_surface(folder_ / "spheres" / "spheres.obj").points.size(), 42 * spheres);
   const Surface shape = read_surface(folder_ / "spheres" / "shape.obj");
   EXPECT_NEAR(measure_shape(shape).d_intermediate, 2 * 6.295e-3, 1e-12);

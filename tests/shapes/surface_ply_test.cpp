@@ -181,7 +181,7 @@ TEST_F(SurfacePly, BrokenHeadersAreNamedByLine) {
       {"element face 4", "element face 5", "the end of the file"},
       {"element face 4", "element face 3", "the end of the file after the last element"},
       {"element face 4", "element other 1000000000", ":9: element other: found 1000000000 items"},
-      {"element face 4", "element vertices 4", ":9: element vertices: found it again"},
+      {"element face 4", "element vertices 4", ":9: element vertices: found a second element of this name"},
       {"element face", "element faces_", "no facet"},
       {"list uchar int vertex_index", "list uchar int vertex", ":9: element face: found no property vertex_indices"},
       {"list uchar int vertex_index", "int vertex_index", ":10: property vertex_index: found no list"},

@@ -63,7 +63,7 @@ TEST(PackingCheck, ABoxTwiceAsWideNamesASide) {
   s.box.size.x *= 2;
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
-  EXPECT_HAS(found[0], "with the +x wall reaches ");
+  EXPECT_HAS(found[0], "and the +x wall extends to ");
 }
 
 // The corners of the box are at least 3.7 m from the spheres of the cylinder.
@@ -76,7 +76,7 @@ TEST(PackingCheck, ACylinderInABoxIsFound) {
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
   EXPECT_HAS(found[0], "the packing does not fill its box");
-  EXPECT_HAS(found[0], " wall reaches 4.");
+  EXPECT_HAS(found[0], " wall extends to 4.");
 }
 
 TEST(PackingCheck, DiametersForRadiiFillTooMuch) {

@@ -90,13 +90,13 @@ TEST_F(CtCommand, AggregateInNoGrainIsPrintedAndWarnedOf) {
   // 8·5³ / (12³ + 8·5³) = 36.7 % of the volume is in the small balls
   const Outcome coarse = macadam(segment + " --smallest '2.4 mm'");
   EXPECT_EQ(coarse.code, 0) << coarse.err;
-  EXPECT_HAS(coarse.out, "1 grains, 0 of them cut by the end of the specimen; 3");
+  EXPECT_HAS(coarse.out, "1 grains, 0 of them cut by the boundary of the specimen; 3");
   EXPECT_HAS(coarse.out,
              "% of the aggregate's volume is in no grain: pieces below half of --smallest, 1.2 mm, are left out");
   EXPECT_HAS(coarse.out, "These voxels allow a --smallest of 0.4 mm and more");
   const Outcome fine = macadam(segment + " --smallest '1 mm'");
   EXPECT_EQ(fine.code, 0) << fine.err;
-  EXPECT_HAS(fine.out, "9 grains, 0 of them cut by the end of the specimen; 0.");
+  EXPECT_HAS(fine.out, "9 grains, 0 of them cut by the boundary of the specimen; 0.");
   EXPECT_FALSE(contains(fine.out, "is in no grain:")) << fine.out;
 }
 

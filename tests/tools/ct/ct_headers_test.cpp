@@ -99,7 +99,7 @@ TEST_F(CtHeaders, OfAMetaImageThatAreUnusualAndGood) {
   refused(
       "large.mhd",
       "ObjectType = Image\nNDims = 3\nDimSize = 900 900 900\nElementType = MET_UCHAR\nElementDataFile = beside.raw\n",
-      "900 x 900 x 900 of 8 bits, expected no more than 2 bytes can hold");
+      "900 x 900 x 900 of 8 bits, expected no more voxels than the 2 bytes of the file can hold");
 }
 
 std::string nrrd(const std::string& sizes, const std::string& more = "") {
@@ -116,8 +116,8 @@ TEST_F(CtHeaders, OfAnNrrd) {
   for (const std::string data : {"%n%d 1 1 1", "x%03d.raw 1 3 1", "LIST", "-", "pipe", "/dev/zero", "none.raw"})
     for (const std::string field : {"data file", "datafile", "Data File"})
       refused("a.nhdr", nrrd("sizes: 3 2 1", field + ": " + data + "\r\n"),
-              ":6: " + field + ": found \"" + data + "\", expected one file");
-  refused("a.nrrd", nrrd("sizes: 3 2 1", "byte skip: -1\r\nencoding: gzip\r\n"), "byte skip: found below 0");
+              ":6: " + field + ": found \"" + data + "\", expected one existing file");
+  refused("a.nrrd", nrrd("sizes: 3 2 1", "byte skip: -1\r\nencoding: gzip\r\n"), "byte skip: found a negative value");
 }
 
 /// Reads NRRD headers that are unusual but valid.
@@ -189,7 +189,7 @@ TEST_F(CtHeaders, AxesThatAreTurnedOrMirroredAreNoted) {
   EXPECT_NE(notes("a.mha").find("mirror images of those that were scanned"), std::string::npos) << notes("a.mha");
   EXPECT_EQ(voxels("a.mha"), "ab");
   write("a.mha", with("-1 0 0 0 -1 0 0 0 1"));
-  EXPECT_NE(notes("a.mha").find("turned against those that were scanned"), std::string::npos) << notes("a.mha");
+  EXPECT_NE(notes("a.mha").find("rotated relative to those that were scanned"), std::string::npos) << notes("a.mha");
   const std::string directions = "space directions: (0,1,0) (1,0,0) (0,0,1)\r\n";
   write("a.nrrd", nrrd("sizes: 3 2 1", "space: left-posterior-superior\r\n" + directions));
   EXPECT_NE(notes("a.nrrd").find("(0 1 0, 1 0 0, 0 0 1) is not applied"), std::string::npos) << notes("a.nrrd");

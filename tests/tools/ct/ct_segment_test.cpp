@@ -241,7 +241,7 @@ TEST(CtSegment, WhatIsNoScanIsRefused) {
   Image<float> faint = many_balls(60);  // the little contrast of limestone in mastic with limestone filler
   for (float& grey : faint.voxels) grey = std::min(grey, mastic + 0.02f * (grey - mastic));
   add_noise(faint, 0.1);
-  EXPECT_NE(fault(faint, options).find("a phase is missing"), std::string::npos);
+  EXPECT_NE(fault(faint, options).find("phase is missing"), std::string::npos);
   Image<float> coarse = many_balls(60);
   coarse.spacing = {1e-3, 1e-3, 1e-3};  // voxel sizes ten times too large
   EXPECT_NE(fault(coarse, options).find("edge of a voxel"), std::string::npos);
