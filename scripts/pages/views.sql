@@ -202,7 +202,7 @@ SELECT quantity, part(specimen, '([^-]*)$') AS filling, text('{} % (paper {} %)'
 FROM "paper-summary.csv" WHERE quantity IN ('e_star', 'phase') GROUP BY 1, 2;
 
 CREATE VIEW paper_met AS  -- the sentence on how well the reference publication is reproduced
-SELECT text('The paper''s tables of shapes and compositions are met. Its stiffness figures are met in sign and order, but '
+SELECT text('Macadam reproduces the paper''s tables of shapes and compositions. Its stiffness figures are met in sign and order, but '
   || 'not in size: coarse clusters change \|E\*\| of single spheres by {}, fine clusters by {}, and φ of fine clusters by '
   || '{}. Clusters have {} % fewer contacts between aggregates, and the calibrated factor δ_MA of the coarse real shapes '
   || 'is {}.',
