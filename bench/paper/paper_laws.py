@@ -114,8 +114,8 @@ def springs():
         {e:.1f} GPa in series (Eq. 11 divides by the whole distance); with the constrained modulus (no lateral
         strain), E·(1 − ν)/((1 + ν)(1 − 2ν)), they are {confined:.1f} GPa. The modulus in the paper is {aa / e:.3f}
         times the modulus of the rock, and {aa / confined:.3f} times the constrained modulus; 1.5 times the
-        constrained modulus is {1.5 * confined:.1f} GPa. *Inferred:* the
-        factor 1.5, from the digits alone; its reason is *not explained*. Uniform strain at α = 0.05 gives
+        constrained modulus is {1.5 * confined:.1f} GPa. *Inferred* from these
+        numbers alone: the paper multiplied the constrained modulus by 1.5. The paper does *not explain* this factor. Uniform strain at α = 0.05 gives
         {e / uniform_strain(0.05):.1f} GPa, near the inner moduli below."""), ""]
 
 
