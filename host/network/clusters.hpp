@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string>
 #include <vector>
 
 #include "macadam/contact_network.hpp"

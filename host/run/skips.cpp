@@ -34,7 +34,7 @@ std::vector<Skip> geometry_skips(Geometry geometry, std::optional<double> strain
   return {{"geometry update", "normals and lever arms keep their initial values",
            strain ? fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
                                 fixed_geometry_error(std::abs(*strain)), *strain)
-                  : "grows as the square of the strain: see docs/accuracy.md"}};
+                  : "grows as the square of the strain: see docs/choose-settings.md"}};
 }
 
 std::vector<Skip> asked_skips(const Scene& scene) {
