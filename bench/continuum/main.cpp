@@ -5,10 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <fstream>
 #include <iostream>
 #include <numbers>
-#include <sstream>
 
 #include "bench/continuum/compression.hpp"
 #include "bench/continuum/rock_fractions.hpp"

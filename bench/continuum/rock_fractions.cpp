@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -39,7 +40,7 @@ RockFractions empty(const std::vector<double>& box, double voxel) {
 /// Spheres by the cells of a regular grid, to find those near a point.
 class Bins {
  public:
-  Bins(const std::vector<Sphere>& spheres, const std::vector<double>& box, double edge) : edge_(edge) {
+  Bins(const std::vector<Sphere>& spheres, const std::vector<double>& box, double edge) {
     for (int i = 0; i < 3; ++i) count_[i] = std::max(1, int(box[i] / edge));
     for (int i = 0; i < 3; ++i) step_[i] = box[i] / count_[i];
     bins_.resize(std::size_t(count_[0]) * count_[1] * count_[2]);
@@ -64,7 +65,7 @@ class Bins {
  private:
   int bin(int axis, double x) const { return std::clamp(int(x / step_[axis]), 0, count_[axis] - 1); }
   std::size_t index(int i, int j, int k) const { return (std::size_t(k) * count_[1] + j) * count_[0] + i; }
-  double edge_, largest_ = 0, step_[3];
+  double largest_ = 0, step_[3];
   int count_[3];
   std::vector<std::vector<std::size_t>> bins_;
 };
