@@ -10,8 +10,8 @@ namespace continuum {
 constexpr int corners = 8, dofs = 24;  ///< unknown 3 c + i: component i of corner c = x + 2 y + 4 z (x, y, z: 0 or 1)
 using ElementMatrix = std::array<std::array<double, dofs>, dofs>;
 
-/// The stiffness of a cube with edge 1 is lambda·`lambda` + mu·`mu`, with Lamé's constants; of a cube with edge h, h
-/// times as much. Computed with 2 × 2 × 2 Gauss points, which is exact for trilinear displacements.
+/// The stiffness of a cube with edge 1 is lambda·`lambda` + mu·`mu`, with Lamé's constants; a cube with edge h is h
+/// times as stiff. Computed with 2 × 2 × 2 Gauss points, which is exact for trilinear displacements.
 struct ElementStiffness {
   ElementMatrix lambda{}, mu{};
 

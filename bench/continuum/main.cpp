@@ -65,11 +65,16 @@ int main(int argc, char** argv) try {
       ->check(CLI::ExistingFile);
   source->add_option("--layers", layers, "x, y or z: the half with larger coordinates is rock (exact solutions)")
       ->check(CLI::IsMember({"x", "y", "z"}));
-  app.add_option("--box", box, "edges [m]")->expected(3)->required();
-  app.add_option("--voxel", voxels, "edges of voxels [m], one run each; the height must be a multiple")->required();
-  app.add_option("--mastic", mastic, "modulus [Pa], phase angle [degrees], Poisson's ratio")->expected(3)->required();
-  app.add_option("--rock", rock, "the same of the rock [60e9 0 0.28]")->expected(3);
-  app.add_option("--tolerance", tolerance, "of the residual [1e-8]");
+  app.add_option("--box", box, "edges of the specimen [m]")->expected(3)->required();
+  app.add_option("--voxel", voxels,
+                 "edges of the voxels [m], one computation for each; the edges of the specimen must be multiples")
+      ->required();
+  app.add_option("--mastic", mastic, "mastic: modulus [Pa], phase angle [degrees], Poisson's ratio")
+      ->expected(3)
+      ->required();
+  app.add_option("--rock", rock, "rock: modulus [Pa], phase angle [degrees], Poisson's ratio [60e9 0 0.28]")
+      ->expected(3);
+  app.add_option("--tolerance", tolerance, "residual at which the solver stops, relative to the first residual [1e-8]");
   CLI11_PARSE(app, argc, argv);
   const Material m{mastic[0], mastic[1], mastic[2]}, a{rock[0], rock[1], rock[2]};
   fmt::print("voxel_m,mixing,rock_fraction,e_star_pa,phase_deg,poisson_ratio,poisson_phase_deg,iterations,seconds\n");

@@ -126,8 +126,8 @@ class Steps : public PlannedExperiment {
   }
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
-    SampledRuns courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_,
-                        [&](const std::string& warning) { warn(warning, result); });
+    SampledRuns sampled_runs(scene_, prepared_, watcher_, result, out, owns_checkpoint_,
+                             [&](const std::string& warning) { warn(warning, result); });
     std::optional<LineWriter> writer;
     if (scene_.output.response) {
       writer.emplace(out / "response.csv", "frequency_hz,time_s,strain,stress_pa");
@@ -136,9 +136,9 @@ class Steps : public PlannedExperiment {
     }
     begin_cracks(out);
     for (std::size_t i = at_.seconds.size(); i < at_.plan.frequencies.size(); ++i) {
-      step(i, writer ? &*writer : nullptr, courses, save, result);
+      step(i, writer ? &*writer : nullptr, sampled_runs, save, result);
       finish(i, result);
-      owns_checkpoint_ = courses.own_checkpoint();
+      owns_checkpoint_ = sampled_runs.own_checkpoint();
     }
     if (writer) writer->close();
     if (cracks_writer_) cracks_writer_->close();
@@ -200,7 +200,7 @@ class Steps : public PlannedExperiment {
     return steady_start(prepared_.network, scene_.laws, p.motion, p.loading);
   }
 
-  void step(std::size_t i, LineWriter* writer, SampledRuns& courses, const Saving& save, RunResult& result) {
+  void step(std::size_t i, LineWriter* writer, SampledRuns& sampled_runs, const Saving& save, RunResult& result) {
     const auto start = Clock::now();
     const double before = std::exchange(at_.seconds_running, 0);
     const FrequencyPlan& p = at_.plan.frequencies[i];
@@ -212,9 +212,9 @@ class Steps : public PlannedExperiment {
     CrackWatch cracks(scene_, prepared_, at_.cracks[i].events);
     const Course course =
         course_of(i, writer, cracks, [&](Checkpoint& to) { add_to(to, at_, before + seconds_since(start)); });
-    courses.begin_fields(fmt::format("{}Hz", p.loading.frequency), scene_.cyclic().samples_per_cycle,
-                         stepper_->observe().time);
-    courses.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+    sampled_runs.begin_fields(fmt::format("{}Hz", p.loading.frequency), scene_.cyclic().samples_per_cycle,
+                              stepper_->observe().time);
+    sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
     warn_of_cracks(i, cracks.found(), result);
     at_.seconds.push_back(before + seconds_since(start));
   }

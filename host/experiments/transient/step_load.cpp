@@ -123,11 +123,12 @@ class SteppedLoad : public PlannedExperiment {
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     auto& found = std::get<SteppedResponse>(result.found);
-    SampledRuns courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_, [&](const std::string& warning) {
-      at_.warnings.push_back(warning);
-      result.warnings.push_back(warning);
-      if (watcher_.warn) watcher_.warn(warning);
-    });
+    SampledRuns sampled_runs(scene_, prepared_, watcher_, result, out, owns_checkpoint_,
+                             [&](const std::string& warning) {
+                               at_.warnings.push_back(warning);
+                               result.warnings.push_back(warning);
+                               if (watcher_.warn) watcher_.warn(warning);
+                             });
     const LoadWords& words = load_words(test_.kind);
     LineWriter writer(out / words.file, head(words));
     for (const SteppedPoint& p : at_.points) writer.add(line(words, p));
@@ -151,7 +152,7 @@ class SteppedLoad : public PlannedExperiment {
           at_.seconds = before + seconds_since(start);
           add_to(to, at_);
         });
-    courses.begin_fields(test_.kind, static_cast<int>(test_.history.times.size()), stepper_->observe().time);
+    sampled_runs.begin_fields(test_.kind, static_cast<int>(test_.history.times.size()), stepper_->observe().time);
     const auto finish = [&] {
       found.points = at_.points;
       if (cracks_.active()) found.cracks = cracks_.found();
@@ -160,10 +161,10 @@ class SteppedLoad : public PlannedExperiment {
       if (rupture_) found.steps = stepper_->observe().step;
       found.seconds = before + seconds_since(start);
       found.kinetic_share = kinetic_share(found);
-      owns_checkpoint_ = courses.own_checkpoint();
+      owns_checkpoint_ = sampled_runs.own_checkpoint();
     };
     try {
-      courses.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+      sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
     } catch (...) {
       finish();
       throw;
