@@ -244,6 +244,13 @@ JOIN "team-h100-2026-11-24.csv" b ON b.row = a.row || '/devices:2' UNION ALL
 SELECT 'H200', a.row, a.us, b.us, NULL FROM "team-harmonic-h200-2026-11-27.csv" a
 JOIN "team-harmonic-h200-2026-11-27.csv" b ON b.row = a.row || '/devices:2';
 
+CREATE VIEW more_gpus AS  -- rows on 1, 2, 3 and 4 GPUs of one machine; work: particles relative to the row on one GPU
+SELECT gpu, row AS name, devices, us,
+  CASE WHEN us < 1e3 THEN text('{:.1f} µs', us) WHEN us < 1e5 THEN text('{:.2f} ms', us / 1e3) WHEN us < 1e7
+    THEN text('{:.2f} s', us / 1e6) ELSE text('{:.1f} s', us / 1e6) END AS time,
+  CASE WHEN row LIKE '%1.6e7%' THEN 2 WHEN row LIKE '%3.2e7%' THEN 4 ELSE 1 END AS work
+FROM "four-gpus-2026-11-27.csv";
+
 CREATE VIEW many_means AS  -- mean seconds of many specimens on one GPU and on two, per version k of the program
 SELECT "commit", row_number() OVER (ORDER BY min(rowid)) AS k, row_number() OVER (ORDER BY min(rowid) DESC) AS last,
   max(how LIKE 'tried: %') AS tried, avg(iif(devices = 1, seconds, NULL)) AS one_gpu,
