@@ -31,8 +31,8 @@ struct Field {
   }
 };
 
-/// Elements with Lamé's constants [Pa], divided by a reference modulus. Elements without material have zeros. The
-/// bottom and top faces cannot move along z.
+/// Cubic elements with Lamé's constants, each divided by a reference modulus. In elements without material the
+/// constants are zero. The bottom and top faces cannot move along z.
 template <class T>
 struct Grid {
   Size size;
@@ -45,7 +45,8 @@ struct Grid {
   std::vector<std::array<std::complex<T>, 9>> inverse_diagonal() const;
 };
 
-/// Returns the grid with edges twice as long. Its constants are averages of the eight elements in each.
+/// Returns the grid with edges twice as long. An element has twice the mean of the constants of the eight elements that
+/// it replaces, because its edge is twice as long.
 template <class T>
 Grid<T> coarser(const Grid<T>& fine);
 

@@ -15,7 +15,8 @@
 
 namespace macadam {
 
-/// The pair of materials that a contact joins. `inner`: two spheres of the same aggregate; W is a wall.
+/// The pair of materials that a contact joins (m: mastic, a: aggregate, w: wall). `inner`: two spheres of the same
+/// aggregate.
 enum class PairType : std::uint8_t { mm, ma, aa, inner, aw, mw };
 inline constexpr int particle_pair_types = 4;  ///< number of pair types without a wall, which are the first ones
 /// Returns "M-M", "M-A", "A-A", "inner", "A-W" or "M-W".

@@ -44,7 +44,7 @@ struct PhantomGrain {
   /// Centroid of the part within the specimen [m]; `volume` and `border` also describe this part.
   Vec3d centre{};
   double volume = 0;    ///< [m³]
-  bool border = false;  ///< whether the saw cuts it; the members below describe the whole grain
+  bool border = false;  ///< whether the scanned body ends in the grain; the members below describe the whole grain
   double area = 0;      ///< [m²]
   double d_long = 0, d_intermediate = 0, d_short = 0;  ///< [m]
   double sieve = 0;                                    ///< side of the smallest square mesh that the grain passes [m]

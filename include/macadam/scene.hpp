@@ -48,7 +48,7 @@ struct SolverSpec {
   std::optional<double> tolerance;                     ///< largest error of |E*| (relative) and φ [rad]; explicit only
   std::optional<std::vector<double>> density_scaling;  ///< one value, or one per frequency
   std::optional<double> safety;                        ///< fraction of the computed critical step
-  std::optional<double> time_step;                     ///< [s]: given instead of computed
+  std::optional<double> time_step;                     ///< time step [s]; empty: it is computed
   /// Whether the scene gives a damping, even 0; otherwise tests that are not cyclic choose their own.
   bool damping_given = false;
   Damping damping_kind = Damping::none;

@@ -117,8 +117,8 @@ class Planner {
     }
   }
 
-  /// Appends the plan of tile t to the plan of all tiles. Adds the numbers of places and packets of earlier tiles to
-  /// its own.
+  /// Appends the plan of tile t to the plan of all tiles. Its places and packets, counted from the beginning of the
+  /// tile, then follow those of earlier tiles.
   void add_tile(std::size_t t, const TilePart& part) {
     if (!begins_share_.empty() && begins_share_[t]) {
       out_.contact.resize(whole(out_.packets(), TilePlan::share_packets) * 32);  // inert

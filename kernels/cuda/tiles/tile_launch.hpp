@@ -154,8 +154,8 @@ class TileLaunch {
       });
     }
   }
-  /// Overwrites all words of the exchange with `words`, from the first device that still works. Returns whether one
-  /// did. Uses copies, because no multiprocessor is free for a kernel.
+  /// Overwrites all words of the exchange with `words`, from the first device on which this succeeds. Returns false if
+  /// it fails on every device. Uses copies, because no multiprocessor is free for a kernel.
   bool write_on_any(const std::vector<ulonglong2>& words) {
     bool done = false;
     team_.each([&](std::size_t) {
