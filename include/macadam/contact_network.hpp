@@ -72,7 +72,7 @@ struct ContactNetwork {
   /// Area of the facets left out because of area_min, over the area of all facets between particles.
   double dropped_share = 0;
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
-  double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
+  double second_moment_difference = 0;  ///< of the moment ss + tt, over all contacts: Σ|lumped − exact| / Σ exact
 
   /// Returns the numbers of a particle's contacts, in rising order.
   std::span<const std::uint32_t> row(std::size_t particle) const {

@@ -188,7 +188,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     return out;
   }
 
-  /// The next functions return copies of the bodies' arrays, or replace the arrays by copies.
+  /// The next functions return copies of the bodies' arrays, or replace the contents of these arrays.
   std::vector<R> velocities() const { return {master_.begin(), master_.end()}; }
   std::vector<double> displacements() const { return {displacement_.begin(), displacement_.end()}; }
   std::vector<double> wall_displacements() const {

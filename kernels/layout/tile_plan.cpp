@@ -192,9 +192,10 @@ class Planner {
     touches = {};
   }
 
-  /// Assigns cells to the contacts and sorts them into packets. Couples are sorted by entry e of their cell's list,
-  /// then by rank, so that the lanes of a warp access neighbouring words of shared memory. Couples of two that need no
-  /// halo come first, so that they can be stepped while velocities of other tiles are in transit.
+  /// Assigns cells to the contacts and sorts them into packets. Couples are sorted by the index e of their cell in its
+  /// load list, then by the rank of the list's particle, so that the lanes of a warp access neighbouring words of
+  /// shared memory. Couples of two that need no halo come first, so that they can be stepped while velocities of other
+  /// tiles are in transit.
   void add_contacts(int t, TilePart& part, const std::vector<Touch>& touches,
                     const std::vector<std::uint32_t>& rank) const {
     Tile& tile = part.tile;

@@ -82,8 +82,9 @@ class ResidentTile {
     return {packets(warp), packets(warps + warp), warp < ahead,
             WarpPackets::of(tile, doubles, first_one + min(free * each, ones), warp, warps, ahead)};
   }
-  /// Returns the position in the cache of the constants of a warp's packet j; the packet is cached if this is less than
-  /// `cached`. The first packets of all warps come first, so that no warp has many more uncached packets than another.
+  /// Returns the position in the cache of the constants of a warp's packet j; the packet is cached if this position is
+  /// less than `cached`. The first packets of all warps come first, so that no warp has many more uncached packets than
+  /// another.
   __device__ __forceinline__ static std::uint32_t place_in_cache(std::uint32_t j) {
     return j * warps + threadIdx.x / 32;
   }
