@@ -18,8 +18,8 @@ void clear_held(const Size& n, Field<T>& f) {
 }
 
 /// Adds the forces of one row of elements along x. The loops over elements are innermost, so that the compiler
-/// vectorises them. Real and imaginary parts are in separate arrays, because loops over std::complex are not
-/// vectorised.
+/// vectorises them. They run over real numbers, in which real and imaginary parts alternate, because loops over
+/// std::complex are not vectorised.
 template <class T>
 class RowOfElements {
  public:

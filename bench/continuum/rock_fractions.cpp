@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rock_fractions.cpp  Samples the phase at points of voxels.
+// rock_fractions.cpp  Computes the volume fraction of rock in each voxel from the phase at points of the voxel.
 #include "bench/continuum/rock_fractions.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ RockFractions empty(const std::vector<double>& box, double voxel) {
   return out;
 }
 
-/// Spheres by the cells of a regular grid, to find those near a point.
+/// Sorts spheres into the cells of a regular grid, to find the spheres near a point.
 class Bins {
  public:
   Bins(const std::vector<Sphere>& spheres, const std::vector<double>& box, double edge) {
@@ -50,7 +50,7 @@ class Bins {
       largest_ = std::max(largest_, at.radius);
     }
   }
-  /// Calls f(number) for every sphere with its centre in bins within `reach` of the point along each axis.
+  /// Calls f(number) for every sphere whose bin is within `reach` of the point `at` along each axis.
   template <class F>
   void near(const std::array<double, 3>& at, double reach, F&& f) const {
     int low[3], high[3];

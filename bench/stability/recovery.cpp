@@ -80,8 +80,8 @@ Measured run(Stepper& stepper, const test::TestScene& scene, const std::vector<V
   const double along = dot(direction[observed], direction[observed]);
   std::vector<Vec3d> velocity(n), spin(n);
   ParticleState state = stepper.particles();
-  // The velocity change of the step is subtracted beforehand, so that the step moves the particle at exactly the wanted
-  // velocity.
+  // The step changes the velocity by Δt·force/mass. This change is subtracted beforehand, so that the step moves the
+  // particle at exactly the wanted velocity.
   const auto set = [&](double rate, double share) {
     for (std::size_t i = 0; i < n; ++i) {
       velocity[i] = rate * direction[i] - (share * dt / scene.inertia.mass[i]) * state.force[i];

@@ -16,8 +16,8 @@ constexpr double modulus = 1e10;
 constexpr std::int64_t per_cycle = 100;
 constexpr const char* alternating = "alternating part of the force after 1000 steps / η·v";
 
-/// Returns one particle that is too heavy to move, with the top wall pulling at its only contact. The stepper then
-/// shows the law alone.
+/// Returns one particle that is too heavy to move, with the top wall pulling at its only contact. The force of the
+/// stepper then depends on the law alone.
 test::TestScene one_contact(const laws::GeneralisedKelvin& law) {
   test::HandMade made;
   const double edge = 2e-3;

@@ -25,7 +25,8 @@ class ResidentTile {
   static constexpr unsigned warps = Threads / 32;
   using Constants = ContactConstants<carried, memory>;
   using Contact = ContactInBlock<carried, memory>;
-  /// Number of constant words per contact. words: in memory; words_read: words that a step reads and the cache holds.
+  /// Number of words of constants per contact. words: in memory; words_read: those that a step reads and the cache
+  /// holds.
   static constexpr std::uint32_t words = TileContactWords::constants(carried), words_read = Constants::words;
 
   __device__ __forceinline__ ResidentTile(const TileArrays<P>& scene, const Tile& own_tile, unsigned char* shared,
