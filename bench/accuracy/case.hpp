@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file case.hpp  One run of bench/accuracy: all settings that the study varies, and the result.
+/// \file case.hpp  Defines one run of bench/accuracy: all settings that the study varies, and the result.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// compression.cpp  Conjugate gradients for complex symmetric matrices (COCG), with a multigrid cycle as preconditioner.
+// compression.cpp  Solves the uniaxial test by conjugate gradients for complex symmetric matrices (COCG), with a
+// multigrid cycle as preconditioner.
 #include "bench/continuum/compression.hpp"
 
 #include <cmath>

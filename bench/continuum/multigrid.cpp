@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// multigrid.cpp  The levels of a multigrid cycle: smoothing, restriction and interpolation, and the coarsest solution.
+// multigrid.cpp  Implements the levels of a multigrid cycle: smoothing, restriction and interpolation, and the coarsest
+// solution.
 #include "bench/continuum/multigrid.hpp"
 
 #include <Eigen/Sparse>

@@ -137,7 +137,8 @@ RockFractions of_cells(const std::string& file, const std::vector<double>& box, 
   sample(out, voxel, [&](const std::array<double, 3>& at) {
     double least = INFINITY;
     bool rock = false;
-    // A sphere with a smaller power distance p = d² − R² than the best so far has d² < p + R² ≤ p + R_max².
+    // Let p be the smallest power distance d² − R² found so far. A sphere with a smaller power distance has d² < p + R²
+    // ≤ p + R_max², so no sphere farther away need be searched.
     for (double reach = mean;; reach *= 2) {
       bins.near(at, reach, [&](std::size_t n) {
         const Sphere& s = spheres[n];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scenes.cpp  Scenes and measurements that several cases use.
+// scenes.cpp  Makes the scenes and the measurements that several stability cases use.
 #include <cmath>
 #include <complex>
 #include <mutex>

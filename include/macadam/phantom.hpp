@@ -69,8 +69,8 @@ struct Phantom {
 };
 
 /// Generates the scene's specimen and computes a synthetic scan of it. The same scene and spec give the same bits for
-/// any number of threads. \throws InputError if the scene reads a specimen with several spheres per aggregate from a
-/// file, because their surfaces are not known, and for impossible values.
+/// any number of threads. \throws InputError for impossible values, and if the scene reads a specimen with several
+/// spheres per aggregate from a file, because the surfaces of these aggregates are not known.
 Phantom make_phantom(const Scene& scene, const PhantomSpec& spec,
                      const std::function<void(const std::string& stage, double share)>& progress = {});
 
