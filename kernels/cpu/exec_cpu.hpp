@@ -280,7 +280,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     }
   }
 
-  /// Returns the load on a body: its own accumulator (`none` for walls) plus the accumulators of its halo row.
+  /// Returns the load on a body: its own accumulator `own` (`none` for walls) plus the accumulators of its halo row.
   Twist<R> sum(std::int32_t body, std::uint32_t own) const {
     const auto i = static_cast<std::size_t>(body);
     R total[velocity_words] = {};
