@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Compile options of Macadam's own code. They are not passed on to users of the library.
+# Sets the compile options of Macadam's own code. They are not passed on to users of the library.
 add_library(macadam_options INTERFACE)
 target_include_directories(macadam_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra>)
@@ -7,8 +7,8 @@ target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall
 # bits everywhere. Otherwise gcc and clang would use fused multiply-add where the processor has it, each in different
 # places.
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
-# Eigen's own threads would split sums according to their number, so results would depend on it; and the way in which
-# they wait for one another is reported as a race by the thread sanitizer.
+# Eigen's own threads would split sums according to the number of threads, so results would depend on this number. The
+# thread sanitizer would also report the way in which these threads wait for one another as a race.
 target_compile_definitions(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:EIGEN_DONT_PARALLELIZE>)
 if(MACADAM_WERROR)
   target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)

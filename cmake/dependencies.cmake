@@ -39,8 +39,8 @@ macadam_find_library(METIS::METIS metis.h "" metis)
 macadam_find_library(Ceres::ceres ceres/ceres.h "" ceres)
 macadam_find_library(glog::glog glog/logging.h "" glog)
 
-# Finds ITK, for images of computed tomography. It is a function because ITK's configuration searches for libraries too,
-# and would overwrite the variables of those found above.
+# Finds ITK, for images of computed tomography. This is a function, because ITK's configuration also searches for
+# libraries and would overwrite the variables of the libraries found above.
 function(macadam_find_itk)
   find_package(ITK 5.2 QUIET COMPONENTS ITKIOMeta ITKIONRRD ITKIOTIFF ITKIOPNG ITKSmoothing ITKDistanceMap)
   if(ITK_FOUND)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file case.hpp  One run of bench/accuracy: all settings that the study varies, and the result.
+/// \file case.hpp  Defines one run of bench/accuracy: all settings that the study varies, and the result.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace macadam::accuracy {
 
-/// Settings of a run. The defaults are the base case, about which one factor is varied at a time.
+/// Settings of a run. The defaults are the base case, from which one setting is varied at a time.
 struct Case {
   std::string study;             ///< study to which the run belongs; also the name of its figure or table
   std::string scene = "t8";      ///< specimen: "t8", "demo", "full", "seed N" (another mixture in a smaller box),
@@ -21,7 +21,7 @@ struct Case {
                                  ///< grid points)
   std::string mix = "AM1";       ///< binder: "AM1" or "AM2"
   std::string stiff;             ///< stiffened part: "aggregate" or "walls"; empty: none
-  double factor = 1;             ///< factor of its stiffness
+  double factor = 1;             ///< factor by which the stiffness of this part is multiplied
   double frequency = 20;         ///< [Hz]
   double density_scaling = 1;    ///< multiplies mass and inertia
   std::int64_t cycle_steps = 0;  ///< steps per cycle; if not 0, it determines the density scaling
@@ -39,7 +39,7 @@ struct Case {
   Quadrature quadrature = Quadrature::lumped;
   std::optional<double> gap_max, area_min;
   double strain = 1e-4;             ///< amplitude of the strain
-  std::optional<double> tolerance;  ///< run as `[solver] tolerance`, which then chooses the settings above
+  std::optional<double> tolerance;  ///< `[solver] tolerance` of the run, which then chooses the settings above
 };
 
 /// The result after a number of cycles.

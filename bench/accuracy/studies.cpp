@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// studies.cpp  The list of runs: one factor is varied at a time about a base case (see Case), and some combinations of
-// factors.
+// studies.cpp  Makes the list of runs. Most runs differ from a base case (see Case) in one setting, some in several.
 #include <algorithm>
 
 #include "bench/accuracy/runner.hpp"

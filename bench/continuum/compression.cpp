@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// compression.cpp  Conjugate gradients for complex symmetric matrices (COCG), with a multigrid cycle as preconditioner.
+// compression.cpp  Solves the uniaxial test by conjugate gradients for complex symmetric matrices (COCG), with a
+// multigrid cycle as preconditioner.
 #include "bench/continuum/compression.hpp"
 
 #include <cmath>
@@ -12,8 +13,8 @@ namespace {
 
 using Vector = Field<double>;
 
-/// Returns the sum of products without conjugation. Layers are summed one by one, so that the sum does not depend on
-/// the number of threads.
+/// Returns Σ a·b without complex conjugation. Layers are summed one by one, so that the sum does not depend on the
+/// number of threads.
 Complex product(const Size& n, const Vector& a, const Vector& b) {
   const std::size_t layer = std::size_t(n.x + 1) * (n.y + 1);
   std::vector<Complex> sums(std::size_t(n.z) + 1);
@@ -66,8 +67,9 @@ void add(Vector& a, Complex factor, const Vector& b) {
   }
 }
 
-/// Returns the mean displacement along one axis of the side faces at both ends of the axis, their difference over the
-/// width: the mean lateral strain. `width`, `other`: elements along the axis and along the other lateral axis.
+/// Returns the mean lateral strain along one axis: the difference between the mean displacements of the two side faces
+/// at the ends of this axis, divided by the width. `width`, `other`: elements along the axis and along the other
+/// lateral axis.
 Complex lateral_strain(const Size& n, const Vector& u, int axis, int width, int other) {
   Complex sum;
   double weights = 0;

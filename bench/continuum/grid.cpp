@@ -17,8 +17,9 @@ void clear_held(const Size& n, Field<T>& f) {
   std::fill_n(f.of[2].begin() + std::ptrdiff_t(top), layer, std::complex<T>{});
 }
 
-/// Adds the forces of one row of elements along x. The loops over elements come innermost, so that they vectorise.
-/// Numbers are plain arrays of real and imaginary parts, because std::complex does not.
+/// Adds the forces of one row of elements along x. The loops over elements are innermost, so that the compiler
+/// vectorises them. They run over real numbers, in which real and imaginary parts alternate, because loops over
+/// std::complex are not vectorised.
 template <class T>
 class RowOfElements {
  public:
@@ -162,7 +163,7 @@ Grid<T> coarser(const Grid<T>& fine) {
     for (int j = 0; j < fine.size.y; ++j)
       for (int i = 0; i < fine.size.x; ++i) {
         const std::size_t from = fine.size.element(i, j, k), to = out.size.element(i / 2, j / 2, k / 2);
-        out.lambda[to] += fine.lambda[from] / T(4);  // an average over 8 elements, for edges twice as long
+        out.lambda[to] += fine.lambda[from] / T(4);  // 1/4: the mean of 8 elements, times 2 for twice the edge
         out.mu[to] += fine.mu[from] / T(4);
       }
   return out;

@@ -31,21 +31,22 @@ struct Field {
   }
 };
 
-/// Elements with Lamé's constants [Pa], divided by a reference modulus. Elements without material have zeros. The
-/// bottom and top faces cannot move along z.
+/// Cubic elements with Lamé's constants, each divided by a reference modulus. In elements without material the
+/// constants are zero. The bottom and top faces cannot move along z.
 template <class T>
 struct Grid {
   Size size;
   std::vector<std::complex<T>> lambda, mu;  ///< [element]
 
-  /// Computes f = K·u for edge length 1. `u` must be zero where the faces hold it; f is set to zero there, and at the
-  /// end holds the forces of the faces if `faces` is true.
+  /// Computes f = K·u for edge length 1. At nodes of the bottom and top faces, the z component of f is the force of the
+  /// face on the node if `faces` is true; otherwise it is set to zero.
   void apply(const Field<T>& u, Field<T>& f, bool faces = false) const;
   /// Returns the inverses of the 3 × 3 blocks on the diagonal, row by row; zero for nodes without material.
   std::vector<std::array<std::complex<T>, 9>> inverse_diagonal() const;
 };
 
-/// Returns the grid with edges twice as long. Its constants are averages of the eight elements in each.
+/// Returns the grid with edges twice as long. An element has twice the mean of the constants of the eight elements that
+/// it replaces, because its edge is twice as long.
 template <class T>
 Grid<T> coarser(const Grid<T>& fine);
 

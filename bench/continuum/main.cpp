@@ -23,8 +23,8 @@ struct Material {
   Complex young() const { return std::polar(modulus, phase * std::numbers::pi / 180); }
 };
 
-/// Mixes two constants in a voxel that both phases share: `stiff`: average of the constants (upper bound), otherwise
-/// of their inverses (lower bound).
+/// Returns a constant of a voxel that both phases share. `stiff`: the mean of the constants of the phases (upper
+/// bound); otherwise the inverse of the mean of their inverses (lower bound).
 Complex mixed(Complex a, Complex b, double fraction_of_b, bool stiff) {
   if (stiff) return (1 - fraction_of_b) * a + fraction_of_b * b;
   return 1.0 / ((1 - fraction_of_b) / a + fraction_of_b / b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rock_fractions.cpp  Samples the phase at points of voxels.
+// rock_fractions.cpp  Computes the volume fraction of rock in each voxel from the phase at points of the voxel.
 #include "bench/continuum/rock_fractions.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ RockFractions empty(const std::vector<double>& box, double voxel) {
   return out;
 }
 
-/// Spheres by the cells of a regular grid, to find those near a point.
+/// Sorts spheres into the cells of a regular grid, to find the spheres near a point.
 class Bins {
  public:
   Bins(const std::vector<Sphere>& spheres, const std::vector<double>& box, double edge) {
@@ -50,7 +50,7 @@ class Bins {
       largest_ = std::max(largest_, at.radius);
     }
   }
-  /// Calls f(number) for every sphere with its centre in bins within `reach` of the point along each axis.
+  /// Calls f(number) for every sphere whose bin is within `reach` of the point `at` along each axis.
   template <class F>
   void near(const std::array<double, 3>& at, double reach, F&& f) const {
     int low[3], high[3];
@@ -137,7 +137,8 @@ RockFractions of_cells(const std::string& file, const std::vector<double>& box, 
   sample(out, voxel, [&](const std::array<double, 3>& at) {
     double least = INFINITY;
     bool rock = false;
-    // A sphere with a smaller power distance p = d² − R² than the best so far has d² < p + R² ≤ p + R_max².
+    // Let p be the smallest power distance d² − R² found so far. A sphere with a smaller power distance has d² < p + R²
+    // ≤ p + R_max², so no sphere farther away need be searched.
     for (double reach = mean;; reach *= 2) {
       bins.near(at, reach, [&](std::size_t n) {
         const Sphere& s = spheres[n];

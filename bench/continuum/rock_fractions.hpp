@@ -16,9 +16,9 @@ struct RockFractions {
   double mean() const { return std::accumulate(fraction.begin(), fraction.end(), 0.0) / double(fraction.size()); }
 };
 
-/// Fractions of balls, of the cells of a specimen file, and of two layers normal to an axis. Voxels that a surface may
-/// cut are sampled at 6 × 6 × 6 points. `box`: edges [m]; `voxel`: edge [m]. \throws std::runtime_error for files that
-/// cannot be read, and for boxes whose edges are not multiples of the voxel to 1e-6.
+/// Return the volume fractions of rock for balls, for the cells of a specimen file, and for two layers normal to an
+/// axis. Voxels that a surface may cut are sampled at 6 × 6 × 6 points. `box`: edges [m]; `voxel`: edge [m]. \throws
+/// std::runtime_error for files that cannot be read, and for boxes whose edges are not multiples of the voxel to 1e-6.
 /// @{
 RockFractions of_balls(const std::string& file, const std::vector<double>& box, double voxel);
 RockFractions of_cells(const std::string& file, const std::vector<double>& box, double voxel);

@@ -28,7 +28,8 @@ constexpr std::size_t many_boxes = 640;  ///< gives a dense matrix of 118 MB
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Returns the recipe with the same gradation for another number of particles. \throws InputError if it has no counts.
+/// Returns the recipe with the same gradation for another number of particles. \throws InputError if the recipe has no
+/// counts.
 SpecimenSpec resized(SpecimenSpec spec, std::int64_t particles) {
   if (!spec.mastic || !spec.mastic->count) throw InputError(spec.source + ": mastic without count");
   std::int64_t usual = *spec.mastic->count;

@@ -136,7 +136,7 @@ def why_less(found):
 
 # ---- stepped in time
 
-PAPERS_DAYS = (5, 40)  # the paper's days for MS-Poly-fine at 20 and at 2 Hz, on one core of an i9-10900KF
+PAPERS_DAYS = (5, 40)  # days that MS-Poly-fine took in the paper at 20 and at 2 Hz, on one core of an i9-10900KF
 
 
 def stepped():

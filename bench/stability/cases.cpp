@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cases.cpp  The list of cases. A new case is a function and a line in this list.
+// cases.cpp  Lists the stability cases. To add a case, write its function and add a line to this list.
 #include "bench/stability/stability.hpp"
 
 namespace macadam::stability {

@@ -46,9 +46,9 @@ Specimen spheres_of_two_sizes(double ratio) {
   return out;
 }
 
-/// Returns a cubic lattice of 3 × 3 × 3 equal spheres whose centres are moved by up to `jitter` edges. The four cells
-/// along an edge then share a facet of about jitter × edge by edge; some of the eight cells at a corner share a facet
-/// of about jitter² edge².
+/// Returns a cubic lattice of 3 × 3 × 3 equal spheres whose centres are moved by up to `jitter` edges. Two of the four
+/// cells that meet along an edge then share a facet that is about jitter·edge wide and one edge long. Some of the eight
+/// cells that meet at a corner share a facet of about (jitter·edge)².
 Specimen disturbed_lattice(double jitter) {
   std::mt19937 random(5);
   const auto offset = [&] { return jitter * (2 * (static_cast<double>(random()) / 4294967296.0) - 1); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file hostile_scenes.hpp  Elastic networks on which a solver may fail.
+/// \file hostile_scenes.hpp  Declares functions that make elastic networks on which a solver may fail.
 #pragma once
 
 #include "tests/support/test_scenes.hpp"

@@ -21,7 +21,7 @@ struct Stage {
   double steps;     ///< duration in steps of the coarsest Δt
   double velocity;  ///< displacement per coarsest step, as a fraction of the largest displacement
 };
-/// The stages, for displacements as fractions of the largest one: up to 1, held, down to −0.5, and held.
+/// The stages. The displacement, as a fraction of the largest one, rises to 1, is held, falls to −0.5, and is held.
 constexpr Stage stages[] = {{1000, 1e-3}, {2000, 0}, {1500, -1e-3}, {1000, 0}};
 constexpr double relaxing = 25000;  ///< duration of the recovery in coarsest steps: fifty times the 500 steps of the
                                     ///< slower Kelvin unit
@@ -80,8 +80,8 @@ Measured run(Stepper& stepper, const test::TestScene& scene, const std::vector<V
   const double along = dot(direction[observed], direction[observed]);
   std::vector<Vec3d> velocity(n), spin(n);
   ParticleState state = stepper.particles();
-  // The velocity change of the step is subtracted beforehand, so that the step moves the particle at exactly the wanted
-  // velocity.
+  // The step changes the velocity by Δt·force/mass. This change is subtracted beforehand, so that the step moves the
+  // particle at exactly the wanted velocity.
   const auto set = [&](double rate, double share) {
     for (std::size_t i = 0; i < n; ++i) {
       velocity[i] = rate * direction[i] - (share * dt / scene.inertia.mass[i]) * state.force[i];

@@ -16,8 +16,8 @@ constexpr double modulus = 1e10;
 constexpr std::int64_t per_cycle = 100;
 constexpr const char* alternating = "alternating part of the force after 1000 steps / η·v";
 
-/// Returns one particle that is too heavy to move, with the top wall pulling at its only contact. The stepper then
-/// shows the law alone.
+/// Returns one particle that is too heavy to move, with the top wall pulling at its only contact. The force of the
+/// stepper then depends on the law alone.
 test::TestScene one_contact(const laws::GeneralisedKelvin& law) {
   test::HandMade made;
   const double edge = 2e-3;
@@ -37,11 +37,11 @@ Complex discrete_stiffness(const laws::GeneralisedKelvin& law, double dt) {
   return 1.0 / compliance;
 }
 
-/// `ramp_cycles`: number of cycles of the smooth start. `smooth_start`: bound for the error that the start leaves if
-/// the response oscillates without dying out. The start has R steps; at step k of its beginning the velocity is
-/// 3·(π/2R)²·k²/2 of its peak. A quarter of the second difference of the velocity alternates from step to step. The fit
-/// of one cycle of n steps turns an alternating signal of size 1 into an error of 8.0/n (4.9/n without the second
-/// harmonic). For a fit without the second harmonic the bound is 2·1.5·(π/2R)²/n; it is multiplied by 8.0/4.9 here.
+/// `ramp_cycles`: number of cycles of the smooth start. `smooth_start`: bound for the error of E* that the start leaves
+/// if the force alternates from step to step without dying out. The alternation is caused by the curvature of the
+/// velocity at the beginning of the start, which is proportional to (π/2R)² for a start of R steps. The fit of one
+/// cycle of n steps turns an alternating signal of size 1 into an error of 8.0/n (4.9/n without the second harmonic).
+/// For a fit without the second harmonic the bound is 2·1.5·(π/2R)²/n; here it is multiplied by 8.0/4.9.
 constexpr std::int64_t ramp_cycles = 10;
 constexpr double smooth_start =
     2 * 1.5 * 2.4674 * (8.0 / 4.9) / (ramp_cycles * per_cycle * ramp_cycles * per_cycle) / per_cycle;

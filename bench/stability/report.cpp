@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// report.cpp  Writes the table as CSV.
+// report.cpp  Writes the results of the stability cases as CSV.
 #include "bench/stability/report.hpp"
 
 #include <fmt/format.h>

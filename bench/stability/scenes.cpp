@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scenes.cpp  Scenes and measurements that several cases use.
+// scenes.cpp  Makes the scenes and the measurements that several stability cases use.
 #include <cmath>
 #include <complex>
 #include <mutex>
@@ -31,7 +31,7 @@ laws::GeneralisedKelvin quick_law(double dt) { return {1e10, 1e10 * 300 * dt, {2
 
 Specimen generated_specimen(std::uint64_t seed, int particles) {
   SpecimenSpec spec;
-  const double edge = 1.7e-3 * std::cbrt(particles);  // each mastic sphere of 0.75–1.00 mm takes about 1.7³ mm³
+  const double edge = 1.7e-3 * std::cbrt(particles);  // a mastic sphere of radius 0.75–1.00 mm takes about 1.7³ mm³
   spec.box.size = {edge, edge, edge};
   spec.seed = seed;
   AggregateClass aggregate;

@@ -114,7 +114,7 @@ double energy_over_bound(const Setting& setting, const test::TestScene& scene, c
                          double limit, std::int64_t steps, double speed = 1e-3);
 
 /// Steps a loaded stepper through `cycles` cycles. Returns 100 samples of the last cycle, and the first sample of the
-/// next. \throws RunError if it diverges.
+/// next. \throws RunError if the run diverges.
 std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specimen, const drives::Cyclic& loading,
                                        std::int64_t cycles);
 

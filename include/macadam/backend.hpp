@@ -55,12 +55,12 @@ struct BackendReport {
 /// Largest speeds of a CUDA device, as measured.
 struct DeviceSpeed {
   std::string name;
-  /// Number of multiprocessors. `driver`, `runtime`: versions in CUDA's numbering: 13000 is 13.0.
+  /// Number of multiprocessors. `driver`, `runtime`: versions in CUDA's numbering (13000 means 13.0).
   int multiprocessors = 0, driver = 0, runtime = 0;
   std::int64_t cache_bytes = 0;  ///< size of the L2 cache
   double copy = 0;               ///< bytes read and written per second by a copy within the device memory [byte/s]
-  double cache = 0;              ///< the same within the L2 cache [byte/s]
-  double shared = 0;             ///< the same within the shared memories of all multiprocessors [byte/s]
+  double cache = 0;              ///< as `copy`, but within the L2 cache [byte/s]
+  double shared = 0;             ///< as `copy`, but within the shared memories of all multiprocessors [byte/s]
   double clock = 0;              ///< clock frequency of the multiprocessors under load [Hz]
 };
 

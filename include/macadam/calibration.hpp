@@ -25,7 +25,7 @@ struct FreeParameter {
   /// parameter ends at such a default bound, the calibration fails.
   std::optional<double> low, high;
   std::optional<double> prior;  ///< value that is known beforehand
-  double prior_deviation = 0;   ///< standard deviation of its natural logarithm
+  double prior_deviation = 0;   ///< standard deviation of the natural logarithm of `prior`
 };
 
 /// The measured quantities that are fitted. `modulus_and_phase`: ln |E*| and φ. `parts`: E' and E''.

@@ -15,7 +15,8 @@
 
 namespace macadam {
 
-/// The pair of materials that a contact joins. `inner`: two spheres of the same aggregate; W is a wall.
+/// The pair of materials that a contact joins (m: mastic, a: aggregate, w: wall). `inner`: two spheres of the same
+/// aggregate.
 enum class PairType : std::uint8_t { mm, ma, aa, inner, aw, mw };
 inline constexpr int particle_pair_types = 4;  ///< number of pair types without a wall, which are the first ones
 /// Returns "M-M", "M-A", "A-A", "inner", "A-W" or "M-W".
@@ -71,7 +72,7 @@ struct ContactNetwork {
   /// Area of the facets left out because of area_min, over the area of all facets between particles.
   double dropped_share = 0;
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
-  double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
+  double second_moment_difference = 0;  ///< of the moment ss + tt, over all contacts: Σ|lumped − exact| / Σ exact
 
   /// Returns the numbers of a particle's contacts, in rising order.
   std::span<const std::uint32_t> row(std::size_t particle) const {

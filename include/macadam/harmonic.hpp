@@ -103,9 +103,9 @@ class Harmonic {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Returns the state from which an explicit run is periodic at once. It is the state of `motion`
-/// (HarmonicResult::motion, solved with the inertia and damping of the run) under the cyclic loading, if the loading
-/// has no ramp. The states of a chain follow from f = k*(ω)·x and x_l = f/(k_l + iω·η_l).
+/// Returns the state from which a run by time steps is periodic at once, under a cyclic loading without a ramp.
+/// `motion`: HarmonicResult::motion, solved with the inertia and damping of the run. The states of a chain follow from
+/// f = k*(ω)·x and x_l = f/(k_l + iω·η_l).
 StartState steady_start(const ContactNetwork& network, const LawTable& laws,
                         const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading);
 

@@ -44,7 +44,7 @@ struct PhantomGrain {
   /// Centroid of the part within the specimen [m]; `volume` and `border` also describe this part.
   Vec3d centre{};
   double volume = 0;    ///< [m³]
-  bool border = false;  ///< whether the saw cuts it; the members below describe the whole grain
+  bool border = false;  ///< whether the scanned body ends in the grain; the members below describe the whole grain
   double area = 0;      ///< [m²]
   double d_long = 0, d_intermediate = 0, d_short = 0;  ///< [m]
   double sieve = 0;                                    ///< side of the smallest square mesh that the grain passes [m]
@@ -69,8 +69,8 @@ struct Phantom {
 };
 
 /// Generates the scene's specimen and computes a synthetic scan of it. The same scene and spec give the same bits for
-/// any number of threads. \throws InputError if the scene reads a specimen with several spheres per aggregate from a
-/// file, because their surfaces are not known, and for impossible values.
+/// any number of threads. \throws InputError for impossible values, and if the scene reads a specimen with several
+/// spheres per aggregate from a file, because the surfaces of these aggregates are not known.
 Phantom make_phantom(const Scene& scene, const PhantomSpec& spec,
                      const std::function<void(const std::string& stage, double share)>& progress = {});
 

@@ -47,13 +47,13 @@ struct ManyOptions {
 };
 
 /// Calls run() for every scene, each on one device. A scene may use the devices that its [solver] names or, if it names
-/// none, all usable devices. It gets an idle one of these devices or, if none is idle, the one that has been given the
-/// fewest scenes so far. Once all scenes have begun, a cyclic test may continue with its next frequency on another
-/// device, if the scenes on that device have less work left. Several small specimens on one device are stepped at the
-/// same time. Larger specimens cannot be stepped at the same time: the two scenes that came first take turns, each for
-/// a short time. The results are the same as those of run(). An error of one scene does not end the others, unless it
-/// makes a device unusable for the whole process. Scenes on the same device share its memory, so a scene can run out of
-/// memory because of another one.
+/// none, all usable devices. The scene gets an idle one of these devices or, if none is idle, the one that has been
+/// given the fewest scenes so far. Once all scenes have begun, a cyclic test may continue with its next frequency on
+/// another device, if the scenes on that device have less work left. Several small specimens on one device are stepped
+/// at the same time. Larger specimens cannot be stepped at the same time: the two scenes that came first take turns,
+/// each for a short time. The results are the same as those of run(). An error of one scene does not end the others,
+/// unless it makes a device unusable for the whole process. Scenes on the same device share its memory, so a scene can
+/// run out of memory because of another one.
 ///
 /// Returns the outcomes in the order of the jobs; a job that was not begun has an InterruptedError. \throws InputError
 /// if two jobs have the same folder.

@@ -48,7 +48,7 @@ struct SolverSpec {
   std::optional<double> tolerance;                     ///< largest error of |E*| (relative) and φ [rad]; explicit only
   std::optional<std::vector<double>> density_scaling;  ///< one value, or one per frequency
   std::optional<double> safety;                        ///< fraction of the computed critical step
-  std::optional<double> time_step;                     ///< [s]: given instead of computed
+  std::optional<double> time_step;                     ///< time step [s]; empty: it is computed
   /// Whether the scene gives a damping, even 0; otherwise tests that are not cyclic choose their own.
   bool damping_given = false;
   Damping damping_kind = Damping::none;
@@ -115,7 +115,8 @@ Scene read_scene(const std::filesystem::path& file, const std::string& text, boo
 /// Returns the text of a scene's file. Checks only that it is TOML. \throws InputError with file and line.
 std::string read_scene_text(const std::filesystem::path& file);
 
-/// Returns a scene's laws at a temperature [°C]. Viscosities are NaN if a shift law has no value there.
+/// Returns a scene's laws at a temperature [°C]. Viscosities are NaN if their shift law has no value at this
+/// temperature.
 LawTable laws_at(const Scene& scene, double temperature);
 /// Returns `laws`, which are given at the scene's temperature, at another temperature [°C], as the function above does
 /// with the scene's own laws.

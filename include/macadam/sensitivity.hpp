@@ -17,7 +17,7 @@
 
 namespace macadam {
 
-/// The parts whose sum is E* [Pa]; no factor of a product is conjugated.
+/// The parts whose sum is E* [Pa]. They are products of complex vectors, uᵀ·K·u, without complex conjugation.
 struct ModulusParts {
   std::array<std::complex<double>, pair_types> normal{};  ///< by PairType: opening and bending
   std::array<std::complex<double>, pair_types> shear{};   ///< slip and twist, α included

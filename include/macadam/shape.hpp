@@ -53,7 +53,7 @@ struct SurfaceVerdict {
 /// not finite.
 Surface read_surface(const std::filesystem::path& file, double scale = 1);
 
-/// Reads every surface of a folder, in the order of the files' names. Each must be good().
+/// Reads every surface of a folder, in the order of the files' names. Each surface must be good().
 ///
 /// \throws InputError as read_surface(), or naming a file whose surface is not good, or a folder without surfaces.
 std::vector<Surface> read_shape_library(const std::filesystem::path& folder);

@@ -138,7 +138,7 @@ struct Watcher {
 ///
 /// All processes that join_ranks() has joined must call this with the same scene; the first process writes the results.
 /// If `watcher` calls functions of a stepper, it must call them in all processes. If one process fails, the others wait
-/// for it until Ranks::end_all().
+/// for it until it calls Ranks::end_all().
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
 /// Runs a scene as above with an existing preparation, of this scene or of another scene with the same particles.
 RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,

@@ -78,9 +78,9 @@ inline double gauge_length(const Specimen& specimen) { return gauge_length(speci
 /// Returns a copy in which the voids are particles, which follow all other particles.
 Specimen with_voids_as_cells(const Specimen& specimen);
 
-/// Checks every particle and void: finite centre inside the box; finite positive radius; `body` −1 exactly for mastic;
-/// no two coincident centres. Also checks that the box is finite and positive. `source` begins each message (usually a
-/// file name). \throws InputError naming the first particle with a fault.
+/// Checks every particle and void: finite centre inside the box; finite positive radius; `body` is −1 for every mastic
+/// particle and for no aggregate; no two centres coincide. Also checks that the box is finite and positive. `source`
+/// begins each message (usually a file name). \throws InputError naming the first particle with a fault.
 void validate(const Specimen& specimen, const std::string& source);
 
 /// Reads `id,x,y,z,radius,phase,body` (metres; plain text or gzip, detected from the content), in file order, and

@@ -135,8 +135,8 @@ struct PartTime {
 };
 
 /// Device addresses of the motion of the bodies (particles and walls), for code on the device that reads this motion.
-/// They are valid until the next call of the stepper or until the stepper is destroyed. Body b is particle[b] of the
-/// specimen; the walls follow, by wall_index().
+/// The addresses are valid until the next call of the stepper or until the stepper is destroyed. Body b is particle[b]
+/// of the specimen; the walls follow, by wall_index().
 struct DeviceMotion {
   int device = 0;
   bool doubles = false;                  ///< whether `velocity` is double, not float

@@ -4,7 +4,7 @@
 
 namespace macadam {
 
-/// Returns "0.1.0"; between releases "0.1.0+3.gHASH", three commits after 0.1.0.
+/// Returns "0.1.0"; between releases for example "0.1.0+3.gHASH", which is three commits after 0.1.0.
 const char* version();
 
 }  // namespace macadam

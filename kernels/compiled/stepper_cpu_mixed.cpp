@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_cpu_mixed.cpp  Compiles the stepper for the CPU in one precision. Each precision has its own file, so that
+// stepper_cpu_mixed.cpp  Compiles the stepper for the CPU in mixed precision. Each precision has its own file, so that
 // they compile in parallel.
 #include "kernels/make_cpu.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_cpu_single.cpp  Compiles the stepper for the CPU in one precision. Each precision has its own file, so that
-// they compile in parallel.
+// stepper_cpu_single.cpp  Compiles the stepper for the CPU in single precision. Each precision has its own file, so
+// that they compile in parallel.
 #include "kernels/make_cpu.hpp"
 
 namespace macadam::kernels {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_cuda_mixed.cu  Compiles the stepper for CUDA devices in one precision. Each precision has its own file, so
+// stepper_cuda_mixed.cu  Compiles the stepper for CUDA devices in mixed precision. Each precision has its own file, so
 // that they compile in parallel.
 #include "kernels/make_cuda.hpp"
 

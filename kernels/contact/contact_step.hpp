@@ -246,8 +246,9 @@ struct ContactForces {
     if (view.wall) {
       middle.arm_a = now.arm_a - T(0.5f) * dot(step, n0);
     } else {
-      // The branch vector hardly changes its length within a step. So its inverse length now (d.inverse) scales the
-      // branch vector before the step to nearly unit length; the series for 1/√x near 1 does the rest.
+      // The branch vector hardly changes its length within a step. So the branch vector before the step, multiplied by
+      // the inverse of its present length (d.inverse), has nearly unit length, and the series for 1/√x near 1
+      // normalises it.
       const Vec3<T> branch_before = branch - step;
       n_before = d.inverse * branch_before;
       n_before = inverse_root_near_one(dot(n_before, n_before)) * n_before;
@@ -267,7 +268,7 @@ struct ContactForces {
                             S(item.template convert<State>(spin_rate) * S(dt)));
     Vec3<S> s_middle = S(0.5f) * (turned.before + turned.now);
     const Vec3<S> nm = converted<State>(item, middle.n);
-    s_middle -= dot(s_middle, nm) * nm;  // removes the component along nm: swing of the normal times rotation about it
+    s_middle -= dot(s_middle, nm) * nm;  // removes the small component along nm
     s_middle = inverse_root_near_one(dot(s_middle, s_middle)) * s_middle;
     now.s = converted<typename P::Geometry>(item, turned.now);
     now.t = cross(now.n, now.s);

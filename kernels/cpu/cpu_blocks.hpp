@@ -69,8 +69,8 @@ class CpuBlocks {
     return out;
   }
 
-  /// Initialises the sums first … end − 1 before contacts add to them: with the base loads if steps are taken in blocks
-  /// (contacts then add only changes), else with zero.
+  /// Initialises the sums first … end − 1 before contacts add to them: with the base loads (the loads at the beginning
+  /// of the block) if steps are taken in blocks, because contacts then add only changes; else with zero.
   void begin_sums(std::size_t first, std::size_t end, AlignedVector<R>& sums) const {
     if (on_)
       std::copy(base_.data() + first, base_.data() + end, sums.data() + first);

@@ -188,7 +188,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     return out;
   }
 
-  /// The next functions return copies of the bodies' arrays, or replace the arrays by copies.
+  /// The next functions return copies of the bodies' arrays, or replace the contents of these arrays.
   std::vector<R> velocities() const { return {master_.begin(), master_.end()}; }
   std::vector<double> displacements() const { return {displacement_.begin(), displacement_.end()}; }
   std::vector<double> wall_displacements() const {
@@ -280,7 +280,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
     }
   }
 
-  /// Returns the load on a body: its own accumulator (`none` for walls) plus the accumulators of its halo row.
+  /// Returns the load on a body: its own accumulator `own` (`none` for walls) plus the accumulators of its halo row.
   Twist<R> sum(std::int32_t body, std::uint32_t own) const {
     const auto i = static_cast<std::size_t>(body);
     R total[velocity_words] = {};

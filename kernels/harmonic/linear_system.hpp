@@ -77,7 +77,7 @@ struct LinearState {
 
 /// Largest number of iterations.
 inline constexpr int most_iterations = 5000;
-/// The iteration is given up if the residual has not fallen by a tenth within this number of iterations.
+/// The iteration is given up if the residual has not fallen by 10 % within this number of iterations.
 inline constexpr int most_stagnant = 500;
 
 /// Largest number of loads solved side by side.

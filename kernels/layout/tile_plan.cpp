@@ -117,8 +117,8 @@ class Planner {
     }
   }
 
-  /// Appends the plan of tile t to the plan of all tiles. Adds the numbers of places and packets of earlier tiles to
-  /// its own.
+  /// Appends the plan of tile t to the plan of all tiles. Its places and packets, counted from the beginning of the
+  /// tile, then follow those of earlier tiles.
   void add_tile(std::size_t t, const TilePart& part) {
     if (!begins_share_.empty() && begins_share_[t]) {
       out_.contact.resize(whole(out_.packets(), TilePlan::share_packets) * 32);  // inert
@@ -192,9 +192,10 @@ class Planner {
     touches = {};
   }
 
-  /// Assigns cells to the contacts and sorts them into packets. Couples are sorted by entry e of their cell's list,
-  /// then by rank, so that the lanes of a warp access neighbouring words of shared memory. Couples of two that need no
-  /// halo come first, so that they can be stepped while velocities of other tiles are in transit.
+  /// Assigns cells to the contacts and sorts them into packets. Couples are sorted by the index e of their cell in its
+  /// load list, then by the rank of the list's particle, so that the lanes of a warp access neighbouring words of
+  /// shared memory. Couples of two that need no halo come first, so that they can be stepped while velocities of other
+  /// tiles are in transit.
   void add_contacts(int t, TilePart& part, const std::vector<Touch>& touches,
                     const std::vector<std::uint32_t>& rank) const {
     Tile& tile = part.tile;

@@ -62,7 +62,8 @@ inline int block_steps(const StepperOptions& options, const FactsTable& laws, co
   const auto most =
       static_cast<std::int64_t>(std::min<double>(longest_block, std::floor(shortest / (blocks * options.dt))));
   if (most < 4) return 0;
-  // Blocks that end at observations save time, but with blocks shorter than half of `most` the updates cost more.
+  // If blocks were shorter than half of `most`, their updates would cost more time than is saved by ending blocks at
+  // observations.
   for (std::int64_t steps = most; 2 * steps >= most; --steps) {
     const std::int64_t observed = options.observed_every;
     if (observed > 0 && (observed % steps == 0 || steps % observed == 0)) return static_cast<int>(steps);

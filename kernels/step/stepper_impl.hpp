@@ -333,7 +333,7 @@ class StepperImpl final : public Stepper {
     advance(1);
   }
 
-  /// \throws InputError if a law is not linear and the contact form requires that.
+  /// \throws InputError if a law is not linear and the contact form requires a linear law.
   const LawFacts& fact_of(const FactsTable& facts, PairType pair) const {
     const LawFacts& law = facts[static_cast<std::size_t>(pair)].value();
     if (law.linear || options_.form == ContactForm::points) return law;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Functions of the queries in marks, beside those of SQLite: text from numbers, parts of lines, facts from files."""
+"""Functions that queries in marks may call in addition to SQLite's own. They write numbers as text, return parts of
+lines, and read facts from files."""
 import math
 import re
 from pathlib import Path
@@ -10,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class Refused(LookupError):
-    """A query has no result, or a result that it must not have."""
+    """Raised if a query has no result, or a result that it must not have."""
 
 
 def path(name):

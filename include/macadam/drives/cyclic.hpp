@@ -35,7 +35,7 @@ struct Cyclic final : Drive {
   double rate(std::int64_t k) const override {
     const double half_step = std::numbers::pi / static_cast<double>(steps_per_period);
     double v = 2 * ramp(k, 1) * std::sin(half_step) * std::cos(phase(k, 1));
-    if (ramping(k)) {  // the rise of r over the step times the sine at mid-step; the error is of second order in Δt
+    if (ramping(k)) {  // adds (rise of r over the step)·(sine at mid-step); the error is of second order in Δt
       v += (ramp(k + 1, 0) - ramp(k, 0)) * std::sin(phase(k, 1));
     }
     return -amplitude * v / dt();

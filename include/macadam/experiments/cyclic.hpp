@@ -59,7 +59,8 @@ struct SteppedFrequency : Frequency {
   /// The rupture, if it ended the steps of this frequency early. |E*| and φ are then NaN.
   std::optional<Rupture> rupture = {};
 
-  double residual() const { return cyclic.fit_rms; }  ///< rms difference of the stress from its fit, over its amplitude
+  /// Returns the rms difference of the stress from its fit, over the stress amplitude.
+  double residual() const { return cyclic.fit_rms; }
 };
 
 /// Result of a cyclic test by method "explicit".

@@ -25,7 +25,7 @@ struct Frequency {
   std::optional<double> temperature_c;  ///< empty if the scene has none
   Stiffness stiffness;                  ///< from the reaction of the top wall
   bool confined = false;                ///< whether the sides were held; the modulus is then a confined one
-  double density_scaling = 1;           ///< density scaling of the inertia that the result includes
+  double density_scaling = 1;           ///< density scaling of the inertia in this result; 0: no inertia
   double seconds = 0;                   ///< wall time of the solution
   std::string fault;                    ///< the reason if the result cannot be right; otherwise empty
 };

@@ -19,7 +19,7 @@ struct Material {
   double table_error = 0;  ///< largest relative difference of E(t) from `spectrum`, within the range of times
   double seconds = 0;      ///< wall time of the solutions
 
-  /// Returns the larger of the two error measures of the spectrum, for E(t) and J(t), relative.
+  /// Returns the larger of Spectrum::error and Spectrum::checked, as the relative error of E(t) and J(t).
   double error() const { return spectrum.error > spectrum.checked ? spectrum.error : spectrum.checked; }
 };
 

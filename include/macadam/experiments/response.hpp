@@ -34,7 +34,7 @@ struct SpectrumResponse {
 struct SteppedPoint : ResponsePoint {
   double top_pa, bottom_pa;  ///< stresses from the forces of the particles on the top and bottom walls
   double kinetic_j;          ///< kinetic energy of the particles, density scaling included
-  double error;  ///< relative difference of the stress (creep: of the strain) from the solution without time steps
+  double error;  ///< relative difference of the stress (creep: strain) from a solution computed without time steps
   std::int64_t broken_points = 0;  ///< number of broken contact points; 0 if no law can break
 };
 

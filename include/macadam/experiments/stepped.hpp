@@ -15,8 +15,9 @@ enum class Stepping : std::uint8_t { never, if_asked, usual };
 
 /// Report on how an experiment was stepped.
 struct Stepped {
-  double seconds_planning = 0;  ///< wall time before the first stepper was made, harmonic solutions included; for a
-                                ///< resumed run, of the interrupted run
+  /// Wall time before the first stepper was made, harmonic solutions included. A resumed run has the value of the
+  /// interrupted run.
+  double seconds_planning = 0;
   ContactForm form = ContactForm::condensed;  ///< contact form, geometry and precision of the run
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;

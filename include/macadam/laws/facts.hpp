@@ -30,7 +30,7 @@ struct LawFacts {
   double alpha = 0;                                                ///< shear over normal stiffness
   double instantaneous = 0;                                        ///< [Pa]
   double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
-  int units = 0;                                                   ///< state numbers per component besides f
+  int units = 0;                                                   ///< number of states per component without f
   /// The number of units, if it is fixed at compile time; −1: not fixed.
   int only_units = -1;
   bool memoryless = false, linear = true, blocks = false;  ///< see law.hpp

@@ -129,10 +129,10 @@ struct GeneralisedKelvin {
   }
 
   /// Coefficients of M steps taken as one block, in which f changes little. x_l at step k of the block is the sum of
-  /// three parts: x_l at the beginning of the block, its decay since then, and its growth by f. The first two parts,
-  /// and the growth by the f of the beginning, are evaluated at the mean step (M − 1)/2. The growth by δf, the change
-  /// of f since the beginning, is exact. It follows from s, the sum of δf' + δf over the steps so far, where δf' is the
-  /// value after a step and δf the value before it:
+  /// three parts: x_l at the beginning of the block, its decay since then, and its growth by f. The growth by f has two
+  /// parts: one by f as it was at the beginning, and one by δf, the change of f since the beginning. The part by δf is
+  /// exact; everything else is evaluated at the mean step (M − 1)/2. The exact part follows from s, the sum of δf' + δf
+  /// over the steps so far, where δf' is the value after a step and δf the value before it:
   ///   δf(t+Δt) = δf(t) + rate·Δx + drift + follow·s − relax·δf(t)   (model (6.8)),
   ///   drift = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
   /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with the same weight for all steps (model (6.9)). The error

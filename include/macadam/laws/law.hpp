@@ -11,8 +11,8 @@
 ///   - `static constexpr const char* name` — its name in a scene file;
 ///   - `double alpha` — shear stiffness over normal stiffness; all moduli already include δ;
 ///   - `int units() const` — number of state values per component besides f (Kelvin units);
-///   - `double instantaneous() const` — stiffness for an infinitely fast displacement [Pa], the largest that the law
-///     ever has; it determines the critical step;
+///   - `double instantaneous() const` — stiffness for an infinitely fast displacement [Pa]. This is the largest
+///     stiffness that the law ever has, and it determines the critical time step;
 ///   - `double shortest_time() const` — the shortest of its relaxation or retardation times [s], ∞ if it has none;
 ///   - `template <class R> struct Step` — coefficients of one time step in precision R, made by
 ///     `template <class R> Step<R> step(double dt) const` (computed in double, then rounded once). It has
@@ -56,8 +56,8 @@
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
 ///     follows δf' = δf + rate·dx + drift + follow·s − relax·δf. The drift is computed from f and x(l) at the beginning
 ///     of the block; s is the sum of δf' + δf over its steps so far. At the end, settle() receives Σ (f' + f) and
-///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length and has no mean over
-///     it. A memoryless law must have relax = follow = drift = 0.
+///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the
+///     block is zero. A memoryless law must have relax = follow = drift = 0.
 /// S is a number or, on the CPU, a packet of numbers. So a law must not branch; it uses select().
 ///
 /// Laws do not own memory and do not depend on arrays or threads. A law may use its units for states of any kind:
@@ -75,8 +75,8 @@
 
 namespace macadam::laws {
 
-/// Kind of a value, in [Pa], [Pa·s], [Pa]. The factor `delta` of a scene applies to moduli and viscosities, not to
-/// strengths.
+/// Kind of a value: modulus [Pa], viscosity [Pa·s] or strength [Pa]. The factor `delta` of a scene applies to moduli
+/// and viscosities, not to strengths.
 enum class ValueKind : std::uint8_t { modulus, viscosity, strength };
 /// Whether a scene must give a value. A value that may be infinite is also optional.
 enum class ValueNeed : std::uint8_t { required, optional, may_be_infinite };

@@ -27,7 +27,8 @@ struct Divergent {
   }
 };
 
-/// Searches the bodies `begin` … `end` − 1. `*first` must be UINT32_MAX before.
+/// Searches the bodies `begin` … `end` − 1. `*first` must be UINT32_MAX before the launch, and becomes the smallest
+/// number of a particle that has diverged.
 template <class P>
 __global__ void find_divergent(const Divergent<P> of_body, std::int32_t begin, std::int32_t end, std::uint32_t* first) {
   const auto body = begin + static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);

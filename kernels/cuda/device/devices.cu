@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// devices.cu  Finds the CUDA devices, and whether one can be used. Creates a CUDA context only on a device that will be
-// used.
+// devices.cu  Finds the CUDA devices, and checks whether a device can be used. Creates a CUDA context only on a device
+// that will be used.
 #include <cuda_runtime.h>
 
 #include <string>

@@ -54,7 +54,7 @@ class SpreadMemory {
  public:
   SpreadMemory() = default;
   /// \throws RunError if a device has too little memory left.
-  // Delegates, so that an exception below runs the destructor
+  // Calls the constructor without arguments first, so that the destructor also runs if the body below throws
   SpreadMemory(const Shares& shares, std::size_t bytes) : SpreadMemory() {
     const auto reserve = driver_function<decltype(&cuMemAddressReserve)>("cuMemAddressReserve");
     const auto granularity = driver_function<decltype(&cuMemGetAllocationGranularity)>("cuMemGetAllocationGranularity");

@@ -4,8 +4,8 @@
 /// The tiles of the layout (ranges of neighbouring particles) are divided into one range per device (TeamCuts). Every
 /// kernel of a step is launched once per device, for the tiles of that device. With several devices of one process, an
 /// array has one range of addresses. Its pages lie on the device that works on them, and all other devices can access
-/// them. So a contact between particles of two devices is stepped by the same code, from the same numbers, as any
-/// other, and results do not depend on the number of devices.
+/// them. So a contact between particles of two devices is stepped by the same code and from the same numbers as any
+/// other contact, and results do not depend on the number of devices.
 ///
 /// With several processes (ranks), the tiles are cut in the same way, one part per rank. Every device then has whole
 /// arrays, and receives the changes that other ranks make by messages (rank_exchange.hpp).

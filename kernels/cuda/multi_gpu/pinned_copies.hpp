@@ -20,7 +20,7 @@ class PinnedCopies {
   }
   PinnedCopies(const PinnedCopies&) = delete;
   ~PinnedCopies() {
-    team_.wait_for_the_last();  // a copy may be in progress, or kernels of other members that it waits for
+    team_.wait_for_the_last();  // a copy, or kernels of other members that it waits for, may still run
     cudaFreeHost(host_);
     for (cudaEvent_t e : copied_) cudaEventDestroy(e);
   }

@@ -59,7 +59,7 @@ class TileContactWords {
     drift_a,   ///< drift of components 0…3
     tangent,   ///< first tangent s, unused component; with updated geometry only
   };
-  /// δf 0…3; δf 4, 5 and sum 0, 1; sum 2…5.
+  /// The first word of a state holds δf 0…3, the second δf 4, 5 and sum 0, 1, the third sum 2…5.
   enum State { change_a, change_b_sum_a, sum_b };
   template <bool carried, bool memory>
   friend struct ContactInBlock;

@@ -2,11 +2,11 @@
 /// \file exec_cuda_tiles.hpp  Defines the executor of the tile path on CUDA devices. It takes blocks of steps; each
 /// thread block steps one tile, which is a part of the specimen.
 ///
-/// It applies to condensed contacts in mixed and single precision, laws that can be stepped in blocks, and walls driven
-/// by displacements; ExecCuda steps everything else. make_cuda.hpp asks this executor first. StepperImpl calls it in
-/// the order that executor.hpp describes. Bodies, walls and group arrays are in the base class CudaBodyArrays. Three
-/// members do the rest: TileData owns the arrays of the tiles, TileLaunch launches steps, resident or streamed, and
-/// TileBlocks divides a run into blocks. docs/gpu-step.md explains the whole path.
+/// The tile path applies to condensed contacts in mixed and single precision, laws that can be stepped in blocks, and
+/// walls driven by displacements; ExecCuda steps everything else. make_cuda.hpp asks this executor first. StepperImpl
+/// calls it in the order that executor.hpp describes. Bodies, walls and group arrays are in the base class
+/// CudaBodyArrays. Three members do the rest: TileData owns the arrays of the tiles, TileLaunch launches steps,
+/// resident or streamed, and TileBlocks divides a run into blocks. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include <optional>
@@ -191,7 +191,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
       // Several specimens run at the same time. Each uses only part of the multiprocessors if their registers can hold
       // all its states. Otherwise every step would read states from memory, and the states of all specimens would not
       // fit in the cache. Three full specimens (35,760 particles each) that ran side by side took 44 µs per step each
-      // (H200); if they take turns on the whole chip, they take 20 µs.
+      // (H200). If the specimens take turns, each on all multiprocessors, a step takes 20 µs.
       const std::size_t part = std::max<std::size_t>(1, chips / static_cast<std::size_t>(options.side_by_side));
       if (computed_per_contact * static_cast<double>(contacts) <= static_cast<double>(part * contacts_in_registers))
         chips = part;

@@ -25,7 +25,8 @@ class ResidentTile {
   static constexpr unsigned warps = Threads / 32;
   using Constants = ContactConstants<carried, memory>;
   using Contact = ContactInBlock<carried, memory>;
-  /// Number of constant words per contact. words: in memory; words_read: words that a step reads and the cache holds.
+  /// Number of words of constants per contact. words: in memory; words_read: those that a step reads and the cache
+  /// holds.
   static constexpr std::uint32_t words = TileContactWords::constants(carried), words_read = Constants::words;
 
   __device__ __forceinline__ ResidentTile(const TileArrays<P>& scene, const Tile& own_tile, unsigned char* shared,
@@ -82,8 +83,9 @@ class ResidentTile {
     return {packets(warp), packets(warps + warp), warp < ahead,
             WarpPackets::of(tile, doubles, first_one + min(free * each, ones), warp, warps, ahead)};
   }
-  /// Returns the position in the cache of the constants of a warp's packet j; the packet is cached if this is less than
-  /// `cached`. The first packets of all warps come first, so that no warp has many more uncached packets than another.
+  /// Returns the position in the cache of the constants of a warp's packet j; the packet is cached if this position is
+  /// less than `cached`. The first packets of all warps come first, so that no warp has many more uncached packets than
+  /// another.
   __device__ __forceinline__ static std::uint32_t place_in_cache(std::uint32_t j) {
     return j * warps + threadIdx.x / 32;
   }

@@ -32,7 +32,7 @@ class TileBlocks {
   }
 
   /// Sets the law of group `number` for steps of `dt`. \throws InputError if the launch expects no law with a memory,
-  /// but this one has one.
+  /// but this law has a memory.
   template <Geometry geometry, class L>
   void set_group(int number, const L& law, const ContactView<P>& view, double dt) {
     const auto block = law.block(dt, block_);

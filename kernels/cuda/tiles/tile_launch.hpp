@@ -102,7 +102,7 @@ class TileLaunch {
     try {
       const auto tag = static_cast<unsigned long long>(release_of(tag_)) << 32;
       const std::vector<ulonglong2> words(data_.exchange_words(), {0, tag});
-      // repeatedly, because tiles that still run overwrite these words with their velocities
+      // writes repeatedly, because tiles that still run overwrite these words with their velocities
       while (team_.works() && write_on_any(words)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     } catch (const std::exception&) {  // ignored: the error of the failed device is reported instead
     }
@@ -154,8 +154,8 @@ class TileLaunch {
       });
     }
   }
-  /// Overwrites all words of the exchange with `words`, from the first device that still works. Returns whether one
-  /// did. Uses copies, because no multiprocessor is free for a kernel.
+  /// Overwrites all words of the exchange with `words`, from the first device on which this succeeds. Returns false if
+  /// it fails on every device. Uses copies, because no multiprocessor is free for a kernel.
   bool write_on_any(const std::vector<ulonglong2>& words) {
     bool done = false;
     team_.each([&](std::size_t) {

@@ -23,7 +23,7 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   using AnyLaw = Laws;
   using R = typename P::Particle;
   using G = typename P::Geometry;
-  /// ContactForces has code for up to five Kelvin units in registers, besides exactly three.
+  /// ContactForces has code for exactly three Kelvin units and for up to five, whose states are then in registers.
   static constexpr bool five_units_in_registers = true;
 
   using Plan = LayoutPlan;
