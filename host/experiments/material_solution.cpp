@@ -21,7 +21,7 @@ namespace {
 
 using experiments::Material;
 
-/// Tolerance of E(t) if [solver] has none.
+/// Relative tolerance of E(t) if the section [solver] of the scene gives no tolerance.
 constexpr double usual_tolerance = 1e-5;
 
 class PlannedMaterial : public PlannedExperiment {
@@ -122,7 +122,8 @@ std::pair<double, double> History::range() const {
       const double since = t - r.begin;
       if (!(since > 0)) continue;
       longest = std::max(longest, since);
-      // the part of a ramp that lies only a short time before t has little effect
+      // the last tenth of `grown`, the part of the ramp before t, has little effect, so E at shorter times is not
+      // needed
       const double grown = std::min(since, r.duration);
       shortest = std::min(shortest, std::max(since - grown, 0.1 * grown));
     }

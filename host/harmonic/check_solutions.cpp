@@ -22,7 +22,8 @@ using kernels::Twist;
 /// may all be in one piece. But pieces are not so small that adding the sums of all pieces takes time.
 std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
 
-/// Sums over some particles for one solution u: the squares of the residual, uᵀ·M·u, and the parts of E*.
+/// Sums over some particles for one solution u: the squares of the residual, uᵀ·M·u, and the contributions of the pair
+/// types to E*.
 struct Sums {
   double residual = 0, beyond = 0;  ///< sums of squares of the residual [N²], and of its part beyond rounding
   Complex inertia = 0;
@@ -57,7 +58,8 @@ class Check {
     }
   }
 
-  /// Returns, for each solution, the sums over all particles: squares of the residual, uᵀ·M·u, and the parts of E*.
+  /// Returns, for each solution, the sums over all particles: squares of the residual, uᵀ·M·u, and the contributions of
+  /// the pair types to E*.
   AllSums sums() const {
     const std::size_t particles = inertia_.mass.size();
     const std::size_t piece = piece_of(particles);

@@ -36,7 +36,7 @@ struct LinearTask {
 };
 
 /// A solver with a preconditioner that is made for one network. Free motions of the specimen (motions that no contact
-/// resists) are removed from the solutions, or held by pins that carry no force.
+/// resists) are removed from the solutions, or held by pins (springs to ground) that carry no force.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;

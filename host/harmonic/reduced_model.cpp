@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_model.cpp  Makes the motions of the reduced basis orthonormal, computes the small matrices of stiffness and
-// mass between them, and solves the small linear systems.
+// reduced_model.cpp  Makes the motions of the reduced basis orthonormal, computes the small stiffness and mass
+// matrices for these motions, and solves the small linear systems.
 #include "host/harmonic/reduced_model.hpp"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ MatrixXd products(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const Ma
   return sums[0];
 }
 
-/// Computes from −= columns·shares.
+/// Subtracts the matrix product `columns`·`shares` from `from`.
 void take_away(MatrixXd& from, const Eigen::Ref<const MatrixXd>& columns, const MatrixXd& shares) {
   for_each_piece(from.rows(), [&](std::size_t, Index begin, Index rows) {
     from.middleRows(begin, rows).noalias() -= columns.middleRows(begin, rows) * shares;

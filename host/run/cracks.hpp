@@ -43,7 +43,7 @@ class CrackWatch {
   const ContactNetwork& network_;
   FactsTable laws_;
   bool active_, joined_at_start_;
-  std::vector<bool> broken_;  // for each contact point
+  std::vector<bool> broken_;  // whether each contact point is broken
   experiments::Cracks found_;
 };
 

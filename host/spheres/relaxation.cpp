@@ -26,7 +26,8 @@ constexpr double skin_share = 1.15;
 // mastic contact. It is larger so that aggregates overlap less than mastic.
 constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
-constexpr double stalled = 5e-4;  // the energy has stalled if it falls by less than this fraction in one window
+// The energy has stalled if it falls by less than this fraction in stall_window iterations.
+constexpr double stalled = 5e-4;
 
 /// The three sums over all spheres that the FIRE method needs, weighted by mass: a·v, v·v and a·a.
 struct Dots {

@@ -76,8 +76,8 @@ CyclicResult evaluate_cyclic(std::span<const ResponseSample> samples, double fre
   }
   const double period = 1 / frequency, end = samples.back().time_s;
   const double spacing = samples[1].time_s - samples[0].time_s;
-  // Returns the samples of the last `cycles` cycles, ending `skip` cycles before the end. The window is half open, so
-  // that no phase counts twice.
+  // Returns the samples of the last `cycles` cycles, ending `skip` cycles before the end. The window contains only one
+  // of its two ends, because both ends have the same phase of the cycle.
   auto window = [&](int cycles, int skip) {
     const double from = end - (cycles + skip) * period + 0.5 * spacing, to = end - skip * period + 0.5 * spacing;
     auto at = [&](double t) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_rules.hpp  Defines those rules for stepping a cyclic test that need only the scene. The plan of a run
-/// uses them, and the forecast of its duration.
+/// \file step_rules.hpp  Defines those rules for stepping a cyclic test that need only the scene. Both the plan of
+/// a run and the forecast of its duration use these rules.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_system.cpp  Builds the arrays of the iterative solver. The columns of R are rigid motions of boxes of particles.
-// The coarse matrix RᵀKR is summed only over contacts between boxes, because a rigid motion of a box does not strain
-// the contacts inside it.
+// make_system.cpp  Builds the arrays of the iterative solver. The columns of the matrix R are rigid motions of
+// boxes of particles. The coarse matrix RᵀKR is summed only over contacts between boxes, because a rigid motion of a
+// box does not strain the contacts inside it.
 #include "host/harmonic/iterative/make_system.hpp"
 
 #include "host/harmonic/iterative/invert.hpp"

@@ -146,7 +146,7 @@ WallDepth SurfaceDistance::below(const Vec3d& p, double reach) const {
       centre = child_centre(centre, half, k);
       at = node_[at].child + k;
     }
-    // The depth at p differs from the depth at the centre by at most their distance.
+    // The depth at p differs from the depth at the centre of the cell by at most the distance between p and the centre.
     const double way = norm(p - centre);
     if (const double least = node_[at].depth - way; least > reach) return {least, {}};
     best = nearest_of(std::span(candidates_).subspan(node_[at].first, node_[at].last - node_[at].first),

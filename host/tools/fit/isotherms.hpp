@@ -13,8 +13,8 @@ struct Isotherm {
   double lowest = 0, highest = 0;  ///< smallest and largest reading [°C]
 };
 
-/// Readings that differ by at most this from the next one belong to one isotherm [K]. Temperature chambers hold a few
-/// tenths of a kelvin, and test temperatures lie some kelvins apart.
+/// Consecutive readings, in ascending order, belong to one isotherm if they differ by at most this [K]. Temperature
+/// chambers hold a few tenths of a kelvin, and test temperatures lie some kelvins apart.
 inline constexpr double same_isotherm = 0.5;
 /// Largest difference between the readings of one isotherm [K].
 inline constexpr double widest_isotherm = 1;

@@ -45,7 +45,7 @@ class DataReader {
       complaints_.add(0, "measurements", fmt::format("{}", table_.rows.size()), fmt::format("at most {}", most_points));
       complaints_.throw_if_any();
     }
-    ModulusData sound = data_;  // the measurements without complaints
+    ModulusData sound = data_;  // the measurements in which no fault was found
     for (const LaboratoryTable::Row& row : table_.rows) {
       const std::size_t before = complaints_.count();
       add_point(row);

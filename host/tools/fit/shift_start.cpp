@@ -45,8 +45,9 @@ std::vector<double> master_curve_shift(const std::vector<Target>& targets, const
   for (Curve& curve : curves) std::sort(curve.begin(), curve.end());
   std::vector<double> out{0};
   // `usual`: decades per kelvin of a usual binder at room temperature, for flat curves. `largest_rate`: more decades
-  // per kelvin than any polymer has; without this limit, flat curves far apart would be laid thousands of decades
-  // apart. `range`: limit of all steps together [decades], so that every a_T is within the range of a double.
+  // per kelvin than any polymer has; without this limit, nearly flat curves with different moduli would be shifted by
+  // thousands of decades. `range`: limit of all steps together [decades], so that every a_T is within the range of a
+  // double.
   constexpr double usual = 0.1, largest_rate = 1, range = 150;
   for (std::size_t i = 1; i < curves.size(); ++i) {
     const double kelvins = temperatures[i] - temperatures[i - 1];
