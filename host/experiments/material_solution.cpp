@@ -39,8 +39,8 @@ class PlannedMaterial : public PlannedExperiment {
                        std::string("true with kind \"") + kind_of(scene.experiment) + "\"",
                        "false, because relaxation is computed without inertia");
     }
-    // The CPU is used instead of the reference backend, which implements time steps only. It is also used instead of a
-    // device if the direct solver is requested, which runs on the CPU only. solve_frequencies.cpp does the same.
+    // The CPU is used instead of the reference backend, which implements time steps only. The CPU is also used instead
+    // of a device if the direct solver is requested, which runs on the CPU only. solve_frequencies.cpp does the same.
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = std::string("relaxation spectrum, without inertia, ") + to_string(result.backend);
     std::tie(options_.shortest, options_.longest) = history.range();

@@ -17,9 +17,10 @@ using L = FourNumbers;
 using kernels::Placement;
 using kernels::Twist;
 
-/// Returns the number of particles in a piece, the unit of work of a thread. Pieces are small, so that no thread has to
-/// wait long for another one at the end: large particles, with hundreds of contacts, have consecutive numbers, so they
-/// may all be in one piece. But pieces are not so small that adding the sums of all pieces takes time.
+/// Returns the number of particles in a piece, the unit of work of a thread. Pieces are small, so that no thread waits
+/// long for another thread at the end. (Large particles have hundreds of contacts and consecutive numbers, so a single
+/// piece may hold many of these particles.) Pieces are not smaller, because adding the sums of very many pieces would
+/// take time.
 std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
 
 /// Sums over some particles for one solution u: the squares of the residual, uᵀ·M·u, and the contributions of the pair

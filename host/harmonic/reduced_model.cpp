@@ -81,8 +81,8 @@ void relative_motions(const Contact& c, const Row& row, Index count, ContactMoti
   }
 }
 
-/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. They contain the same
-/// sums as condensed_load().
+/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. The matrices contain
+/// the same sums as condensed_load().
 Eigen::Matrix3d normal_form(const Contact& c) {
   const auto& m = c.moments;
   Eigen::Matrix3d out;

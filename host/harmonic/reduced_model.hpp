@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reduced_model.hpp  Restricts a specimen to the motions of earlier solutions (a reduced basis). This gives E*
-/// for other laws within milliseconds.
+/// \file reduced_model.hpp  Restricts a specimen to the motions of earlier solutions (a reduced basis). With this
+/// restriction E* for other laws is computed within milliseconds.
 ///
 /// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. The
 /// matrices N, S and the mass matrix M are reduced once to the small matrices vᵢᵀ·N·vⱼ, vᵢᵀ·S·vⱼ and vᵢᵀ·M·vⱼ of a few

@@ -22,15 +22,16 @@ double stiffness_at(const Law& law, double omega);
 
 /// Estimates the relative effect of inertia on |E*| per unit of density scaling. A bar of height H driven at one end
 /// has E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is not known beforehand. A third of the softest contact's
-/// |k*(ω)| is used in its place. This is a low estimate: |E*| of mastic alone is 0.6 of this |k*(ω)|, and |E*| of
-/// mixtures is larger than this |k*(ω)|. ρ is the density of the heavier material.
+/// |k*(ω)| is used in its place. The third is a low estimate of E: |E*| of mastic alone is 0.6 of the softest contact's
+/// |k*(ω)|, and |E*| of mixtures is larger than the softest contact's |k*(ω)|. ρ is the density of the heavier
+/// material.
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency);
 
 /// Quantities with which the rounding error of a run grows.
 struct RoundingScale {
   std::int64_t steps = 0;  ///< number of steps of the whole run
-  /// Height of the specimen over the mean distance of particles in contact. It is about the ratio of the velocities of
-  /// particles to the relative velocities of neighbours.
+  /// Height of the specimen over the mean distance of particles in contact. This ratio is about the ratio of the
+  /// velocities of particles to the relative velocities of neighbours.
   double layers = 0;
   double contrast = 1;  ///< largest |k*(ω)| over the smallest, of the pair types that occur
   double inertia = 0;   ///< effect of the scaled mass on |E*|, by inertia_estimate()

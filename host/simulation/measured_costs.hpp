@@ -28,9 +28,9 @@ struct Cost {
   double solving = 1.1e-6, solving_on_device = 2e-8;
   // Contrast is the stiffness of the stiffest contact over the stiffness of the softest. A solution takes
   // by_contrast·∛contrast times as long as one of small contrast. If contrast·particles exceeds `iterable`, the
-  // iterative solver fails and the direct solver is used. It takes `factors` bytes per particle^(4/3) and `factoring`
-  // seconds per particle^1.5 for the factors, and then `factored_iterations` iterations of `with_factors` seconds per
-  // byte (measured with 600 to 4,805 particles and contrasts of 20 to 1e7).
+  // iterative solver fails and the direct solver is used. The direct solver takes `factors` bytes per particle^(4/3)
+  // and `factoring` seconds per particle^1.5 for the factors, and then `factored_iterations` iterations of
+  // `with_factors` seconds per byte (measured with 600 to 4,805 particles and contrasts of 20 to 1e7).
   double by_contrast = 0.4, iterable = 2e8, factors = 2.9e3, factoring = 2e-6, factored_iterations = 500,
          with_factors = 5e-11;
   // seconds per byte of a file, and in addition per frame of fields
@@ -62,8 +62,8 @@ struct StepCost {
 };
 
 /// Returns the cost per contact. `units`: number of Kelvin units of the law that most contacts have, -1 if it has no
-/// chain. The table was measured with three units. It is indexed by backend (CPU, device), contact form, precision
-/// (single, mixed, double) and geometry (fixed, updated). The effect of the number of units is from
+/// chain. The table was measured with three units. The table is indexed by backend (CPU, device), contact form,
+/// precision (single, mixed, double) and geometry (fixed, updated). The effect of the number of units is from
 /// bench/results/kelvin-units-cpu.csv.
 inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry, double units) {
   enum { single, mixed, double_ };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_many.cpp  Hands scenes to threads as these become free, and devices to scenes as they begin.
+// run_many.cpp  Gives scenes to threads that have become free, and a device to each scene before its steps begin.
 #include "macadam/run_many.hpp"
 
 #include <omp.h>
@@ -26,11 +26,11 @@ namespace {
 
 /// Number of scenes that run on a device at a time.
 constexpr int at_once_on_a_device = 4;
-/// Number of specimens per device that are prepared at the same time. If it were larger, all specimens would be ready
-/// late. If it were one, preparing a specimen could take longer than the steps of the previous specimen
-/// (bench/results/many.csv). With several devices, the first two specimens of each device are prepared one after the
-/// other with twice as many cores; otherwise the device would wait for its second specimen. One device is assumed until
-/// the devices are counted.
+/// Number of specimens per device that are prepared at the same time. With a larger number, many specimens would share
+/// the cores and all of them would be ready late. With one, preparing a specimen could take longer than the steps of
+/// the previous specimen (bench/results/many.csv). With several devices, the first two specimens of each device are
+/// prepared one after the other with twice as many cores; otherwise the device would wait for its second specimen. One
+/// device is assumed until the devices are counted.
 constexpr int prepared_for_a_device = 2;
 
 /// Returns the devices that answer. On a device that does not answer, one scene after the other would fail.

@@ -142,7 +142,7 @@ std::optional<Vec3d> Placement::position_for(double radius, double spacing) {
   const auto anywhere = [&](Draws draws) { return clear_of_placed(random_point(draws, low, high), radius + spacing); };
   if (auto found = random_.first_good(plain, 3, tries_at_once, anywhere)) return random_point(*found, low, high);
   if (plain == attempts_) return std::nullopt;
-  // Points distributed uniformly over the cells that are not completely covered by placed spheres have the same
+  // Trials are made only in the cells that placed spheres do not cover completely. Successful trials then have the same
   // distribution as successful trials over the whole box, but more trials succeed.
   const std::vector<std::size_t> open = open_cells(radius);
   if (open.empty()) return std::nullopt;

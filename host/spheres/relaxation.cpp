@@ -23,7 +23,7 @@ constexpr double longest_move = 0.1;  // largest movement of a sphere per iterat
 // skin they are too long.
 constexpr double skin_share = 1.15;
 // Stiffness of a contact between two aggregates, or between an aggregate and a box wall, divided by the stiffness of a
-// mastic contact. It is larger so that aggregates overlap less than mastic.
+// mastic contact. The contact is stiffer, so that aggregates overlap less than mastic.
 constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
 // The energy has stalled if it falls by less than this fraction in stall_window iterations.

@@ -9,7 +9,7 @@
 // specimen of mostly small spheres has holes of many mean spacings, but these holes are smaller than 2 radii of the
 // large spheres. A cell that exceeds both bounds therefore belongs to neither kind of packing. Overlapping mastic fills
 // up to 102 % of the box in the examples. If diameters are given as radii, the filled fraction becomes eight times as
-// large. It then exceeds 150 % for any packing whose true fraction is 19 % or more.
+// large. The wrong fraction then exceeds 150 % for any packing whose true fraction is 19 % or more.
 #include "macadam/tessellation.hpp"
 
 #include <fmt/format.h>

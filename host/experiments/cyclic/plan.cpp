@@ -220,9 +220,9 @@ class Planner {
     return std::max(1.0, estimate_part * tolerance() / inertia_estimate(scene_, prepared_, frequency));
   }
 
-  /// Corrects the density scaling of frequencies whose error is too large, and solves these frequencies again. This is
-  /// needed if the tolerance is large or a resonance is near, because the error then does not grow in proportion to the
-  /// scaling.
+  /// Corrects the density scaling of frequencies whose error is too large, and solves these frequencies again. The
+  /// correction is needed if the tolerance is large or a resonance is near, because the error then does not grow in
+  /// proportion to the scaling.
   void correct(std::vector<HarmonicLoad>& loads, const std::vector<std::optional<HarmonicResult>>& known,
                std::vector<std::optional<HarmonicResult>>& scaled) {
     if (!automatic() || scene_.solver.density_scaling || scene_.solver.time_step) return;

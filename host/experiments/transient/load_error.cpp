@@ -22,8 +22,8 @@ namespace {
 
 /// Relative tolerance with which E(t) is computed if errors of steps are measured against it.
 constexpr double spectrum_tolerance = 1e-5;
-/// Largest strain at which the change of the geometry may be neglected. It changes stresses by a fraction of about
-/// three times the strain, that is 0.3 % at this strain.
+/// Largest strain at which the change of the geometry may be neglected. The change of the geometry changes stresses by
+/// a fraction of about three times the strain, that is, by 0.3 % at this strain.
 constexpr double small_strain = 1e-3;
 /// A row of the result with a larger error than this is named in a warning.
 constexpr double largest_error = 1e-2;

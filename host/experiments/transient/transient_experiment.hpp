@@ -23,8 +23,8 @@ struct LoadTimes {
   std::optional<double> release;  ///< time at which the removal begins [s]; empty: never
 };
 
-/// Describes a relaxation, creep or constant-rate test. It is used for stepped tests and for tests computed without
-/// time steps.
+/// Describes a relaxation, creep or constant-rate test. The same description is used for stepped tests and for tests
+/// computed without time steps.
 struct TransientExperiment {
   std::string kind;
   History history;
@@ -36,7 +36,7 @@ struct TransientExperiment {
 
   bool by_stress = false;  ///< whether the load is a stress; otherwise it is a strain
   LoadTimes when;          ///< times as given in the scene
-  /// Whether the load grows during the whole test; the duration of the ramp is then that of the test.
+  /// Whether the load grows during the whole test; the ramp then lasts as long as the test.
   bool grows = false;
   std::optional<double> platen_mass;  ///< mass of the top wall if a stress loads it [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand

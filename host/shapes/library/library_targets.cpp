@@ -35,9 +35,9 @@ const Quantiles elongations{{0, 0.38}, {2, 0.4}, {17, 0.6}, {61, 0.8}, {82, 0.97
 /// Distribution of the flatness F. There are 3 very flat and 19 moderately flat shapes. The other knots are chosen such
 /// that the average is 0.64.
 const Quantiles flatnesses{{0, 0.358}, {3, 0.4}, {22, 0.6}, {60, 0.7}, {79, 0.8}, {82, 0.94}};
-/// Distribution of the true sphericity ψ^w. It has the minimum, average and maximum of Table 1 of [1].
+/// Distribution of the true sphericity ψ^w. The minimum, average and maximum are those of Table 1 of [1].
 const Quantiles sphericities{{0, 0.718}, {8, 0.79}, {41, 0.865}, {74, 0.92}, {82, 0.968}};
-/// Distribution of the number of points. It has the minimum, average and maximum of Table 1 of [1], and nine shapes
+/// Distribution of the number of points. The minimum, average and maximum are those of Table 1 of [1], and nine shapes
 /// have fewer than 100 facets.
 const Quantiles points{{0, 24.5}, {9, 51}, {41, 145}, {70, 270}, {82, 411.5}};
 

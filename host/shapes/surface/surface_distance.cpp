@@ -82,9 +82,9 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(const Facet& facet, const Vec3
   return found(a + (vb / (va + vb + vc)) * ab + (vc / (va + vb + vc)) * ac, face);
 }
 
-/// Searches the candidates in order. They are sorted by their distance D from another point, which is `way` [m] from
-/// `point`. The distance of a candidate from `point` is therefore at least D − way, and the search ends when D − way
-/// exceeds the smallest distance found.
+/// Searches the candidates in order. The candidates are sorted by their distance D from another point, which is `way`
+/// [m] from `point`. The distance of a candidate from `point` is therefore at least D − way, and the search ends when D
+/// − way exceeds the smallest distance found.
 SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> nearest_first, double way,
                                                      const Vec3d& point) const {
   Nearest best{std::numeric_limits<double>::infinity(), {}, {}};

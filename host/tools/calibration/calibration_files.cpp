@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibration_files.cpp  Calibrates into a folder, and writes a calibration as JSON, CSV and text.
+// calibration_files.cpp  Runs a calibration, and writes its results to a folder as JSON, CSV and text.
 #include "macadam/calibration.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// minimise.cpp  Uses Ceres Solver with derivatives that the caller computes.
+// minimise.cpp  Minimises by Ceres Solver, with derivatives that the caller computes.
 #include "host/tools/calibration/minimise.hpp"
 
 #include <ceres/cost_function.h>

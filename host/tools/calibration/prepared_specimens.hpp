@@ -34,9 +34,9 @@ class Specimens {
   /// prepare(), and InputError if the scene does not determine how a measurement is solved.
   Specimens(const Scene& scene, const ModulusData& data, int seeds, const Watcher& watcher);
 
-  /// Returns E* of every measurement with the given laws, from solutions in the frequency domain. Their motions are
-  /// kept for estimate(). \throws RunError if there is no solution; InterruptedError; InputError for a parameter that
-  /// has no effect in the specimen.
+  /// Returns E* of every measurement with the given laws, from solutions in the frequency domain. The motions of the
+  /// solutions are kept for estimate(). \throws RunError if there is no solution; InterruptedError; InputError for a
+  /// parameter that has no effect in the specimen.
   std::vector<Predicted> solve(const LawTable& laws, const std::vector<Parameter>& free);
 
   /// Returns estimates of E* of every measurement from the motions of all solutions so far. At the laws of a solution

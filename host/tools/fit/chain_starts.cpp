@@ -103,8 +103,8 @@ std::vector<double> merged(Linear grid, std::size_t count) {
   return out;
 }
 
-/// Returns θ for given compliances. A compliance of zero becomes a very stiff spring. It hardly changes the curve, and
-/// the refinement can still make it softer.
+/// Returns θ for given compliances. A compliance of zero becomes a very stiff spring. Such a spring hardly changes the
+/// curve, and the refinement can still make it softer.
 std::vector<double> theta_of(const Unknowns& unknowns, const Linear& linear, const std::vector<double>& shift,
                              const Reduced& at) {
   double sum = linear.spring;

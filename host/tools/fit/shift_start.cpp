@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shift_start.cpp  Moves isotherms onto each other, and fits the shift law to the distances.
+// shift_start.cpp  Moves the curves of |E*| at different temperatures onto each other along the frequency axis, and
+// fits the shift law to these shifts.
 #include "host/tools/fit/shift_start.hpp"
 
 #include <Eigen/Dense>

@@ -138,9 +138,9 @@ Cut cut_out(const fs::path& folder, const TwinSpec& spec) {
   return out;
 }
 
-/// Returns the spheres of a grain in the frame of the box. They fill its surface; spheres whose centres are outside the
-/// box or closer to its sides than a tenth of their radius are left out. A grain without a surface file, or in a scene
-/// without shapes, becomes one sphere of its volume in the box.
+/// Returns the spheres of a grain in the frame of the box. The spheres fill the grain's surface; spheres whose centres
+/// are outside the box or closer to its sides than a tenth of their radius are left out. A grain without a surface
+/// file, or in a scene without shapes, becomes one sphere of its volume in the box.
 MultiSphere spheres_of(std::uint32_t id, const Part& part, const Cut& cut, const fs::path& folder,
                        const SpecimenSpec& how, std::uint64_t seed) {
   fs::path file = folder / ct::whole_grains / ct::surface_file(id);
