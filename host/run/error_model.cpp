@@ -83,9 +83,9 @@ double blocks_within(double error) { return std::min(4000.0, 2 * std::numbers::p
 // The velocities that contacts read have a relative error of u = 2⁻²⁴. These velocities are about `layers` times as
 // large as the relative velocities of two neighbouring layers, so the relative error of relative velocities is
 // layers·u. Normals, arms and moments have a relative error of u. In precision `mixed`, states, the velocities that are
-// integrated, and sums are in double precision. But a device that steps in blocks stores the change of a force within a
-// block in single precision. Where stiff walls carry inertia, a part of this change is lost, as a part of the velocity
-// is in precision `single` (see below). θ = u·N/2π; see angle_lost().
+// integrated, and sums are in double precision. But a device that takes the steps in blocks stores the change of a
+// force within a block in single precision. Where stiff walls carry inertia, a part of this change is lost, as a part
+// of the velocity is in precision `single` (see below). θ = u·N/2π; see angle_lost().
 double mixed_precision_error(const RoundingScale& s) {
   return roundoff * (10 + s.layers) + 2 * angle_lost(s) * s.inertia;
 }

@@ -42,8 +42,7 @@ RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, do
 
 /// Measured differences of a precision from double, and the range of these measurements: maxima of
 /// bench/results/precision.csv, of the drift study in accuracy.csv and, for mixed precision, of the full specimen on a
-/// device (whole-tests-h200-2026-11-21.csv). tests/ has a test (precision_test) that compares these values with the
-/// files.
+/// device (whole-tests-h200-2026-11-21.csv). The test precision_test in tests/ compares these values with the files.
 struct RoundingMeasured {
   double largest;       ///< difference of |E*| (relative) or φ [rad]
   RoundingScale up_to;  ///< largest values in the measurements

@@ -151,9 +151,9 @@ class FacetMaker {
   }
 
   /// Simplifies polygon_ and stores it as one facet. Returns false if it has no area. Lengths below 1e-10 of `scale`,
-  /// the distance of the centres, count as rounding of the input. If the coordinates of a lattice are written as
-  /// decimals, its diagram has such short edges, slivers, split facets, and vertices in the middle of an edge. The
-  /// contact points of a facet must not depend on these.
+  /// the distance of the centres, count as rounding of the input. If the coordinates of a lattice are rounded to
+  /// decimals, rounding causes short edges, slivers, split facets, and vertices in the middle of an edge. The contact
+  /// points of a facet must not depend on such details.
   bool add(std::int32_t a, std::int32_t b, const Vec3d& normal, double scale) {
     const double tolerance = 1e-10 * scale + rounding_;
     merge_vertices(polygon_, tolerance);

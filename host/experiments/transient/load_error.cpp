@@ -167,8 +167,8 @@ double LoadErrors::modulus(const SteppedPoint& row, const std::vector<SteppedPoi
 }
 
 /// Returns an upper bound of the relative rate of change [1/s] of E(t) or J(t) over the last `window` seconds before
-/// the row. E(t) is convex and J(t) is concave. So in the last part of any interval they change no faster than on
-/// average over the whole interval.
+/// the row. E(t) is convex and J(t) is concave. So in the last part of any interval E(t) and J(t) change no faster than
+/// on average over the whole interval.
 double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>& before, double modulus,
                         double window) const {
   if (test_.grows) return 1 / row.time_s;

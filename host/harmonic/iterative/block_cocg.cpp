@@ -154,7 +154,7 @@ class BlockCocg {
         done_[f] = residual <= task.tolerance && task.energy <= task.energy_limit;
         task.converged = done_[f];
         task.iterations += k > 0;
-        if (!std::isfinite(residual)) done_[f] = true;  // this task cannot converge any more; the other tasks continue
+        if (!std::isfinite(residual)) done_[f] = true;  // this task cannot converge any more, but the other tasks can
         if (!done_[f]) worst = std::max(worst, residual);
       }
       const Complex rho = done_[f] ? Complex(0) : sums.rz.plain(f) + coarse_product_.plain(f);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// library_targets.cpp  Takes target values from strata of distributions, and combines them to shapes by exchanging
-// values.
+// library_targets.cpp  Takes target values from the strata of distributions and combines these values to shapes.
+// Exchanges values between shapes until the statistics of the library match the published ones.
 #include "host/shapes/library/library_targets.hpp"
 
 #include <algorithm>

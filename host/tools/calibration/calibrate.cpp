@@ -168,7 +168,7 @@ class Calibrator {
   }
 
   /// Returns the state of least misfit. The estimates and their derivatives are exact at the best solution so far; the
-  /// search ends when they predict no better state.
+  /// search ends when the estimates predict no better state.
   State find(Specimens& specimens) {
     std::vector<double> theta;
     for (const CalibratedParameter& p : out_.parameters)

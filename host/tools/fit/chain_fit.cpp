@@ -72,8 +72,8 @@ Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, 
     minima.push_back(refine(unknowns, targets, limits, theta, near_enough));
   const auto lower = [](const Minimum& a, const Minimum& b) { return a.misfit < b.misfit; };
   std::sort(minima.begin(), minima.end(), lower);
-  // The three results with the lowest misfit are refined to the end, because one that converges slowly may still become
-  // the lowest.
+  // The three results with the lowest misfit are refined to the end, because the misfit of a result that converges
+  // slowly may still become the lowest.
   constexpr std::size_t most_refined = 3;
   Minimum best = minima.front();
   for (std::size_t i = 0; i < std::min(minima.size(), most_refined); ++i) {

@@ -183,8 +183,8 @@ class Starts {
   /// Returns whether the reduced frequencies are plausible: within 60 decades.
   static bool is_sensible(const Reduced& at) { return at.lowest > 0 && at.highest / at.lowest < 1e60; }
 
-  /// Returns retardation times whose addition lowers the linear misfit more than the neighbouring times of a grid, the
-  /// best one first.
+  /// Returns the times of a grid that, added to the retardation times, lower the linear misfit more than their
+  /// neighbours in the grid; the best time comes first.
   std::vector<double> places_for_one(std::vector<double> tau, const Reduced& at) const {
     const std::vector<double> grid = spaced(0.1 / at.highest, 10 / at.lowest, grid_points(at, 2));
     std::vector<double> misfit;

@@ -20,7 +20,7 @@ namespace fitting {
 namespace {
 
 constexpr std::size_t most_points = 10'000;  // because the least-squares matrices are dense
-/// Largest number of letters by which a name may differ from a known one to be reported as a misspelling of it.
+/// A column name that differs from a known name by at most this number of letters is reported as a misspelling.
 constexpr std::size_t misspelt = 2;
 
 /// Reads the measurements from one table.
