@@ -26,8 +26,8 @@ std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, p
 /// Sums over some particles for one solution u: the squares of the residual, uᵀ·M·u, and the contributions of the pair
 /// types to E*.
 struct Sums {
-  double residual = 0,
-         beyond = 0;  ///< sums of squares [N²]: of the residual, and of the part that rounding does not explain
+  /// Sums of squares [N²]: of the residual, and of the part of the residual that rounding does not explain.
+  double residual = 0, beyond = 0;
   Complex inertia = 0;
   ModulusParts parts;
 
