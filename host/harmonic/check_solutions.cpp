@@ -236,7 +236,7 @@ class Check {
   }
 
   /// Returns the fraction of a contact's product that is added when the contact is visited from one particle: 1/2 for a
-  /// contact between two particles, because it is visited from both; 1 for a wall contact.
+  /// contact between two particles, because the contact is visited from both particles; 1 for a wall contact.
   static double share(std::int32_t far) { return far < 0 ? 1 : 0.5; }
 
   /// Returns the stiffness of each contact of a group; lanes without a contact get 0.

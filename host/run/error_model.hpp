@@ -22,9 +22,8 @@ double stiffness_at(const Law& law, double omega);
 
 /// Estimates the relative effect of inertia on |E*| per unit of density scaling. A bar of height H driven at one end
 /// has E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is not known beforehand. A third of the softest contact's
-/// |k*(ω)| is used in its place. The third is a low estimate of E: |E*| of mastic alone is 0.6 of the softest contact's
-/// |k*(ω)|, and |E*| of mixtures is larger than the softest contact's |k*(ω)|. ρ is the density of the heavier
-/// material.
+/// |k*(ω)| is used in its place. The third is a low estimate of E: relative to the softest contact's |k*(ω)|, |E*| of
+/// mastic alone is 0.6, and |E*| of mixtures is above 1. ρ is the density of the heavier material.
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency);
 
 /// Quantities with which the rounding error of a run grows.

@@ -208,8 +208,8 @@ class Relaxation {
   }
 
   // One thread adds the terms in the order of the spheres' numbers, so that the sums have the same bits for any number
-  // of threads. accelerate() stores the terms by place: if it stored them by number, several threads would write to the
-  // same cache line.
+  // of threads. accelerate() stores the terms by place, because several threads would write to the same cache line if
+  // the terms were stored by number.
   double total_energy() const {
     double sum = 0;
     for (const std::int32_t i : place_) sum += energy_[i];

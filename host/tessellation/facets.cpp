@@ -16,9 +16,9 @@
 namespace macadam {
 namespace {
 
-/// Smallest distance of two neighbouring centres, relative to the smaller radius. A smaller distance is an input error,
-/// because the stiffness of a contact is proportional to 1/d: at a distance of 1e-6 radii the equations lose so many
-/// digits that the frequency domain cannot be solved to 1e-11.
+/// Smallest distance of two neighbouring centres, relative to the smaller radius. A smaller distance is an input error.
+/// The stiffness of a contact is proportional to 1/d. At a distance of 1e-6 radii the equations lose so many digits
+/// that linear systems of the frequency domain cannot be solved to a residual of 1e-11.
 constexpr double smallest_distance = 1e-5;
 
 /// Facets of a block of consecutive particles. Vertex ranges are counted from the beginning of the block.

@@ -190,8 +190,8 @@ class Pairing {
 /// correlation of ψ^w with ψ^A is 0.89, and its correlation with the sizes is -0.06 to -0.34. The random part
 /// `disorder` and the correction `fineness`, which gives larger values to smaller stones, reproduce these correlations.
 /// The correction `lack` is for the number of points: a convex surface with few points has a lower sphericity than the
-/// smooth body through its points, by about 0.8 divided by the number of points (for a sphere: 0.06 with the 12 points
-/// of the icosahedron, 0.02 with 42).
+/// smooth body through its points, by about 0.8 divided by the number of points. For a sphere the difference is 0.06
+/// with 12 points (an icosahedron) and 0.02 with 42 points.
 void add_sphericities(std::vector<ShapeMeasure>& shapes, RandomStream& random) {
   constexpr double disorder = 0.02, fineness = 0.04, lack = 0.8;
   std::vector<std::pair<double, std::size_t>> order;

@@ -2,9 +2,9 @@
 // calibrate.cpp  Searches for the parameters of least misfit, and judges whether the result is acceptable.
 //
 // Each round minimises the misfit that the reduced model predicts, and then solves the networks at the minimum. (The
-// reduced model is the equations of motion restricted to combinations of the motions found so far.) The motions of the
-// new solution are added to the reduced model. The search ends when the prediction finds nothing better than the last
-// solution.
+// reduced model consists of the equations of motion, restricted to combinations of the motions found so far.) The
+// motions of the new solution are added to the reduced model. The search ends when the prediction finds nothing better
+// than the last solution.
 #include <fmt/format.h>
 
 #include <algorithm>

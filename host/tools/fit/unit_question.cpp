@@ -16,9 +16,9 @@ namespace {
 constexpr double stiffest_solid = 2e12;
 /// Returns the modulus, |E*| or |G*| [Pa], below which the user is asked about the unit. `phase_deg` is the phase of
 /// the stiffest measurement of the file. For bitumen, mastics, mixtures and other polymers this measurement is 1e8 Pa
-/// or more at phases below 10 degrees (below the glass transition), 1e6 Pa or more below 45 degrees, and less for
-/// larger phases, which are those of fluids. Rubber, gels and hot oils are softer. Their moduli can be given in kPa or
-/// MPa, which are not questioned.
+/// or more if its phase is below 10 degrees (below the glass transition), and 1e6 Pa or more if its phase is below 45
+/// degrees. Fluids have larger phases and smaller moduli. Rubber, gels and hot oils are softer. Their moduli can be
+/// given in kPa or MPa, which are not questioned.
 double smallest_modulus(double phase_deg) {
   if (phase_deg < 10) return 1e8;
   if (phase_deg < 45) return 1e6;
