@@ -248,8 +248,8 @@ class Check {
     return k;
   }
 
-  /// Adds the force and moment that result if the magnitudes of the motions of the two ends of each contact are added,
-  /// so that nothing cancels.
+  /// Adds the load of each contact for the worst case, in which the motions of its two ends do not cancel: the
+  /// magnitudes of the motions are added.
   void add_largest(const Group& g, const Factor<at_once>& k, const Twist<L>& own, const Twist<L>& other,
                    Total& out) const {
     const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };

@@ -39,9 +39,10 @@ struct RoundingScale {
 RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,
                              double density_scaling);
 
-/// Measured differences of a precision from double, and the range of these measurements: maxima of
-/// bench/results/precision.csv, of the drift study in accuracy.csv and, for mixed precision, of the full specimen on a
-/// device (whole-tests-h200-2026-11-21.csv). The test precision_test in tests/ compares these values with the files.
+/// Largest measured difference of a precision from double precision, and the range of the measurements. The values are
+/// the maxima of bench/results/precision.csv, of the drift study in accuracy.csv and, for mixed precision, of the full
+/// specimen on a device (whole-tests-h200-2026-11-21.csv). The test precision_test in tests/ compares these values with
+/// the files.
 struct RoundingMeasured {
   double largest;       ///< difference of |E*| (relative) or φ [rad]
   RoundingScale up_to;  ///< largest values in the measurements

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_steps.cpp  Predicts the time steps and the frequency-domain solutions of a run. It applies the rules by
-// which the run itself is planned, to numbers that are known without a specimen.
+// forecast_steps.cpp  Predicts the time steps and the frequency-domain solutions of a run. Applies the rules for
+// planning the run, but to numbers that are known without a specimen.
 #include "host/simulation/forecast_parts.hpp"
 
 #include <algorithm>

@@ -88,7 +88,7 @@ Reach farthest_reach(const Specimen& all, const Tessellation& tessellation) {
 }
 
 /// Selects, among the facets that contain the cell's farthest point, the facet whose plane is farthest from the
-/// sphere's centre. Returns the cell or the wall on the other side of this facet. In a box that is too high, this is
+/// sphere's centre. Returns the cell or the wall on the other side of this facet. If the box is too high, the result is
 /// the top wall and not one of the two side walls that meet in the same corner.
 std::int32_t farthest_side(const Specimen& all, const Tessellation& tessellation, const Reach& reach) {
   const Vec3d arm = reach.point - all.centre[reach.cell];

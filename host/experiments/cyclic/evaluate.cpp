@@ -35,7 +35,7 @@ Fundamental fit(std::span<const ResponseSample> samples, double frequency, Value
   const double t0 = samples.front().time_s;
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto& s = samples[static_cast<std::size_t>(k)];
-    // time in periods, which is of order one like the other columns, so that the fit is well conditioned
+    // the time is in periods, because the fit is well conditioned only if all columns are of order one
     const double periods = (s.time_s - t0) * frequency;
     const double phase = two_pi * (s.time_s * frequency - std::floor(s.time_s * frequency));
     a.row(k).head<4>() << 1, periods, std::cos(phase), std::sin(phase);

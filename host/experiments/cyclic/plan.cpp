@@ -67,7 +67,7 @@ class Planner {
   /// Returns β of viscous damping [1/s]; 0 with other damping.
   double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
-  /// Refuses settings that do not go together with a law that is not linear or has no complex stiffness. \throws
+  /// Refuses settings that cannot be combined with a nonlinear law or with a law without complex stiffness. \throws
   /// InputError
   void require_laws_to_fit() {
     const FactsTable facts = facts_of(scene_.laws);

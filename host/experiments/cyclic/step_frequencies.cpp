@@ -109,8 +109,8 @@ class Steps : public PlannedExperiment {
     }
   }
 
-  /// Fills in the results that are known before the first step, and those of frequencies that a checkpoint has
-  /// finished.
+  /// Fills in the results that are known before the first step, and the results of the frequencies that were finished
+  /// when the checkpoint was written.
   void begin(RunResult& result) {
     result.decisions = at_.plan.decisions;
     SteppedCyclic& found = result.found.emplace<SteppedCyclic>();

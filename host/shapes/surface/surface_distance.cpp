@@ -99,7 +99,7 @@ SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> 
 /// Makes a node. Let g be half of the cell's diagonal, and d the distance of the cell's centre from the nearest facet.
 /// A point of the cell is at most g from the centre, so its nearest facet is at most d + g from the point, and at most
 /// d + 2g from the centre. Only such facets are kept. `candidates` are the facets that can be nearest in the parent
-/// cell, whose centre is `way` [m] from the centre of this cell.
+/// cell. `way` [m] is the distance between the centres of the parent cell and of this cell.
 void SurfaceDistance::grow(std::int32_t node, const Vec3d& centre, const Vec3d& half, int level,
                            std::span<const Candidate> candidates, double way) {
   const double g = norm(half) * (1 + 1e-9);  // enlarged, so that rounding loses no candidate

@@ -13,8 +13,8 @@
 
 namespace macadam {
 
-/// A template, which is a shape of which scaled copies are placed, with all data for testing these copies. Lengths are
-/// in the frame of the template [m].
+/// A template (a shape whose scaled copies are placed), with all data for testing these copies. Lengths are in the
+/// frame of the template [m].
 struct ShapeGeometry {
   explicit ShapeGeometry(const ShapeTemplate& shape);
 

@@ -139,7 +139,7 @@ std::string calibration_text(const Calibration& c) {
 
 namespace {
 
-/// Checks the output folder. \throws InputError if it has a scene.toml that would be overwritten and that was not
+/// Checks the output folder. \throws InputError if a scene.toml in the folder would be overwritten although it was not
 /// written by a calibration.
 void require_calibration_folder(const Scene& scene, const std::filesystem::path& out) {
   if (scene.text.empty()) {

@@ -173,9 +173,9 @@ std::function<bool(const Vec3d&)> taken_in(const Cut& cut) {
   };
 }
 
-/// Removes particles that contacts do not connect to both the bottom and the top wall, such as mastic enclosed by
-/// voids: they carry no load, and their motion would be undetermined. Their space goes to the voids and cells around
-/// them. Returns the numbers of removed particles of mastic and of other phases.
+/// Removes particles that no path of contacts joins to both the bottom and the top wall, such as mastic enclosed by
+/// voids. These particles carry no load, and their motion would be undetermined. Their space goes to the voids and
+/// cells around them. Returns the numbers of removed particles of mastic and of other phases.
 std::array<std::int64_t, 2> remove_hanging(Specimen& s, const NetworkSpec& spec) {
   std::array<std::int64_t, 2> out{};
   // repeats, because a cell that grows into the freed space may lose another contact
