@@ -300,8 +300,8 @@ class Pool {
   DeviceShares devices_taken_;
   std::exception_ptr thrown_;  // exception thrown by a function of the options, or while devices were counted
   std::vector<JobOutcome> outcomes_;
-  // the devices that scenes may use, and those of them that answer; both become known while the first specimens are
-  // made
+  // the devices that scenes may use, and the usable ones among these devices; both lists become known while the first
+  // specimens are made
   std::shared_future<DeviceList> devices_ = std::async([this] { return meant_devices(jobs_); });
   std::shared_future<DeviceList> usable_ = std::async([all = devices_] { return usable(all.get()); });
 };

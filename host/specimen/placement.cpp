@@ -92,8 +92,8 @@ std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Populati
 }
 
 void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing) {
-  // Later spheres are not larger than this one, except voids. With this reach, the list of every cell contains this
-  // sphere if the centre of a later sphere in the cell may be too close to it.
+  // Later spheres are not larger than this one, except voids. With this reach, this sphere is listed in every cell in
+  // which a later sphere could have its centre and be too close to this sphere.
   grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, radius + std::max(radius, largest_void_) + spacing);
   add(centre, radius, Phase::aggregate, body);
 }

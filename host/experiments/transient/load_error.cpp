@@ -148,8 +148,8 @@ double LoadErrors::walls(const SteppedPoint& row) const {
            std::abs(test_.held_stress);
   }
   const double top = std::abs(row.top_pa), bottom = std::abs(row.bottom_pa);
-  // The smaller stress counts as at least this fraction of the larger one. This limits the ratio while a wave has not
-  // yet reached the other wall.
+  // The smaller stress counts as at least this fraction of the larger stress. So the relative difference stays finite
+  // while a wave has not yet reached the other wall.
   constexpr double least = 1e-3;
   const double smaller = std::max(std::min(top, bottom), least * std::max(top, bottom));
   return smaller > 0 ? apart / smaller : 0;

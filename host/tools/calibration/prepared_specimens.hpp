@@ -21,9 +21,9 @@ struct Predicted {
 };
 
 /// Returns the temperature at which the laws are evaluated for each measurement, empty if neither scene nor data have
-/// one. If all shifts of the scene are WLF or Arrhenius laws, this is the reading itself, otherwise the temperature of
-/// its isotherm. \throws InputError if the scene has no valid laws at a measured temperature, or does not say which of
-/// its temperatures is meant.
+/// one. If all shifts of the scene are WLF or Arrhenius laws, this temperature is the reading itself, otherwise the
+/// temperature of the reading's isotherm. \throws InputError if the scene has no valid laws at a measured temperature,
+/// or does not say which of its temperatures is meant.
 std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data);
 
 /// The specimens, one per seed. Each has a reduced model: its equations of motion, restricted to combinations of the

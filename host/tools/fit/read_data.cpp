@@ -150,7 +150,7 @@ class DataReader {
                        expected);
   }
 
-  /// Decides whether the standard deviations are used, and gives them their units.
+  /// Decides whether the columns of standard deviations are used, and assigns units to them.
   void choose_deviations() {
     using enum Quantity;
     if (has(deviation_ == e_star_std ? g_star_std : e_star_std))
@@ -161,7 +161,7 @@ class DataReader {
     if (!data_.deviations && (modulus || angle))
       complain_of_header(modulus ? "the standard deviation of the modulus alone" : "phase_std alone",
                          "standard deviations of both modulus and phase, or of none");
-    // a deviation has the unit of the column that it belongs to
+    // a standard deviation has the unit of the column whose values it belongs to
     const auto take_unit = [&](Quantity of, Quantity from) {
       if (!has(of) || !has(from)) return;
       LaboratoryColumn& column = used_.at(of).column;
