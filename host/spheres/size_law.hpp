@@ -35,7 +35,7 @@ std::vector<double> draw_diameters(const SizeRange& range, std::int64_t count, d
 
 /// Draws sizes as draw_diameters() does, but for particles of any form. `volume_of(i, d)` [m³] is the volume of entry i
 /// of the result with size d; it must not decrease with d. If this volume is discontinuous at some d, the sum may
-/// differ from `volume` by as much as the jump there.
+/// differ from `volume` by the size of this jump.
 std::vector<double> draw_sizes(const SizeRange& range, std::int64_t count, double volume, RandomStream& random,
                                const std::function<double(std::size_t i, double d)>& volume_of);
 

@@ -56,7 +56,7 @@ bool minimise(const Residuals& residuals, std::size_t count, const std::vector<P
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 200;  // so many are needed if the misfit has narrow, bent valleys
+  options.max_num_iterations = 200;  // a misfit with narrow, bent valleys needs this many iterations
   options.function_tolerance = 1e-9;
   options.gradient_tolerance = 1e-13;
   options.parameter_tolerance = 1e-10;
