@@ -11,8 +11,8 @@ namespace macadam {
 namespace {
 
 /// Number of contacts from which several devices are worthwhile. Two H100 step 221,000 contacts 1.2 times as fast as
-/// one H100. They step 441,000 contacts 4 times as fast, because so many contacts do not fit in the registers and
-/// shared memory of one H100 (bench/results/team-*.csv).
+/// one H100. Two H100 step 441,000 contacts 4 times as fast as one, because 441,000 contacts do not fit in the
+/// registers and shared memory of one H100 (bench/results/team-*.csv).
 constexpr std::size_t contacts_of_a_team = 300'000;
 // Smallest number of contacts per device when there are several.
 constexpr std::size_t contacts_of_a_device = 150'000;

@@ -14,8 +14,8 @@ namespace macadam {
 /// memory of the other) and no process uses it.
 using IdleBeside = std::function<bool(int device, int first)>;
 
-/// Returns the devices that step a specimen with this number of contacts: the first of `devices` and, if several are
-/// worthwhile, further ones that are idle. If several are returned, `decision` is set to a sentence for the user.
+/// Returns the devices that step a specimen with this number of contacts: the first of `devices` and, if several
+/// devices are worthwhile, further idle devices. If several are returned, `decision` is set to a sentence for the user.
 /// Returns an empty list if there are no devices.
 DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& devices, const IdleBeside& idle_beside,
                           std::string& decision);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plugin_file.cpp  Loads plugins with dlopen() from the folders where they may be.
+// plugin_file.cpp  Loads plugins with dlopen() from the folders in which plugins are searched for.
 #include "host/backends/plugin_file.hpp"
 
 #include <dlfcn.h>

@@ -14,7 +14,7 @@ struct PluginFile {
   /// Version of the plugin's interface in this build. The table of the plugin must begin with the same number, followed
   /// by Macadam's version as a C string.
   int interface;
-  const char* makes;  ///< what is needed to build the plugin, in words, for the error message
+  const char* makes;  ///< requirements for building the plugin, in words, for the error message
 };
 
 /// Returns the table of a plugin, which then stays loaded. The plugin is searched for in the folders of

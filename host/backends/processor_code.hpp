@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file processor_code.hpp  Declares the time step on the CPU, whose speed depends on the SIMD registers of the
-/// processor. It is compiled once for each processor generation. At run time the newest generation that the processor
-/// supports is chosen. The functions of the frequency domain for this generation are in a table of their own:
-/// host/harmonic/harmonic_code.hpp.
+/// processor. The code of the time step is compiled once for each processor generation. At run time the newest
+/// generation that the processor supports is chosen. The functions of the frequency domain for this generation are in a
+/// table of their own: host/harmonic/harmonic_code.hpp.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ranks.cpp  Joins the processes that mpirun started together with this one. The code that uses MPI and NCCL is a
-// separate library, libmacadam_ranks.so, so that only multi-process runs need them.
+// separate library, libmacadam_ranks.so, so that only multi-process runs need MPI and NCCL.
 #include "macadam/ranks.hpp"
 
 #include <cstdlib>

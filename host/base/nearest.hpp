@@ -16,10 +16,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 /// neighbouring letters. Upper and lower case count as equal. Only the first 64 letters of each word are compared.
 std::size_t letters_between(std::string_view a, std::string_view b);
 
-/// Returns the part of an error message that gives the expected words in place of an unknown word: "seed (the nearest
-/// of box, seed)" if one of the known words is near, otherwise "one of box, seed". A known word is near if at most a
-/// third of the letters of the longer word differ (two neighbouring letters in the wrong order count once, case does
-/// not count), or if it is the only one that begins with the unknown word. `known` has at least one word.
+/// Returns the text that follows "expected" in an error message about an unknown word: "seed (the nearest of box,
+/// seed)" if one of the known words is near, otherwise "one of box, seed". A known word is near if it is the only known
+/// word that begins with the unknown word, or if at most a third of the letters of the longer of both words differ. Two
+/// neighbouring letters in the wrong order count once; case does not count. `known` has at least one word.
 std::string expected_one_of(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace macadam

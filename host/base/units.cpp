@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file units.cpp  Defines the table of units, and the only functions that use it.
+/// \file units.cpp  Defines the table of units, and the functions that look up units in this table.
 #include "host/base/units.hpp"
 
 #include <charconv>

@@ -13,7 +13,7 @@ namespace macadam {
 ///   OpenMP but at a barrier of Macadam (kernels/base/barrier.hpp). A command line with a single argument, such as
 ///   `macadam --version`, does not set this variable, except `macadam bench`.
 /// - OPENBLAS_NUM_THREADS=1 if the address space is limited (`ulimit -v`): the threads that OpenBLAS starts when it is
-///   loaded try forever to map their buffers, and the end of the program waits for them.
+/// loaded try forever to map their buffers, and the program waits for these threads when it ends.
 void restart_with_library_environment(int argc, char** argv);
 
 }  // namespace macadam

@@ -79,7 +79,7 @@ int say_and_run(int argc, char** argv) {
   CLI::App app;
   make_command_line(app);
   const auto [code, ran] = run_program(app, argc, argv);
-  // `run` and `specimen` also write their results to files, so a failed write to standard output is no error for them
+  // `run` and `specimen` also write their results to files, so a failed write to standard output is not an error
   const bool in_files = ran && (app.got_subcommand("run") || app.got_subcommand("specimen"));
   if (flush_output() || code != 0 || in_files) return code;
   say_error(

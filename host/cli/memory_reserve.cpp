@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// memory_reserve.cpp  Installs a new-handler and GMP's functions for memory.
+// memory_reserve.cpp  Installs the handler that operator new calls when memory runs out, and makes GMP use operator
+// new.
 #include "host/cli/memory_reserve.hpp"
 
 #include <gmp.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// experiment.cpp  Reads a scene's experiment and answers questions about it, through the one list of experiments.
+// experiment.cpp  Reads the experiment of a scene, and finds its functions in the list of all experiments
+// (macadam/experiments/all.hpp).
 #include "host/experiments/experiment.hpp"
 
 #include "host/run/cracks.hpp"

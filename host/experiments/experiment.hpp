@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file experiment.hpp  Declares the class templates ExperimentOf and ResultOf. Every experiment in the list of
-/// macadam/experiments/all.hpp defines their functions for its own types, in a source file in host/experiments/. The
-/// functions further below call them for the experiment of a scene.
+/// macadam/experiments/all.hpp defines the functions of both templates for its own types, in a source file in
+/// host/experiments/. The other functions of this file call the functions of the experiment that a scene names.
 #pragma once
 
 #include <exception>
@@ -30,9 +30,9 @@ struct ExperimentOf {
   static Spec read(const scene::Section& loading);
 
   /// Prepares the solution by the scene's method. All checks that can refuse the scene are made here, before any file
-  /// is changed. Stores decisions, skips and warnings in `result`, which is empty except for the backend and may be
-  /// moved to another address afterwards. Scene, preparation and watcher must outlive the solution. \throws InputError,
-  /// RunError
+  /// is changed. Stores decisions, skips (parts of the computation that are left out) and warnings in `result`, which
+  /// is empty except for the backend and may be moved to another address afterwards. Scene, preparation and watcher
+  /// must outlive the solution. \throws InputError, RunError
   static std::unique_ptr<PlannedExperiment> plan(const Spec& spec, const Scene& scene, const Preparation& prepared,
                                                  const Watcher& watcher, std::optional<Resumed> resumed,
                                                  RunResult& result);
@@ -51,7 +51,7 @@ struct ResultOf {
   /// Returns the wall time until the result was found [s], of all processes of a resumed run.
   static double seconds(const Result& found);
 
-  /// Returns the lines of text that the command prints at its end.
+  /// Returns the lines of text that the command prints when the run ends.
   static std::string table(const Result& found);
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 using experiments::Material;
 
-/// Tolerance of E(t) if [solver] has none.
+/// Relative tolerance of E(t) if the section [solver] of the scene gives no tolerance.
 constexpr double usual_tolerance = 1e-5;
 
 class PlannedMaterial : public PlannedExperiment {
@@ -39,8 +39,8 @@ class PlannedMaterial : public PlannedExperiment {
                        std::string("true with kind \"") + kind_of(scene.experiment) + "\"",
                        "false, because relaxation is computed without inertia");
     }
-    // The CPU is used instead of the reference backend, which implements time steps only. It is also used instead of a
-    // device if the direct solver is requested, which runs on the CPU only. solve_frequencies.cpp does the same.
+    // The CPU is used instead of the reference backend, which implements time steps only. The CPU is also used instead
+    // of a device if the direct solver is requested, which runs on the CPU only. solve_frequencies.cpp does the same.
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = std::string("relaxation spectrum, without inertia, ") + to_string(result.backend);
     std::tie(options_.shortest, options_.longest) = history.range();
@@ -122,7 +122,8 @@ std::pair<double, double> History::range() const {
       const double since = t - r.begin;
       if (!(since > 0)) continue;
       longest = std::max(longest, since);
-      // the part of a ramp that lies only a short time before t has little effect
+      // the last tenth of `grown`, the part of the ramp before t, has little effect, so E at shorter times is not
+      // needed
       const double grown = std::min(since, r.duration);
       shortest = std::min(shortest, std::max(since - grown, 0.1 * grown));
     }

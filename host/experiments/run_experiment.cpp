@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_experiment.cpp  Runs any experiment and reports its result, through the one list of experiments.
+// run_experiment.cpp  Runs the experiment of a scene and reports its result. Finds the functions of the experiment
+// in the list of all experiments (macadam/experiments/all.hpp).
 #include "host/experiments/experiment.hpp"
 
 #include "macadam/error.hpp"

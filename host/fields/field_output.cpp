@@ -119,7 +119,8 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
   const bool has_contact_states = scene_.solver.backend != Backend::reference;
   ContactState carried;
   if (spec.contacts || has_contact_states) carried = stepper.contacts(prepared_.network);
-  if (!writes_) return;  // the calls above have sent the data of this process to the first process, which writes them
+  // in the calls above, this process has sent its data to the first process, which writes the files
+  if (!writes_) return;
   if (particles_) {
     if (has_contact_states) of_particles.push_back(stress_array(prepared_.tessellation, prepared_.network, carried));
     particles_->add(time, of_particles);

@@ -24,7 +24,7 @@ void write_specimen_fields(const Scene& scene, const Preparation& prepared, cons
 /// preparation must outlive this object.
 class FieldOutput {
  public:
-  /// Writes the Laguerre cells if the scene requests them. They do not change during a run. \throws RunError.
+  /// Writes the Laguerre cells if the scene requests them. The cells do not change during a run. \throws RunError.
   FieldOutput(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
   /// Begins the series of fields of a stepped run. `of` is the name of this part of the run in file names, for example

@@ -182,7 +182,7 @@ class VtkHdfSeries : public FieldSeries {
         });
       }
       open_->write(bytes_of(arrays), [&](H5::H5File& file) { put_frame(file, arrays); });
-      // done last, so that a reader finds only complete steps, also if the program is killed
+      // set_steps() is called last, so that a reader finds only complete steps, even if the program is killed
       set_steps(steps_ + 1, &time);
       if (first) open_->keep();
     } catch (const RunError&) {

@@ -34,8 +34,8 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-/// Returns settings for HDF5's "core" driver, which keeps one file in memory. With it HDF5 never writes to a disk. It
-/// is used because HDF5 does not survive a write error on a full disk.
+/// Returns settings for HDF5's "core" driver, which keeps one file in memory. With this driver HDF5 never writes to a
+/// disk. The driver is used because HDF5 does not survive a write error on a full disk.
 H5::FileAccPropList in_memory() {
   H5::FileAccPropList access;
   access.setCore(growth, false);
@@ -78,8 +78,8 @@ std::string file_of(const Checkpoint& checkpoint) {
   return all;
 }
 
-/// Counts the bytes that the datasets of an HDF5 image claim to hold. Their sum cannot be larger than the image, so a
-/// damaged file is refused before memory is allocated for its data.
+/// Counts the bytes that the datasets of an HDF5 image claim to hold. The sum of these bytes cannot be larger than the
+/// image, so a damaged file is refused before memory is allocated for its data.
 class Room {
  public:
   explicit Room(std::size_t bytes) : left_(static_cast<double>(bytes)) {}

@@ -22,8 +22,8 @@ std::string read_whole(const std::filesystem::path& file);
 /// Returns a name as a field of a CSV file: quoted where RFC 4180 requires it.
 std::string csv_field(const std::string& name);
 
-/// A file that is open for writing. It uses system calls, because a C++ stream reports neither why a write fails nor
-/// whether the data are on the disk. A function that fails returns `false`, with the reason in errno.
+/// A file that is open for writing. The class uses system calls, because a C++ stream reports neither why a write fails
+/// nor whether the data are on the disk. A function that fails returns `false`, with the reason in errno.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& file);

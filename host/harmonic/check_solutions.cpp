@@ -17,14 +17,17 @@ using L = FourNumbers;
 using kernels::Placement;
 using kernels::Twist;
 
-/// Returns the number of particles in a piece, the unit of work of a thread. Pieces are small, so that no thread has to
-/// wait long for another one at the end: large particles, with hundreds of contacts, have consecutive numbers, so they
-/// may all be in one piece. But pieces are not so small that adding the sums of all pieces takes time.
+/// Returns the number of particles in a piece, the unit of work of a thread. Pieces are small, so that no thread waits
+/// long for another thread at the end. (Large particles have hundreds of contacts and consecutive numbers, so a single
+/// piece may hold many of these particles.) Pieces are not smaller, because adding the sums of very many pieces would
+/// take time.
 std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
 
-/// Sums over some particles for one solution u: the squares of the residual, uᵀ·M·u, and the parts of E*.
+/// Sums over some particles for one solution u: the squares of the residual, uᵀ·M·u, and the contributions of the pair
+/// types to E*.
 struct Sums {
-  double residual = 0, beyond = 0;  ///< sums of squares of the residual [N²], and of its part beyond rounding
+  /// Sums of squares [N²]: of the residual, and of the part of the residual that rounding does not explain.
+  double residual = 0, beyond = 0;
   Complex inertia = 0;
   ModulusParts parts;
 
@@ -57,7 +60,8 @@ class Check {
     }
   }
 
-  /// Returns, for each solution, the sums over all particles: squares of the residual, uᵀ·M·u, and the parts of E*.
+  /// Returns, for each solution, the sums over all particles: squares of the residual, uᵀ·M·u, and the contributions of
+  /// the pair types to E*.
   AllSums sums() const {
     const std::size_t particles = inertia_.mass.size();
     const std::size_t piece = piece_of(particles);
@@ -232,7 +236,7 @@ class Check {
   }
 
   /// Returns the fraction of a contact's product that is added when the contact is visited from one particle: 1/2 for a
-  /// contact between two particles, because it is visited from both; 1 for a wall contact.
+  /// contact between two particles, because the contact is visited from both particles; 1 for a wall contact.
   static double share(std::int32_t far) { return far < 0 ? 1 : 0.5; }
 
   /// Returns the stiffness of each contact of a group; lanes without a contact get 0.
@@ -244,8 +248,8 @@ class Check {
     return k;
   }
 
-  /// Adds the force and moment that result if the magnitudes of the motions of the two ends of each contact are added,
-  /// so that nothing cancels.
+  /// Adds the load of each contact for the worst case, in which the motions of its two ends do not cancel: the
+  /// magnitudes of the motions are added.
   void add_largest(const Group& g, const Factor<at_once>& k, const Twist<L>& own, const Twist<L>& other,
                    Total& out) const {
     const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };

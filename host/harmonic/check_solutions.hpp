@@ -22,10 +22,10 @@ struct SolutionCheck {
 
 /// Checks the solutions of tasks, four in one pass over the contacts. The numbers of a solution have rounding errors.
 /// Stiff contacts turn these into errors of the loads. If the load is much smaller than these errors, no smaller
-/// residual can be expected. A residual is attributed to rounding if it is at most the fraction `rounding` of the load
-/// that the particle would have if nothing cancelled. With `rounding` 0 no residual is attributed to rounding. Sums are
-/// computed for pieces of some particles each, then added in order, so that the result does not depend on the number of
-/// threads.
+/// residual can be expected. The residual of a particle is attributed to rounding if it is at most the fraction
+/// `rounding` of the load that the particle would have if no terms of the sum cancelled. With `rounding` 0 no residual
+/// is attributed to rounding. Sums are computed for pieces of some particles each, then added in order, so that the
+/// result does not depend on the number of threads.
 std::vector<SolutionCheck> check_solutions(const ContactNetwork& network, const Inertia& inertia,
                                            const std::vector<const LinearTask*>& tasks, double rounding);
 

@@ -69,7 +69,8 @@ struct Lanes {
 /// A complex factor for each solution, prepared for multiplication.
 template <int F>
 struct Factor {
-  /// Each part is stored in both lanes of a number. In the real lane the imaginary part is negated, because i·i = −1.
+  /// The real part and the imaginary part of the factor are each stored in both lanes of a number. The imaginary part
+  /// is stored negated in the lane of real parts, because i·i = −1.
   Lanes<F> real, imaginary;
 
   void set(int f, std::complex<double> z) {
@@ -89,11 +90,11 @@ struct Products {
     crossed += x * y.swapped();
   }
   void add(const Products& o) { straight += o.straight, crossed += o.crossed; }
-  /// Returns Σ x·y of number f, without conjugates.
+  /// Returns Σ x·y of solution f, without conjugates.
   std::complex<double> plain(int f) const {
     return {straight.v[f] - straight.v[F + f], crossed.v[f] + crossed.v[F + f]};
   }
-  /// Returns Re Σ conj(x)·y of number f.
+  /// Returns Re Σ conj(x)·y of solution f.
   double conjugated(int f) const { return straight.v[f] + straight.v[F + f]; }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_operator.hpp  Computes the forces of all contacts for given complex motions. So a motion is multiplied
-/// by the stiffness matrix K*(s), but no matrix is stored.
+/// \file contact_operator.hpp  Computes the forces of all contacts for given complex motions. These forces are the
+/// product of the stiffness matrix K*(s) and the motion; the matrix itself is not stored.
 #pragma once
 
 #include <array>
@@ -34,7 +34,8 @@ using Loads = std::vector<ParticleLoad>;
 double length(const Vector& x);
 double length(const Loads& loads);
 
-/// Complex stiffness per unit of area over distance [Pa], and α, of each pair type.
+/// For each pair type: the complex stiffness per unit of area over distance [Pa], and α, the ratio of shear to normal
+/// stiffness.
 struct PairStiffness {
   std::array<Complex, pair_types> k{};
   std::array<double, pair_types> alpha{};

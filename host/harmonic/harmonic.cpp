@@ -151,7 +151,7 @@ class Harmonic::Implementation {
   }
 
   /// Removes the free motions (motions that no contact resists) from the start of an iteration. With inertia the
-  /// iteration cannot remove them by itself.
+  /// iteration cannot remove the free motions by itself.
   Vector without_free_motions(Vector x) const {
     for (const FreeMotion& motion : free_.motions) motion.remove_from(x, inertia_);
     return x;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file law_stiffness.hpp  Returns the complex stiffness of a law, and throws for laws that have none. All code of the
-/// frequency domain uses it.
+/// \file law_stiffness.hpp  Gives access to the complex stiffness of a law, and throws for laws that have none. All
+/// code of the frequency domain obtains stiffnesses through this file.
 #pragma once
 
 #include <optional>

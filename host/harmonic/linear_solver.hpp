@@ -36,7 +36,7 @@ struct LinearTask {
 };
 
 /// A solver with a preconditioner that is made for one network. Free motions of the specimen (motions that no contact
-/// resists) are removed from the solutions, or held by pins that carry no force.
+/// resists) are removed from the solutions, or held by pins (springs to ground) that carry no force.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -48,8 +48,8 @@ class LinearSolver {
 /// \throws InterruptedError when `stop` is given and returns true.
 void require_not_stopped(const std::function<bool()>& stop);
 
-/// Returns the direct solver: COCG preconditioned by Cholesky factors of Re K at one frequency. It takes about ten
-/// iterations, but its memory grows as n^(4/3) with the number n of particles.
+/// Returns the direct solver: COCG preconditioned by Cholesky factors of Re K at one frequency. A solution takes about
+/// ten iterations, but the memory of the solver grows as n^(4/3) with the number n of particles.
 /// \throws RunError when the stiffness is singular or memory does not suffice.
 std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, const ContactOperator& contacts,
                                                  const PairStiffness& typical, const Inertia& inertia,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_model.cpp  Makes the motions of the reduced basis orthonormal, computes the small matrices of stiffness and
-// mass between them, and solves the small linear systems.
+// reduced_model.cpp  Makes the motions of the reduced basis orthonormal, computes the small stiffness and mass
+// matrices for these motions, and solves the small linear systems.
 #include "host/harmonic/reduced_model.hpp"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ MatrixXd products(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const Ma
   return sums[0];
 }
 
-/// Computes from −= columns·shares.
+/// Subtracts the matrix product `columns`·`shares` from `from`.
 void take_away(MatrixXd& from, const Eigen::Ref<const MatrixXd>& columns, const MatrixXd& shares) {
   for_each_piece(from.rows(), [&](std::size_t, Index begin, Index rows) {
     from.middleRows(begin, rows).noalias() -= columns.middleRows(begin, rows) * shares;
@@ -81,8 +81,8 @@ void relative_motions(const Contact& c, const Row& row, Index count, ContactMoti
   }
 }
 
-/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. They contain the same
-/// sums as condensed_load().
+/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. The matrices contain
+/// the same sums as condensed_load().
 Eigen::Matrix3d normal_form(const Contact& c) {
   const auto& m = c.moments;
   Eigen::Matrix3d out;

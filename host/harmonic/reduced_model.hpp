@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reduced_model.hpp  Restricts a specimen to the motions of earlier solutions (a reduced basis). This gives E*
-/// for other laws within milliseconds.
+/// \file reduced_model.hpp  Restricts a specimen to the motions of earlier solutions (a reduced basis). With this
+/// restriction E* for other laws is computed within milliseconds.
 ///
-/// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. Once, N,
-/// S and M are reduced to small matrices between a few real motions v_j, which are at rest at the walls. Afterwards E*
-/// for any laws and any s is computed from a small linear system (Galerkin's method, model section 17). If the motions
-/// span the real and imaginary parts of a full solution, the reduced model gives the same E* and derivatives as this
-/// solution. Otherwise the error of E* grows with the square of the distance between the solution and the span of the
-/// motions.
+/// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. The
+/// matrices N, S and the mass matrix M are reduced once to the small matrices vᵢᵀ·N·vⱼ, vᵢᵀ·S·vⱼ and vᵢᵀ·M·vⱼ of a few
+/// real motions vⱼ, which are at rest at the walls. Afterwards E* for any laws and any s is computed from a small
+/// linear system (Galerkin's method, model section 17). If the motions span the real and imaginary parts of a full
+/// solution, the reduced model gives the same E* and derivatives as this solution. Otherwise the error of E* grows with
+/// the square of the distance between the solution and the span of the motions.
 #pragma once
 
 #include <Eigen/Dense>
@@ -32,15 +32,16 @@ class ReducedModel {
     ModulusParts parts;               ///< parts of E* [Pa]
     Eigen::VectorXcd of_the_motions;  ///< coefficients of the motions
   };
-  /// Returns the solution for `load`; its `near` is not used. At least one motion must have been added. \throws
+  /// Returns the solution for `load`; HarmonicLoad::near is not used. At least one motion must have been added. \throws
   /// RunError when the small system has no finite solution.
   Solution solve(const LawTable& laws, const HarmonicLoad& load) const;
 
   /// Returns the motion of the particles, [6·particles], as a start for an iteration (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;
 
-  /// Returns the matrix of N + α·S of a pair type between the motions, [motions][motions]. For coefficients u, uᵀ·(N +
-  /// α·S)·u is the energy form uᵀ·K·u divided by k*; it is not yet multiplied by height over cross-section.
+  /// Returns the small matrix vᵢᵀ·(N + α·S)·vⱼ of a pair type, for all pairs of motions, [motions][motions]. For
+  /// coefficients u, uᵀ·(N + α·S)·u is the energy form uᵀ·K·u divided by k*; it is not yet multiplied by height over
+  /// cross-section.
   Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
 
   /// Number of real motions, including the first, in which the top wall moves.

@@ -30,8 +30,8 @@ Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
 }
 
 /// Makes a motion orthonormal to the motions of the list from number `first` on, with respect to masses, and appends
-/// it. The caller ensures that each of these earlier motions moves either one particle of the new motion or all of its
-/// particles.
+/// it. The caller ensures that each of these earlier motions moves either one particle of the new motion or all
+/// particles of the new motion.
 void add_orthonormal(FreeMotion added, std::size_t first, const Inertia& inertia, std::vector<FreeMotion>& list) {
   const auto weighted = [&](const FreeMotion& m, const double* a, const double* b) {
     return sum_in_parallel<double>(m.motion.size(), [&](std::size_t i) {
@@ -162,7 +162,7 @@ class Part {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> left(all * all.transpose(), whole);
     int gone = 0;
     while (gone < rigid_.cols() && left.eigenvalues()(gone) < 1e-9)
-      ++gone;  // a fraction of 1e-9 would be left if only one particle in 1e9 could not turn by itself
+      ++gone;  // rounding leaves less; if just one particle in 1e9 cannot turn by itself, 1e-9 is left
     rigid_ = (rigid_ * left.eigenvectors().rightCols(rigid_.cols() - gone)).eval();
   }
 

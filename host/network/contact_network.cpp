@@ -209,7 +209,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   }
   out.contacts.resize(facet_of.size());
   for (auto* list : {&out.point_s, &out.point_t, &out.point_area}) list->resize(point_begin.back(), 0);
-  // Sums over the contacts for ContactNetwork::second_moment_difference.
+  // Sums over the contacts, from which ContactNetwork::second_moment_difference is computed.
   struct Sums {
     double difference = 0, total = 0;
     Sums& operator+=(const Sums& o) { return difference += o.difference, total += o.total, *this; }

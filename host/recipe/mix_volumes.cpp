@@ -159,8 +159,8 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
         fmt::format("voids of {} of the box, and {} of air voids in the mix", in_percent(of_voids),
                     in_percent(volumes.air_voids)),
         "at most this fraction in [specimen.voids]");
-  // The mastic's porosity is the air that is not in voids with their own cells. It is given as a fraction of the volume
-  // outside of these voids.
+  // The mastic's porosity is the air that is not in voids with their own cells. The porosity is given as a fraction of
+  // the volume outside of these voids.
   spec.mastic->porosity = (volumes.air_voids - of_voids) / (1 - of_voids);
   for (const MixClass& c : volumes.classes) {
     AggregateClass& out = spec.aggregate.emplace_back();

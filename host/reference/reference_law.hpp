@@ -51,7 +51,7 @@ struct ReferenceLaw {
 ReferenceLaw make_reference_law(const Law& law, const std::string& pair);
 
 /// Takes one step Δt in which the ends of the chain move apart by dx [m]. `scale` is A_J/d [m], times α for shear:
-/// stiffnesses are k = E·scale and viscosities η = C·scale (Eq. 11, 12, 16, 17). It must not be 0.
+/// stiffnesses are k = E·scale and viscosities η = C·scale (Eq. 11, 12, 16, 17). `scale` must not be 0.
 void advance_chain(const ReferenceLaw& law, double scale, double dt, double dx, ChainState& state);
 
 }  // namespace macadam::reference

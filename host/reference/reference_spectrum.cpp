@@ -29,12 +29,12 @@ double reference_largest_frequency(const ContactNetwork& network, const LawTable
 }
 
 // K is singular if some motions have no stiffness. But the load of a wall does no work on these motions, so K·u = f has
-// a solution. It is found by repeating u += (K + H)⁻¹·(f − K·u) with weak springs H. The error of a motion with
-// stiffness shrinks by a factor H/K each time. A free motion gets no force and stays at rest. At the end f − K·u ≈ 0,
-// so the springs H carry no load.
+// a solution. The solution is found by repeating u += (K + H)⁻¹·(f − K·u) with weak springs H. The error of a motion
+// with stiffness shrinks by a factor H/K each time. A free motion gets no force and stays at rest. At the end f − K·u ≈
+// 0, so the springs H carry no load.
 double reference_static_modulus(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws) {
-  // Stiffness of the weak springs as a fraction of the particle's own stiffness. It is far below the stiffness of the
-  // softest elastic motion, and far above the rounding errors of the factorisation.
+  // Stiffness of the weak springs as a fraction of the particle's own stiffness. The springs' stiffness is far below
+  // the stiffness of the softest elastic motion, and far above the rounding errors of the factorisation.
   constexpr double holding = 1e-8;
   // Largest residual as a fraction of the load. The reaction has about this relative error.
   constexpr double tolerance = 1e-12;

@@ -153,9 +153,9 @@ class ReferenceStepper : public Stepper {
   [[noreturn]] static void refuse_checkpoints() { throw RunError("backend reference keeps no checkpoints"); }
 
   /// Sets the displacements of step −1 and the velocities of step −1/2, then advances to step 0. The forces at step −1
-  /// are unknown and stay 0. They are not needed, because the given velocities already belong to step −1/2. The step
-  /// will multiply the velocities by the factor of viscous damping, so the given velocities are divided by this factor
-  /// beforehand.
+  /// are unknown and stay 0. These forces are not needed, because the given velocities already belong to step −1/2. The
+  /// step will multiply the velocities by the factor of viscous damping, so the given velocities are divided by this
+  /// factor beforehand.
   void start_from(const StartState& start) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       Body& body = bodies_[i];

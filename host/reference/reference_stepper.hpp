@@ -4,8 +4,8 @@
 ///
 /// It shares no arithmetic with the kernels, so that the results of kernels can be checked against it. It is written
 /// for clarity, not for speed: it uses one thread and no precomputed coefficients. `StepperOptions::form` and `threads`
-/// have no effect. It always works per contact point, so its results can be compared only with runs whose area moments
-/// are lumped in points.
+/// have no effect. The reference stepper always works per contact point, so its results can be compared only with runs
+/// whose area moments are lumped in points.
 #pragma once
 
 #include <memory>

@@ -17,7 +17,8 @@ namespace macadam {
 
 /// The file name of the checkpoint in the folder of the results.
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
-/// The file name of the previous checkpoint of the same run. It is used if the newest checkpoint is missing or damaged.
+/// The file name of the previous checkpoint of the same run. The previous checkpoint is used if the newest checkpoint
+/// is missing or damaged.
 inline constexpr const char* previous_checkpoint_name = "checkpoint-previous.h5";
 
 /// Returns whether runs of this scene keep checkpoints. `why_not` (optional) receives the reason if they do not.

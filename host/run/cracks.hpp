@@ -31,8 +31,9 @@ class CrackWatch {
   /// Adds an event for each point that has broken since the last call. Returns the events of this call. All processes
   /// of a run must call this together. \throws RunError as Stepper::contacts() does.
   std::vector<experiments::CrackEvent> look(const Stepper& stepper, double time);
-  /// Returns whether contacts that have an intact point join the top wall to the bottom wall or to a wall at the sides;
-  /// also true if the walls were not joined when the test began. All processes of a run must call this together.
+  /// Returns whether contacts with at least one intact point join the top wall to the bottom wall or to a wall at the
+  /// sides. Returns true also if the walls were not joined when the test began. All processes of a run must call this
+  /// together.
   bool joins_walls() const;
 
   const experiments::Cracks& found() const { return found_; }
@@ -43,7 +44,7 @@ class CrackWatch {
   const ContactNetwork& network_;
   FactsTable laws_;
   bool active_, joined_at_start_;
-  std::vector<bool> broken_;  // for each contact point
+  std::vector<bool> broken_;  // whether each contact point is broken
   experiments::Cracks found_;
 };
 

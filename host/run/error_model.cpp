@@ -69,10 +69,11 @@ RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, do
           stiffest / softest, density_scaling * inertia_estimate(scene, prepared, frequency)};
 }
 
-// A block takes 1/N of the shortest characteristic time. The error of a contact within a block is a saw-tooth of height
-// (2π/N)²/8 that returns to zero at the end of the block; a part of the saw-tooth remains at the frequency of the load.
-// The measured error of |E*| is at most (2π/N)²/38, for N = 30 to 4,000, two binders, 2 to 20 Hz and one to three
-// cycles (bench/block_lengths.cpp, bench/results/block-lengths.csv).
+// A block (the steps between two updates of the viscoelastic states) takes 1/N of the shortest characteristic time. The
+// error of a contact within a block is a saw-tooth of height (2π/N)²/8 that returns to zero at the end of the block; a
+// part of the saw-tooth remains at the frequency of the load. The measured error of |E*| is at most (2π/N)²/38, for N =
+// 30 to 4,000, two binders, 2 to 20 Hz and one to three cycles (bench/block_lengths.cpp,
+// bench/results/block-lengths.csv).
 double block_error(double blocks) {
   const double turn = 2 * std::numbers::pi / blocks;
   return turn * turn / 20;
@@ -82,20 +83,20 @@ double blocks_within(double error) { return std::min(4000.0, 2 * std::numbers::p
 // The velocities that contacts read have a relative error of u = 2⁻²⁴. These velocities are about `layers` times as
 // large as the relative velocities of two neighbouring layers, so the relative error of relative velocities is
 // layers·u. Normals, arms and moments have a relative error of u. In precision `mixed`, states, the velocities that are
-// integrated, and sums are in double precision. But a device that steps in blocks stores the change of a force within a
-// block in single precision. Where stiff walls carry inertia, a part of this change is lost, as a part of the velocity
-// is in precision `single` (see below). θ = u·N/2π; see angle_lost().
+// integrated, and sums are in double precision. But a device that takes the steps in blocks stores the change of a
+// force within a block in single precision. Where stiff walls carry inertia, a part of this change is lost, as a part
+// of the velocity is in precision `single` (see below). θ = u·N/2π; see angle_lost().
 double mixed_precision_error(const RoundingScale& s) {
   return roundoff * (10 + s.layers) + 2 * angle_lost(s) * s.inertia;
 }
 
 // Precision `single` has the errors of `mixed` and further ones. A chain's f and x_l change in one step by 2π/N of
 // their amplitude, times the cosine of the phase. Near their peaks this change is less than half of the last bit and is
-// lost. This happens within the angle θ = u·N/2π on either side of a peak, over which they should have changed by θ²/2.
-// In long runs other rounding errors, which act as noise, remove most of this error but not all of it; therefore the
-// estimate is 4·θ². A run of many cycles loses less than one cycle with the same number of steps. Likewise, a velocity
-// changes only if the force moves it by half of its last bit in a step. So up to the fraction θ/2 of the effect of
-// inertia is lost.
+// lost. This happens within the angle θ = u·N/2π on either side of a peak. Over this angle f and x_l should have
+// changed by θ²/2 of their amplitude. In long runs other rounding errors, which act as noise, remove most of this error
+// but not all of it; therefore the estimate is 4·θ². A run of many cycles loses less than one cycle with the same
+// number of steps. Likewise, a velocity changes only if the force moves it by half of its last bit in a step. So up to
+// the fraction θ/2 of the effect of inertia is lost.
 double single_precision_error(const RoundingScale& s) {
   const double theta = angle_lost(s);
   return mixed_precision_error(s) + 4 * theta * theta;
@@ -125,8 +126,8 @@ double fixed_geometry_error(double strain) { return 3 * strain * strain; }
 
 // With a ramp of one cycle, the 4th cycle differs from the steady state by at most 4e-5, the 6th by 1.3e-5 and the 12th
 // by 2.3e-6 (specimens t8 and demo, 2 and 20 Hz). The difference falls with the number of cycles n as n^−2.6. The
-// difference may be a fortieth of the tolerance. Without a ramp, nothing damps the waves that the start causes; they
-// leave a random difference of 1e-5 to 1e-3, however many cycles there are.
+// number of cycles is chosen so that the difference is at most a fortieth of the tolerance. Without a ramp, nothing
+// damps the waves that the start causes; they leave a random difference of 1e-5 to 1e-3, however many cycles there are.
 int cycles_from_rest(double tolerance) {
   return std::max(4, static_cast<int>(std::ceil(4 * std::pow(4e-5 / (tolerance / 40), 1 / 2.6))));
 }

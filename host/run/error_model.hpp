@@ -22,15 +22,15 @@ double stiffness_at(const Law& law, double omega);
 
 /// Estimates the relative effect of inertia on |E*| per unit of density scaling. A bar of height H driven at one end
 /// has E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is not known beforehand. A third of the softest contact's
-/// |k*(ω)| is used in its place. This is a low estimate: |E*| of mastic alone is 0.6 of this |k*(ω)|, and |E*| of
-/// mixtures is larger than this |k*(ω)|. ρ is the density of the heavier material.
+/// |k*(ω)| is used in its place. The third is a low estimate of E: relative to the softest contact's |k*(ω)|, |E*| of
+/// mastic alone is 0.6, and |E*| of mixtures is above 1. ρ is the density of the heavier material.
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency);
 
 /// Quantities with which the rounding error of a run grows.
 struct RoundingScale {
   std::int64_t steps = 0;  ///< number of steps of the whole run
-  /// Height of the specimen over the mean distance of particles in contact. It is about the ratio of the velocities of
-  /// particles to the relative velocities of neighbours.
+  /// Height of the specimen over the mean distance of particles in contact. This ratio is about the ratio of the
+  /// velocities of particles to the relative velocities of neighbours.
   double layers = 0;
   double contrast = 1;  ///< largest |k*(ω)| over the smallest, of the pair types that occur
   double inertia = 0;   ///< effect of the scaled mass on |E*|, by inertia_estimate()
@@ -39,10 +39,10 @@ struct RoundingScale {
 RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,
                              double density_scaling);
 
-/// Measured differences of a precision from double, and the range of these measurements: maxima of
-/// bench/results/precision.csv, of the drift study in accuracy.csv and, for mixed precision, of the full specimen on a
-/// device (whole-tests-h200-2026-11-21.csv). tests/ has a test (precision_test) that compares these values with the
-/// files.
+/// Largest measured difference of a precision from double precision, and the range of the measurements. The values are
+/// the maxima of bench/results/precision.csv, of the drift study in accuracy.csv and, for mixed precision, of the full
+/// specimen on a device (whole-tests-h200-2026-11-21.csv). The test precision_test in tests/ compares these values with
+/// the files.
 struct RoundingMeasured {
   double largest;       ///< difference of |E*| (relative) or φ [rad]
   RoundingScale up_to;  ///< largest values in the measurements

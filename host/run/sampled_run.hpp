@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sampled_run.hpp  Takes a stepper from sample to sample. All experiments that are stepped in time use it.
+/// \file sampled_run.hpp  Runs a stepper (the object that takes the time steps) from sample to sample. All
+/// experiments that are stepped in time use this file.
 #pragma once
 
 #include <chrono>
@@ -57,9 +58,9 @@ class SampledRuns {
   void begin_fields(const std::string& name, int samples, double time);
 
   /// Takes the steps from the stepper's current step to the last sample. If the course ends early, a frame of its last
-  /// sample is written. Between steps, this function checks whether a checkpoint is due or the run must stop. It does
-  /// this before the sample at the current step is taken. The results have the same bits wherever a run is interrupted
-  /// and resumed. \throws DivergenceError naming the particle that first left the plausible range; InterruptedError;
+  /// sample is written. Between steps, this function checks whether a checkpoint is due or the run must stop. This
+  /// check precedes the sample at the current step. The results have the same bits wherever a run is interrupted and
+  /// resumed. \throws DivergenceError naming the particle that first left the plausible range; InterruptedError;
   /// RunError.
   void run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry);
 

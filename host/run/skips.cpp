@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Lists the parts of a run that are skipped. They are left out where the arrays of the step are made
-// (kernels/contact/contact_data.hpp).
+// skips.cpp  Lists the parts of a run that are skipped. The code that makes the arrays of the step
+// (kernels/contact/contact_data.hpp) leaves these parts out.
 #include "host/run/skips.hpp"
 
 #include <fmt/format.h>

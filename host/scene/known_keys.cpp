@@ -48,14 +48,15 @@ std::size_t Collector::choose(const std::string& named, const std::vector<std::s
 std::vector<KnownKey> Collector::keys() const {
   std::vector<KnownKey> out = keys_;
   for (KnownKey& key : out) {
-    // The chooser (such as "kind") is itself collected in every pass, so its `chosen` lists all of its values. A key
-    // with the same list is read whatever the value of the chooser, so it does not depend on the chooser.
+    // The reader makes one pass for each value of a chooser, a key such as "kind". The chooser itself is collected in
+    // every pass, so its `chosen` lists all of its values. Another key with the same list was read in every pass, so
+    // this key does not depend on the chooser.
     const bool always = std::any_of(keys_.begin(), keys_.end(), [&](const KnownKey& chooser) {
       return chooser.section == key.section && chooser.name == key.chooser && chooser.chosen == key.chosen;
     });
     if (always) key.chooser.clear(), key.chosen.clear();
   }
-  // group the keys by section: a section inside another one is read between the keys of the outer one
+  // groups the keys by section, because a section inside another one is read between the keys of the outer section
   std::vector<std::string> sections;
   for (const KnownKey& key : out)
     if (std::find(sections.begin(), sections.end(), key.section) == sections.end()) sections.push_back(key.section);

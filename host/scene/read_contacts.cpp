@@ -32,7 +32,7 @@ std::string text_of(const std::string& law, const std::string& key) {
 }
 
 /// A modulus without a unit is in Pa. No solid is softer than 1000 Pa, so a smaller number was probably meant in GPa or
-/// MPa. The springs of Kelvin units may be softer, so this rule does not apply to them.
+/// MPa. The springs of Kelvin units may be softer, so this rule is not applied to these springs.
 constexpr Rule in_pascals{[](double v) { return v >= 1000; },
                           "1000 Pa or more; a modulus in another unit is text with the unit"};
 

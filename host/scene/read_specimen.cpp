@@ -120,8 +120,8 @@ void require_possible(const Section& section, const SpecimenSpec& spec) {
                    "a sum below 1, because the mastic fills the rest of the solid volume");
   }
   // If the mastic is given by count, the mastic and the aggregates given by count together fill the fraction 1 −
-  // `fractions` of the solid volume. The solid volume is therefore their volume divided by this fraction. Their
-  // smallest radii are used, so `solid` is a lower bound.
+  // `fractions` of the solid volume. The solid volume is therefore their volume divided by this fraction. The smallest
+  // radii of the bodies are used, so `solid` is a lower bound.
   double solid = counted;
   double number = static_cast<double>(count);
   if (spec.mastic && spec.mastic->porosity) {

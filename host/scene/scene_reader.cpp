@@ -64,7 +64,7 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
 constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
                         "10 to 30000 kg/m3; a density in another unit is text with the unit"};
 
-/// Reads `[materials]`. `need` tells whether densities are required; they may be left out if they follow from a recipe.
+/// Reads `[materials]`. `need`: whether densities are required; densities may be left out if they follow from a recipe.
 Materials read_materials(const Section& section, Need need) {
   Materials materials;
   const auto phase = [need](double& target) {
@@ -187,7 +187,7 @@ toml::table without_lines(const toml::table& table) {
   return out;
 }
 
-/// Reads all sections. `densities` tells whether the scene must give the densities of its materials.
+/// Reads all sections. `densities`: whether the scene must give the densities of its materials.
 Scene read_root(const std::filesystem::path& file, const Section& root, Need densities) {
   Scene out;
   out.file = file;

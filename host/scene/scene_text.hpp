@@ -19,8 +19,7 @@ class SceneText {
   /// `E_2` is the second entry of `E`.
   void set_contact(PairType pair, const std::string& name, double value);
   void set_seed(std::uint64_t seed);
-  /// Changes the paths in the text, which are relative to the folder `from`, so that they are relative to the folder
-  /// `to`.
+  /// Rewrites the paths in the text: paths relative to the folder `from` become paths relative to the folder `to`.
   void move(const std::filesystem::path& from, const std::filesystem::path& to);
 
   const std::string& text() const { return text_; }

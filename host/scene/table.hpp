@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file table.hpp  Gives checked access to TOML tables. Each section is read through one list of its keys, so that the
-/// known keys and the keys that are read cannot differ. Every error names the file, the line, the key, the value found
-/// and the values expected.
+/// \file table.hpp  Gives checked access to TOML tables. Each section is read through one list of its keys, so that
+/// the reader cannot read a key that it does not know, or know a key without reading it. Every error names the file,
+/// the line, the key, the value found and the values expected.
 #pragma once
 
 #include <fmt/format.h>

@@ -9,9 +9,9 @@
 namespace macadam {
 namespace {
 
-/// A scene moves to another device only if the move saves at least this fraction of its remaining work. Each move costs
-/// the making of a new stepper (the object that performs the time steps), which takes some hundredths of the time that
-/// the steps of a frequency take.
+/// A scene moves to another device only if the move saves at least this fraction of its remaining work. For each move a
+/// new stepper (the object that performs the time steps) must be made. Making it takes some hundredths of the time of
+/// the steps of one frequency.
 constexpr double worth_a_move = 0.125;
 
 }  // namespace

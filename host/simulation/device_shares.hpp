@@ -15,10 +15,10 @@ class DeviceShares {
  public:
   explicit DeviceShares(std::size_t scenes) : to_come_(scenes) {}
 
-  /// Returns the device for a new scene, out of `may`, the devices that the scene may use. This is an idle device or,
-  /// if none is idle, the one that has been given the fewest scenes so far; a device that runs two scenes more than
-  /// another one is avoided. Most scenes are alike, so all devices end at about the same time. Returns nothing if each
-  /// of these devices runs `most` scenes.
+  /// Returns the device for a new scene, out of `may`, the devices that the scene may use. Chooses an idle device or,
+  /// if every device is busy, the device that has been given the fewest scenes so far; a device that runs two scenes
+  /// more than another one is avoided. Most scenes are alike, so all devices end at about the same time. Returns
+  /// nothing if each of these devices runs `most` scenes.
   std::optional<int> choose(const DeviceList& may, int most) const;
   /// Records that a scene runs on `device`, and that it may later move to any device of `may`.
   void put(std::size_t scene, int device, DeviceList may);

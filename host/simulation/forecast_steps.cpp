@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_steps.cpp  Predicts the time steps and the frequency-domain solutions of a run. It applies the rules by
-// which the run itself is planned, to numbers that are known without a specimen.
+// forecast_steps.cpp  Predicts the time steps and the frequency-domain solutions of a run. Applies the rules for
+// planning the run, but to numbers that are known without a specimen.
 #include "host/simulation/forecast_parts.hpp"
 
 #include <algorithm>
@@ -35,9 +35,10 @@ double modulus_at(const Scene& scene, double hz) {
   return logarithm ? std::exp(*logarithm) : 1e9;
 }
 
-/// Returns the critical time step at true mass [s]: that of a small sphere whose contacts are as stiff as they can be.
+/// Returns the critical time step at true mass [s]: the critical step of the smallest spheres, with the stiffest law of
+/// their contacts.
 double critical_step(const Scene& scene, const Census& census) {
-  constexpr double mastic_part = 0.377, cluster_part = 0.58;  // measured parts of radius·√(density/modulus)
+  constexpr double mastic_part = 0.377, cluster_part = 0.58;  // measured: critical step over radius·√(density/modulus)
   const auto step = [&](double part, double radius, double density, std::initializer_list<PairType> pairs) {
     double stiffest = 0;
     for (const PairType pair : pairs)

@@ -20,17 +20,17 @@ struct Cost {
   // Seconds of one thread: per particle (`relaxing`, `tessellating`), per aggregate (`inserting`, `packing`), and per
   // shape of the library (`packed_shape`).
   double relaxing = 0.9e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 1.5e-5;
-  // Seconds per particle that more threads do not shorten: `placing` is for positions, sums and lists, `joining` puts
-  // together the cells and contacts that threads found. (These and `tessellating` are from runs with 2 and with 16
-  // threads: bench/results/preparation-h100-2026-11-26.csv.)
+  // Seconds per particle in work that one thread does, however many threads there are: `placing` for positions, sums
+  // and lists, `joining` for joining the cells and contacts that several threads have found. (These and `tessellating`
+  // are from runs with 2 and with 16 threads: bench/results/preparation-h100-2026-11-26.csv.)
   double placing = 1.6e-5, joining = 3e-6;
   // seconds of one thread per solution and particle^(4/3): the number of iterations grows with the specimen's edge
   double solving = 1.1e-6, solving_on_device = 2e-8;
   // Contrast is the stiffness of the stiffest contact over the stiffness of the softest. A solution takes
   // by_contrast·∛contrast times as long as one of small contrast. If contrast·particles exceeds `iterable`, the
-  // iterative solver fails and the direct solver is used. It takes `factors` bytes per particle^(4/3) and `factoring`
-  // seconds per particle^1.5 for the factors, and then `factored_iterations` iterations of `with_factors` seconds per
-  // byte (measured with 600 to 4,805 particles and contrasts of 20 to 1e7).
+  // iterative solver fails and the direct solver is used. The direct solver takes `factors` bytes per particle^(4/3)
+  // and `factoring` seconds per particle^1.5 for the factors, and then `factored_iterations` iterations of
+  // `with_factors` seconds per byte (measured with 600 to 4,805 particles and contrasts of 20 to 1e7).
   double by_contrast = 0.4, iterable = 2e8, factors = 2.9e3, factoring = 2e-6, factored_iterations = 500,
          with_factors = 5e-11;
   // seconds per byte of a file, and in addition per frame of fields
@@ -49,9 +49,9 @@ struct Cost {
   double program = 33e6, a_shape = 7e5, a_contact = 650, a_solved_contact = 850;
   double device = 5.6e8, a_solved_contact_on_device = 655;
   // Bytes on the host if a device is used: `driver` for NVIDIA's driver, and `a_solved_contact_beside_device` per
-  // contact for the solutions. In addition, the host holds copies of a part of the stepper's arrays: the fraction
-  // `staged` of the bytes of all arrays except the chains and, if the chains are not zero at the start, the fraction
-  // `staged_chain` of the bytes of the chains.
+  // contact for the solutions. In addition, the host holds copies of a part of the stepper's arrays. `staged` is the
+  // copied fraction of the bytes of all arrays except the chains. `staged_chain` is the copied fraction of the bytes of
+  // the chains; it counts only if the chains are not zero at the start.
   double driver = 2.5e8, a_solved_contact_beside_device = 220, staged = 0.55, staged_chain = 0.77;
 };
 
@@ -62,8 +62,8 @@ struct StepCost {
 };
 
 /// Returns the cost per contact. `units`: number of Kelvin units of the law that most contacts have, -1 if it has no
-/// chain. The table was measured with three units. It is indexed by backend (CPU, device), contact form, precision
-/// (single, mixed, double) and geometry (fixed, updated). The effect of the number of units is from
+/// chain. The table was measured with three units. The table is indexed by backend (CPU, device), contact form,
+/// precision (single, mixed, double) and geometry (fixed, updated). The effect of the number of units is from
 /// bench/results/kelvin-units-cpu.csv.
 inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry, double units) {
   enum { single, mixed, double_ };

@@ -10,10 +10,10 @@
 namespace macadam {
 
 /// Writes specimen.csv, aggregates.csv, gradation.csv (for a recipe by mass), contacts.csv (if the scene asks for it)
-/// and summary.json without results into an existing folder. Files of an older specimen that none of these files
-/// replace are removed: aggregates, gradation, contacts, sections. An older result stays complete until all of the new
-/// files are on the disk. Then the summary of the older result is removed first, and `remove_results()` removes the
-/// other files that the caller will write again. The new summary gets its name last. So a summary in the folder always
+/// and summary.json without results into an existing folder. Removes the files of an older specimen that are not
+/// written again: aggregates, gradation, contacts, sections. An older result stays complete until all of the new files
+/// are on the disk. Then the summary of the older result is removed first, and `remove_results()` removes the other
+/// files that the caller will write again. The new summary gets its name last. So a summary in the folder always
 /// belongs to the other files there. \throws RunError.
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
                        const std::function<void()>& remove_results);

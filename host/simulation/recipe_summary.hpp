@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// Returns the volumes and densities that follow from a mix design, and those of the generated specimen. `composition`:
-/// one row per class, then the mastic.
+/// Returns the volumes and densities that follow from a mix design, and the volumes and densities of the generated
+/// specimen. `composition`: one row per class, then the mastic.
 nlohmann::ordered_json recipe_json(const MixDesign& design, const std::vector<CompositionRow>& composition);
 
 }  // namespace macadam

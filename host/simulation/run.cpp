@@ -195,8 +195,8 @@ class SceneRun {
     return decision.empty() ? std::vector<std::string>{} : std::vector{decision};
   }
 
-  /// Plans the experiment. If the experiment cannot be solved and the folder has no older results, its plan is returned
-  /// all the same, so that the specimen is written and the user can look at it.
+  /// Plans the experiment. If the experiment cannot be solved and the folder has no older results, the plan of the
+  /// experiment is returned all the same. The specimen is then written, and the user can look at it.
   Planned plan(Backend backend) {
     try {
       Planned out = plan_experiment(scene_, prepared(), watcher_, std::move(resumed_), backend);

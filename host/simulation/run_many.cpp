@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_many.cpp  Hands scenes to threads as these become free, and devices to scenes as they begin.
+// run_many.cpp  Gives scenes to threads that have become free, and a device to each scene before its steps begin.
 #include "macadam/run_many.hpp"
 
 #include <omp.h>
@@ -26,11 +26,11 @@ namespace {
 
 /// Number of scenes that run on a device at a time.
 constexpr int at_once_on_a_device = 4;
-/// Number of specimens per device that are prepared at the same time. If it were larger, all specimens would be ready
-/// late. If it were one, preparing a specimen could take longer than the steps of the previous specimen
-/// (bench/results/many.csv). With several devices, the first two specimens of each device are prepared one after the
-/// other with twice as many cores; otherwise the device would wait for its second specimen. One device is assumed until
-/// the devices are counted.
+/// Number of specimens per device that are prepared at the same time. With a larger number, many specimens would share
+/// the cores and all of them would be ready late. With one, preparing a specimen could take longer than the steps of
+/// the previous specimen (bench/results/many.csv). With several devices, the first two specimens of each device are
+/// prepared one after the other with twice as many cores; otherwise the device would wait for its second specimen. One
+/// device is assumed until the devices are counted.
 constexpr int prepared_for_a_device = 2;
 
 /// Returns the devices that answer. On a device that does not answer, one scene after the other would fail.
@@ -189,8 +189,8 @@ class Pool {
     Cores(Pool& pool, bool first_of_scene, int most) : pool_(pool), most_(most) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;
-      // A scene begins when half a share of the cores is free, because a running scene that makes room frees only half
-      // of its cores.
+      // A scene begins when half of the cores meant for one scene are free, because a running scene frees only half of
+      // its cores for the scenes that wait.
       pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= (pool_.share_ + 1) / 2; });
       --pool_.waiting_;
       number_ = std::min(pool_.share_, pool_.free_);
@@ -204,7 +204,7 @@ class Pool {
       give_back(number_);
     }
 
-    /// Frees half of the cores of this scene, and its turn, if other scenes wait for cores.
+    /// Frees half of the cores of this scene, and its turn (see all_turns_), if other scenes wait for cores.
     void share() {
       const std::lock_guard lock(pool_.mutex_);
       if (!has_turn_ || pool_.waiting_ == 0) return;
@@ -289,19 +289,19 @@ class Pool {
   std::vector<std::thread> workers_;
   std::mutex mutex_;  // guards the members below and the functions in the options
   std::condition_variable changed_;
-  int all_ = 0, free_ = 0, share_ = 1;  // cores: of all scenes, free ones, and those for one scene
+  int all_ = 0, free_ = 0, share_ = 1;  // numbers of cores: for all scenes, free now, and for one scene
   // number of turns: in all, and free. A scene gets cores only together with a turn, so the turns limit how many scenes
   // are prepared at the same time.
   int all_turns_ = 0, turns_ = 0;
   int waiting_ = 0;                  // scenes that wait for cores
-  int urgent_ = 0, for_urgent_ = 0;  // scenes to begin before each device has work; cores for each of them
+  int urgent_ = 0, for_urgent_ = 0;  // number of scenes that must begin before each device has work, and cores for each
   int beside_ = 0;                   // largest number of scenes on a device; 0 until the devices are counted
   std::size_t next_ = 0;
   DeviceShares devices_taken_;
-  std::exception_ptr thrown_;  // by a function of the options, or while devices were counted
+  std::exception_ptr thrown_;  // exception thrown by a function of the options, or while devices were counted
   std::vector<JobOutcome> outcomes_;
-  // the devices that scenes may use, and those of them that answer; both become known while the first specimens are
-  // made
+  // the devices that scenes may use, and the usable ones among these devices; both lists become known while the first
+  // specimens are made
   std::shared_future<DeviceList> devices_ = std::async([this] { return meant_devices(jobs_); });
   std::shared_future<DeviceList> usable_ = std::async([all = devices_] { return usable(all.get()); });
 };

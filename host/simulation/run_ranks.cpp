@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_ranks.cpp  Implements the parts of a run that only runs with several ranks need. Every rank prepares the scene
-// and takes the same steps. The first rank writes the results; each of the other ranks has a temporary folder as long
-// as it runs.
+// run_ranks.cpp  Implements the parts of a run that are needed only with several ranks (processes). Every rank
+// prepares the scene and takes the same steps. The first rank writes the results; each of the other ranks has a
+// temporary folder as long as it runs.
 #include "host/simulation/run_ranks.hpp"
 
 #include <fmt/format.h>

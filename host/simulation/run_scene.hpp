@@ -12,10 +12,10 @@ inline constexpr const char* network_stage = "contact network";
 
 /// Parts of run_scene() that the caller may replace.
 struct RunParts {
-  /// Makes particles and contacts. If it is empty, prepare() does.
+  /// Makes particles and contacts. If this function is empty, prepare() makes them.
   std::function<Preparation(const Scene& scene, const Progress& progress)> prepare;
-  /// Chooses the devices, if the backend is cuda, when the scene is prepared. If it is empty, choose_devices() does so
-  /// for stepped runs.
+  /// Chooses the devices, if the backend is cuda, when the scene is prepared. If this function is empty,
+  /// choose_devices() chooses the devices of stepped runs.
   std::function<void(SolverSpec& solver)> place;
 };
 

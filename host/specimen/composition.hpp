@@ -49,9 +49,9 @@ struct ClassRequest {
   /// Returns the expected volume of `count` bodies [m³].
   double counted_volume() const { return static_cast<double>(*count) * form * range.mean_volume(); }
 
-  /// Returns the given count. Without a count, returns the number of bodies whose expected volume is closest to
-  /// `volume`; only numbers are considered with which bodies of sizes within `range` can have this volume. \throws
-  /// InputError if every number misses the volume by more than 0.2 % of the box.
+  /// Returns the given count. Without a count, considers the numbers of bodies that can have `volume` with sizes within
+  /// `range`, and returns the one whose expected volume is closest to `volume`. \throws InputError if every number
+  /// misses the volume by more than 0.2 % of the box.
   std::int64_t number(double box_volume) const;
 };
 

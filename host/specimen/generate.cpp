@@ -48,7 +48,7 @@ double largest(const std::vector<Population>& voids) {
   return voids.empty() || voids.front().radius.empty() ? 0 : voids.front().radius.front();
 }
 
-/// Adds the voids to the spheres, after the aggregates. Until the mastic is relaxed, they are treated as fixed
+/// Adds the voids to the spheres, after the aggregates. Until the mastic is relaxed, voids are treated as fixed
 /// aggregates. Returns the index of the first void.
 std::size_t place_voids(const std::vector<Population>& voids, GeneratedSpecimen& result, Placement& placement) {
   const std::size_t first = result.specimen.size();

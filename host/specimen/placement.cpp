@@ -92,8 +92,8 @@ std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Populati
 }
 
 void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing) {
-  // Later spheres are not larger than this one, except voids. With this reach, every later sphere that could be too
-  // close finds this one in the list of the cell that contains the centre of the later sphere.
+  // Later spheres are not larger than this one, except voids. With this reach, this sphere is listed in every cell in
+  // which a later sphere could have its centre and be too close to this sphere.
   grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, radius + std::max(radius, largest_void_) + spacing);
   add(centre, radius, Phase::aggregate, body);
 }
@@ -142,7 +142,7 @@ std::optional<Vec3d> Placement::position_for(double radius, double spacing) {
   const auto anywhere = [&](Draws draws) { return clear_of_placed(random_point(draws, low, high), radius + spacing); };
   if (auto found = random_.first_good(plain, 3, tries_at_once, anywhere)) return random_point(*found, low, high);
   if (plain == attempts_) return std::nullopt;
-  // Points distributed uniformly over the cells that are not completely covered by placed spheres have the same
+  // Trials are made only in the cells that placed spheres do not cover completely. Successful trials then have the same
   // distribution as successful trials over the whole box, but more trials succeed.
   const std::vector<std::size_t> open = open_cells(radius);
   if (open.empty()) return std::nullopt;

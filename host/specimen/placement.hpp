@@ -33,7 +33,7 @@ class Placement {
   /// from it, provided that they are not larger.
   void add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing = 0);
 
-  /// Adds voids inside the box, clear of each other and of all spheres placed so far. They are stored as aggregates
+  /// Adds voids inside the box, clear of each other and of all spheres placed so far. Voids are stored as aggregates
   /// with body numbers from `body` on. \throws RunError saying how many were placed.
   void place_voids(const Population& voids, std::int32_t body);
 

@@ -59,7 +59,8 @@ class Lines {
       return true;
     }
     if (line.empty()) return false;
-    // If the file were cut off within its last number, it could be read as a different valid file.
+    // A file that is cut off within its last number could be read as a different valid file, so the last line must end
+    // with a newline.
     throw InputError(name_, number_, "last line", "no newline at its end",
                      "a newline, because without one the file may be cut off");
   }

@@ -24,7 +24,8 @@ constexpr std::size_t block = 64;
 constexpr std::size_t ranked_up_to = 64;
 // All lists are made again when more than the fraction 1/few of the spheres have moved by more than half of the skin.
 constexpr std::size_t few = 24;
-// Number of strayed spheres (which have moved by more than half of the skin) from which several threads are faster.
+// Smallest number of strayed spheres (spheres that have moved by more than half of the skin) with which several threads
+// are faster than one.
 constexpr std::size_t worth_waking = 16;
 constexpr std::uint32_t spare = 2;  // free entries per list, for spheres that come near later
 

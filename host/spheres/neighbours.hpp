@@ -16,10 +16,11 @@ namespace macadam {
 inline constexpr std::size_t parallel_from = 1000;
 
 /// Neighbour lists. The list of a sphere contains at least all spheres whose surfaces are closer than `skin` to its
-/// surface. The order of a list depends on radii and sphere numbers only: first the smaller spheres with a lower number
-/// than the sphere itself, then the larger spheres, then the smaller spheres with a higher number, each part sorted by
-/// number. If two spheres are equal, the one with the higher number counts as the larger. Spheres that do not touch add
-/// nothing to a sum over the list. Such sums therefore have the same bits for any number of threads and any skin.
+/// surface. The order of a list depends on radii and sphere numbers only. The list has three parts, each sorted by
+/// number: smaller spheres with a lower number than the sphere itself, larger spheres, and smaller spheres with a
+/// higher number. If two spheres are equal, the one with the higher number counts as the larger. Spheres that do not
+/// touch add nothing to a sum over the list. Such sums therefore have the same bits for any number of threads and any
+/// skin.
 class Neighbours {
  public:
   /// Makes the lists of `spheres`, which must outlive this object; `skin` is in metres. Spheres with an index below

@@ -23,10 +23,11 @@ constexpr double longest_move = 0.1;  // largest movement of a sphere per iterat
 // skin they are too long.
 constexpr double skin_share = 1.15;
 // Stiffness of a contact between two aggregates, or between an aggregate and a box wall, divided by the stiffness of a
-// mastic contact. It is larger so that aggregates overlap less than mastic.
+// mastic contact. The contact is stiffer, so that aggregates overlap less than mastic.
 constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
-constexpr double stalled = 5e-4;  // the energy has stalled if it falls by less than this fraction in one window
+// The energy has stalled if it falls by less than this fraction in stall_window iterations.
+constexpr double stalled = 5e-4;
 
 /// The three sums over all spheres that the FIRE method needs, weighted by mass: a·v, v·v and a·a.
 struct Dots {
@@ -207,8 +208,8 @@ class Relaxation {
   }
 
   // One thread adds the terms in the order of the spheres' numbers, so that the sums have the same bits for any number
-  // of threads. accelerate() stores the terms by place: if it stored them by number, several threads would write to the
-  // same cache line.
+  // of threads. accelerate() stores the terms by place, because several threads would write to the same cache line if
+  // the terms were stored by number.
   double total_energy() const {
     double sum = 0;
     for (const std::int32_t i : place_) sum += energy_[i];

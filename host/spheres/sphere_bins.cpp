@@ -20,8 +20,8 @@ std::vector<Ball> balls_of(const Specimen& specimen) {
   return balls;
 }
 
-/// Returns the cell of a coordinate; outside the box, the outermost cell. The function is monotone, so the cells of the
-/// two ends of a range enclose the cells of all points between them.
+/// Returns the cell of a coordinate; outside the box, the outermost cell. The cell number never decreases with the
+/// coordinate, so the cells of the two ends of an interval enclose the cells of all points between the ends.
 std::int64_t SphereBins::Axis::cell(double x) const {
   return static_cast<std::int64_t>(std::clamp(x * per_length, 0.0, static_cast<double>(cells - 1)));
 }

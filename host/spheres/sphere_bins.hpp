@@ -21,8 +21,8 @@ struct Ball {
 std::vector<Ball> balls_of(const Specimen& specimen);
 
 /// A grid over the box in which each sphere belongs to the cell of its centre. The spheres of a row of cells along x
-/// are contiguous, so that a query reads a few ranges of memory. The range of a query is determined by the largest
-/// sphere, so the spheres should be of similar size.
+/// are contiguous, so that a query reads only a few pieces of memory. The distance to which a query searches depends on
+/// the largest sphere, so the spheres should be of similar size.
 class SphereBins {
  public:
   /// Takes the spheres with the indices `ids`, in ascending order. `skin` [m] is the distance that queries add to the

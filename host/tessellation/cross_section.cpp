@@ -60,9 +60,9 @@ class Cutter {
   /// plane and the cell have no area in common. Sorts the sides.
   const Polygon& cut(std::vector<Side>& sides) {
     plane_.rectangle(box_, polygon_);
-    // Sides at a large angle to the section plane come first. When a later side is parallel to the section plane except
-    // for rounding, the polygon is already as small as the facet on this side, so the side's tilt lifts none of the
-    // polygon's vertices above the tolerance.
+    // Sides at a large angle to the section plane are applied first. A side that is parallel to the section plane
+    // except for rounding is applied last, when the polygon is already as small as the facet on this side. Over such a
+    // small polygon the heights that result from the side's tilt are within the tolerance.
     std::sort(sides.begin(), sides.end(), [this](const Side& p, const Side& q) { return tilt(p) > tilt(q); });
     for (const Side& side : sides) {
       if (contains_polygon(side)) {

@@ -16,9 +16,9 @@
 namespace macadam {
 namespace {
 
-/// Smallest distance of two neighbouring centres, relative to the smaller radius. A smaller distance is an input error,
-/// because the stiffness of a contact is proportional to 1/d: at a distance of 1e-6 radii the equations lose so many
-/// digits that the frequency domain cannot be solved to 1e-11.
+/// Smallest distance of two neighbouring centres, relative to the smaller radius. A smaller distance is an input error.
+/// The stiffness of a contact is proportional to 1/d. At a distance of 1e-6 radii the equations lose so many digits
+/// that linear systems of the frequency domain cannot be solved to a residual of 1e-11.
 constexpr double smallest_distance = 1e-5;
 
 /// Facets of a block of consecutive particles. Vertex ranges are counted from the beginning of the block.
@@ -151,9 +151,9 @@ class FacetMaker {
   }
 
   /// Simplifies polygon_ and stores it as one facet. Returns false if it has no area. Lengths below 1e-10 of `scale`,
-  /// the distance of the centres, count as rounding of the input. If the coordinates of a lattice are written as
-  /// decimals, its diagram has such short edges, slivers, split facets, and vertices in the middle of an edge. The
-  /// contact points of a facet must not depend on these.
+  /// the distance of the centres, count as rounding of the input. If the coordinates of a lattice are rounded to
+  /// decimals, rounding causes short edges, slivers, split facets, and vertices in the middle of an edge. The contact
+  /// points of a facet must not depend on such details.
   bool add(std::int32_t a, std::int32_t b, const Vec3d& normal, double scale) {
     const double tolerance = 1e-10 * scale + rounding_;
     merge_vertices(polygon_, tolerance);

@@ -2,14 +2,15 @@
 // packing_check.cpp  Detects cells that reach far beyond their spheres, and spheres that fill more than their box.
 //
 // Reasons for most_radii, most_spacings and most_fill: in the committed examples cells reach at most 1.5 radii beyond
-// their spheres. Packings of spheres placed at random without overlap, which fill 10 to 30 % of their box, reach 7
-// radii if the sizes are similar, and far more radii among small spheres, but at most 1.8 mean spacings (measured with
-// up to 3,000 spheres). A ball with a radius of 2 mean spacings contains the centres of 33 spheres on average
-// (4π/3·2³), so the probability that such a ball in the interior is empty is exp(-33). A region of large spheres in a
-// specimen of mostly small spheres has holes of many mean spacings, but these holes are smaller than 2 radii of the
-// large spheres. A cell that exceeds both bounds therefore belongs to neither kind of packing. Overlapping mastic fills
-// up to 102 % of the box in the examples. If diameters are given as radii, the filled fraction becomes eight times as
-// large. It then exceeds 150 % for any packing whose true fraction is 19 % or more.
+// their spheres. Spheres placed at random without overlap fill 10 to 30 % of their box. Their cells reach 7 radii
+// beyond the spheres if the sizes are similar, and far more radii where spheres are small, but at most 1.8 mean
+// spacings (measured with up to 3,000 spheres). A ball with a radius of 2 mean spacings contains the centres of 33
+// spheres on average (4π/3·2³), so the probability that such a ball in the interior is empty is exp(-33). A region of
+// large spheres in a specimen of mostly small spheres has holes of many mean spacings, but these holes are smaller than
+// 2 radii of the large spheres. A cell that exceeds both bounds therefore belongs to neither kind of packing.
+// Overlapping mastic fills up to 102 % of the box in the examples. If diameters are given as radii, the filled fraction
+// becomes eight times as large. The wrong fraction then exceeds 150 % for any packing whose true fraction is 19 % or
+// more.
 #include "macadam/tessellation.hpp"
 
 #include <fmt/format.h>
@@ -87,7 +88,7 @@ Reach farthest_reach(const Specimen& all, const Tessellation& tessellation) {
 }
 
 /// Selects, among the facets that contain the cell's farthest point, the facet whose plane is farthest from the
-/// sphere's centre. Returns the cell or the wall on the other side of this facet. In a box that is too high, this is
+/// sphere's centre. Returns the cell or the wall on the other side of this facet. If the box is too high, the result is
 /// the top wall and not one of the two side walls that meet in the same corner.
 std::int32_t farthest_side(const Specimen& all, const Tessellation& tessellation, const Reach& reach) {
   const Vec3d arm = reach.point - all.centre[reach.cell];

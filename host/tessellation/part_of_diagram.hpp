@@ -16,9 +16,9 @@ namespace macadam {
 ///
 /// The particles `own` and those near them are triangulated. A tetrahedron of this triangulation also belongs to the
 /// triangulation of all particles if no other particle has a smaller power at its dual point than its corners have.
-/// Particles that violate this condition are found with `all`, the trees that together hold all particles, and are
-/// inserted. This is repeated until no particle violates it. Neighbours are indices in the result, or −1 if the
-/// neighbour is infinite or has no corner in `own`.
+/// `all`, the trees that together hold all particles, are searched for particles that violate this condition. These
+/// particles are inserted. This is repeated until no particle violates it. Neighbours are indices in the result, or −1
+/// if the neighbour is infinite or has no corner in `own`.
 std::vector<Tetrahedron> tetrahedra_at(const WeightedSites& sites, const std::vector<SiteTree>& all,
                                        const SiteTree& own);
 

@@ -65,8 +65,8 @@ inline void drop_collinear(Polygon& polygon, double tolerance) {
 struct PolygonMeasure {
   double area = 0;
   Vec3d centroid{};
-  /// Largest distance of a vertex from the first vertex. It is between half the diameter of the polygon and the
-  /// diameter.
+  /// Largest distance of a vertex from the first vertex. This distance is between half the diameter and the diameter of
+  /// the polygon.
   double extent = 0;
 };
 

@@ -31,8 +31,8 @@ std::size_t parts_for(std::size_t particles) {
 using Parts = std::vector<std::vector<Tetrahedron>>;
 
 /// Joins the tetrahedra of all parts. Each tetrahedron belongs to its first particle, and each particle to one part. A
-/// part numbers the tetrahedra that belong to its particles. It knows the tetrahedra on both sides of every face whose
-/// first particle belongs to it, and makes them each other's neighbours.
+/// part numbers the tetrahedra that belong to its particles. The part has the tetrahedra on both sides of every face
+/// whose first particle is one of the part's particles, and makes these two tetrahedra each other's neighbours.
 class Joined {
  public:
   Joined(const WeightedSites& sites, const Parts& parts, const std::vector<std::int32_t>& part_of)

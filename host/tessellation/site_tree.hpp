@@ -36,8 +36,8 @@ class SiteTree {
   std::span<const std::int32_t> numbers() const { return numbers_; }
   const BoundingBox& bounds() const { return nodes_.front().bounds; }
 
-  /// Calls f(number) for each particle whose sphere may reach into the box, that is, whose centre lies in the box
-  /// widened by the sphere's radius.
+  /// Calls f(number) for each particle whose sphere may reach into the box. These are the particles with centres in the
+  /// box widened by the sphere's radius.
   template <class F>
   void each_reaching(const BoundingBox& bounds, F&& f) const {
     visit([&](const Node& node) { return node.bounds.meets(bounds.wider(std::sqrt(node.most_weight))); },

@@ -68,7 +68,7 @@ Tessellation tessellate(const Specimen& particles) {
   check_radii(specimen);
   Tessellation out;
   std::vector<std::uint8_t> active(specimen.size(), 1);
-  for (bool again = true; again;) {  // a second pass is rare: it lets the cells beside a removed sheet meet
+  for (bool again = true; again;) {  // a second pass, rarely needed, joins the two cells beside a removed sheet
     make_facets(specimen, power_diagram(specimen, active), out);
     again = retire_empty_cells(out, measure_cells(specimen, out), active);
   }

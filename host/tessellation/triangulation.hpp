@@ -16,8 +16,8 @@ struct Tetrahedron {
   std::array<std::int32_t, 4> neighbour;
 };
 
-/// A regular triangulation of the bounding sites and of the particles inserted so far. It is exact: if no two centres
-/// coincide, it does not depend on the order of insertion, even for cospherical sites.
+/// A regular triangulation of the bounding sites and of the particles inserted so far. The triangulation is exact: if
+/// no two centres coincide, it does not depend on the order of insertion, even for cospherical sites.
 class Triangulation {
  public:
   /// `sites` must outlive the triangulation.

@@ -37,12 +37,12 @@ inline bool come_before(const SiteNumbers& a, const SiteNumbers& b) {
 /// The sites of a specimen by number: its particles and six bounding sites.
 ///
 /// The bounding sites lie on the axes through the centre of the box, at the distance L = 4·(Lx + Ly + Lz) from it, and
-/// have weight 0. They cut nothing off the cells inside the box: for x in the box and any particle p, pow_p(x) = |x −
-/// p|² − R² ≤ diagonal², whereas a bounding site q has pow_q(x) = |x − q|² ≥ (L − half an edge)² > (3·(Lx + Ly + Lz))²
-/// > diagonal². This holds for every radius. The sites' convex hull |x| + |y| + |z| ≤ L (relative to the centre)
-/// contains the box, whose half edges sum to L/8, in its interior. Therefore no edge between particles lies on the
-/// hull, and all tetrahedra around such an edge are finite. Because the bounding sites are the corners of the hull,
-/// they are never hidden, whatever the weights are.
+/// have weight 0. The bounding sites cut nothing off the cells inside the box: for x in the box and any particle p,
+/// pow_p(x) = |x − p|² − R² ≤ diagonal², whereas a bounding site q has pow_q(x) = |x − q|² ≥ (L − half an edge)² >
+/// (3·(Lx + Ly + Lz))² > diagonal². This holds for every radius. The sites' convex hull |x| + |y| + |z| ≤ L (relative
+/// to the centre) contains the box, whose half edges sum to L/8, in its interior. Therefore no edge between particles
+/// lies on the hull, and all tetrahedra around such an edge are finite. Because the bounding sites are the corners of
+/// the hull, they are never hidden, whatever the weights are.
 class WeightedSites {
  public:
   /// `specimen` must outlive this object.

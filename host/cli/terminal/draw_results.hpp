@@ -8,8 +8,8 @@
 namespace macadam {
 
 /// Runs a script that draws its pictures into the folder of the results, with python_interpreter() or Debian's python3.
-/// Returns a line for the user: the names of the pictures, which are `pictures`, or how to draw them if no Python has
-/// matplotlib.
+/// Returns a line for the user: the names of the pictures (`pictures`) or, if no Python has matplotlib, instructions
+/// for drawing them.
 std::string draw_results(const std::string& script, const std::filesystem::path& folder, const std::string& pictures);
 
 }  // namespace macadam

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file options.hpp  Defines options whose whole text must be a number or one of several names. CLI11's own
-/// conversions accept too much: they take -1 for 2⁶⁴ − 1, 010 for eight, an empty text for nothing and the position of
-/// a name for the name.
+/// conversions accept too much: they read -1 as 2⁶⁴ − 1 and 010 as eight, they accept an empty text, and in place of a
+/// name they accept its position in the list of names.
 #pragma once
 
 #include <fmt/format.h>

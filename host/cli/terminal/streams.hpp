@@ -11,9 +11,9 @@
 namespace macadam {
 
 /// Opens closed standard streams on /dev/null. Otherwise a result file could get the number of a standard stream, and
-/// printed text would go into it. Also makes writes to a pipe without a reader and to a file beyond its size limit
-/// return an error, as writes to a full disk do; by default they raise signals that end the program. Must be called
-/// before any file is opened.
+/// printed text would go into it. Also ensures that a write to a pipe without a reader, or to a file beyond its size
+/// limit, returns an error, as a write to a full disk does. By default such a write raises a signal that ends the
+/// program. Must be called before any file is opened.
 void hold_standard_streams();
 
 /// Writes to standard output.

@@ -6,8 +6,8 @@
 
 namespace macadam {
 
-/// Adds both commands to the program. They replace the process by `python3 -m macadam …` when the command line is
-/// parsed.
+/// Adds both commands to the program. The commands replace the process by `python3 -m macadam …` when the command line
+/// is parsed.
 void add_python_commands(CLI::App& app);
 
 }  // namespace macadam

@@ -35,7 +35,7 @@ Fundamental fit(std::span<const ResponseSample> samples, double frequency, Value
   const double t0 = samples.front().time_s;
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto& s = samples[static_cast<std::size_t>(k)];
-    // time in periods, which is of order one like the other columns, so that the fit is well conditioned
+    // the time is in periods, because the fit is well conditioned only if all columns are of order one
     const double periods = (s.time_s - t0) * frequency;
     const double phase = two_pi * (s.time_s * frequency - std::floor(s.time_s * frequency));
     a.row(k).head<4>() << 1, periods, std::cos(phase), std::sin(phase);
@@ -76,8 +76,8 @@ CyclicResult evaluate_cyclic(std::span<const ResponseSample> samples, double fre
   }
   const double period = 1 / frequency, end = samples.back().time_s;
   const double spacing = samples[1].time_s - samples[0].time_s;
-  // Returns the samples of the last `cycles` cycles, ending `skip` cycles before the end. The window is half open, so
-  // that no phase counts twice.
+  // Returns the samples of the last `cycles` cycles, ending `skip` cycles before the end. The window contains only one
+  // of its two ends, because both ends have the same phase of the cycle.
   auto window = [&](int cycles, int skip) {
     const double from = end - (cycles + skip) * period + 0.5 * spacing, to = end - skip * period + 0.5 * spacing;
     auto at = [&](double t) {

@@ -23,7 +23,7 @@ namespace {
 /// this margin.
 constexpr double phase_margin_deg = 1;
 /// Largest accepted residual (rms) of the sine that is fitted to the stress, divided by the amplitude of the stress. If
-/// the residual is half of the amplitude, the stress is plainly not a sine. The residual is no measure of the accuracy
+/// the residual is half of the amplitude, the stress is plainly not a sine. The residual does not measure the accuracy
 /// of |E*|.
 constexpr double largest_residual = 0.5;
 /// Factor on the modulus bound. The bound holds without inertia; start-up waves can exceed it a little.

@@ -67,7 +67,7 @@ class Planner {
   /// Returns β of viscous damping [1/s]; 0 with other damping.
   double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
-  /// Refuses settings that do not go together with a law that is not linear or has no complex stiffness. \throws
+  /// Refuses settings that cannot be combined with a nonlinear law or with a law without complex stiffness. \throws
   /// InputError
   void require_laws_to_fit() {
     const FactsTable facts = facts_of(scene_.laws);
@@ -220,9 +220,9 @@ class Planner {
     return std::max(1.0, estimate_part * tolerance() / inertia_estimate(scene_, prepared_, frequency));
   }
 
-  /// Corrects the density scaling of frequencies whose error is too large, and solves these frequencies again. This is
-  /// needed if the tolerance is large or a resonance is near, because the error then does not grow in proportion to the
-  /// scaling.
+  /// Corrects the density scaling of frequencies whose error is too large, and solves these frequencies again. The
+  /// correction is needed if the tolerance is large or a resonance is near, because the error then does not grow in
+  /// proportion to the scaling.
   void correct(std::vector<HarmonicLoad>& loads, const std::vector<std::optional<HarmonicResult>>& known,
                std::vector<std::optional<HarmonicResult>>& scaled) {
     if (!automatic() || scene_.solver.density_scaling || scene_.solver.time_step) return;

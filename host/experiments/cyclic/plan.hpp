@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file plan.hpp  Chooses the settings that a scene leaves open for an explicit run. They are chosen once, before the
-/// first step.
+/// \file plan.hpp  Chooses the settings that a scene leaves open for an explicit run. All settings are chosen once,
+/// before the first step.
 #pragma once
 
 #include <optional>

@@ -20,7 +20,7 @@ struct FrequencyCracks {
 /// Everything that a stepped run needs to continue, with results that have the same bits. The results of finished
 /// frequencies are not stored: they are computed again from plan and samples.
 struct RunState {
-  Plan plan;  ///< the plan is made once; a resumed run does not need the harmonic solutions behind it
+  Plan plan;  ///< a resumed run does not need the harmonic solutions from which the plan was made
   double seconds_planning = 0;
   std::vector<double> seconds;          ///< wall time of each finished frequency
   double seconds_running = 0;           ///< wall time of the running frequency until now

@@ -46,8 +46,8 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   return options;
 }
 
-/// Reports the length of blocks among the decisions if three conditions hold: the length follows from a tolerance, the
-/// backend may step in blocks, and blocks have an error.
+/// Reports the length of the blocks of steps among the decisions if three conditions hold: the length follows from a
+/// tolerance, the backend may step in blocks, and blocks have an error.
 void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
   const SolverSpec& solver = scene.solver;
   const bool may = backend != Backend::reference && plan.form == ContactForm::condensed &&
@@ -95,8 +95,8 @@ class Steps : public PlannedExperiment {
         devices_(scene.solver.devices),
         owns_checkpoint_(resumed) {}
 
-  /// Makes the first stepper. This is done before any file is changed, so that all files stay as they were if the
-  /// stepper refuses the scene.
+  /// Makes the first stepper. The stepper is made before any file is changed, so that all files stay as they were if
+  /// the stepper refuses the scene.
   void make_first(RunResult& result, const std::filesystem::path& checkpoint) {
     if (at_.seconds.size() == at_.plan.frequencies.size()) return;
     const bool resumed = !at_.state.empty();
@@ -109,8 +109,8 @@ class Steps : public PlannedExperiment {
     }
   }
 
-  /// Fills in the results that are known before the first step, and those of frequencies that a checkpoint has
-  /// finished.
+  /// Fills in the results that are known before the first step, and the results of the frequencies that were finished
+  /// when the checkpoint was written.
   void begin(RunResult& result) {
     result.decisions = at_.plan.decisions;
     SteppedCyclic& found = result.found.emplace<SteppedCyclic>();

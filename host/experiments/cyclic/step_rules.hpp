@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_rules.hpp  Defines those rules for stepping a cyclic test that need only the scene. The plan of a run
-/// uses them, and the forecast of its duration.
+/// \file step_rules.hpp  Defines those rules for stepping a cyclic test that need only the scene. Both the plan of
+/// a run and the forecast of its duration use these rules.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ Start asked_start(const Scene& scene);
 /// periodic solution, the start from rest.
 Start cyclic_start(const Scene& scene, Geometry geometry);
 
-/// Returns whether the plan of a stepped test also solves its frequencies in the frequency domain. It does so to
-/// predict errors, if there is a tolerance, and for a steady start.
+/// Returns whether the plan of a stepped test also solves its frequencies in the frequency domain. The plan needs these
+/// solutions to predict errors, if there is a tolerance, and for a steady start.
 bool plans_with_solutions(const Scene& scene);
 
 /// Cycles of one frequency: all, those that are fitted, and those in which the amplitude grows.
@@ -54,8 +54,8 @@ std::optional<double> given_scaling(const Scene& scene, std::size_t frequency, d
 /// Returns the longest step that the rules allow [s].
 double longest_cyclic_step(const SolverSpec& solver, double critical, double density_scaling);
 
-/// Returns the smallest number of steps per period with which no step is longer than `step`. It is a multiple of
-/// `samples`, so that every sample has a whole number of steps. It is a floating-point number, because it may be too
+/// Returns the smallest number of steps per period with which no step is longer than `step`. This number is a multiple
+/// of `samples`, so that every sample has a whole number of steps. Its type is double, because the number may be too
 /// large for a run.
 double steps_per_period(double frequency, double step, int samples);
 

@@ -22,8 +22,8 @@ namespace {
 
 /// Relative tolerance with which E(t) is computed if errors of steps are measured against it.
 constexpr double spectrum_tolerance = 1e-5;
-/// Largest strain at which the change of the geometry may be neglected. It changes stresses by a fraction of about
-/// three times the strain, that is 0.3 % at this strain.
+/// Largest strain at which the change of the geometry may be neglected. The change of the geometry changes stresses by
+/// a fraction of about three times the strain, that is, by 0.3 % at this strain.
 constexpr double small_strain = 1e-3;
 /// A row of the result with a larger error than this is named in a warning.
 constexpr double largest_error = 1e-2;
@@ -148,8 +148,8 @@ double LoadErrors::walls(const SteppedPoint& row) const {
            std::abs(test_.held_stress);
   }
   const double top = std::abs(row.top_pa), bottom = std::abs(row.bottom_pa);
-  // The smaller stress counts as at least this fraction of the larger one. This limits the ratio while a wave has not
-  // yet reached the other wall.
+  // The smaller stress counts as at least this fraction of the larger stress. So the relative difference stays finite
+  // while a wave has not yet reached the other wall.
   constexpr double least = 1e-3;
   const double smaller = std::max(std::min(top, bottom), least * std::max(top, bottom));
   return smaller > 0 ? apart / smaller : 0;
@@ -167,8 +167,8 @@ double LoadErrors::modulus(const SteppedPoint& row, const std::vector<SteppedPoi
 }
 
 /// Returns an upper bound of the relative rate of change [1/s] of E(t) or J(t) over the last `window` seconds before
-/// the row. E(t) is convex and J(t) is concave. So in the last part of any interval they change no faster than on
-/// average over the whole interval.
+/// the row. E(t) is convex and J(t) is concave. So in the last part of any interval E(t) and J(t) change no faster than
+/// on average over the whole interval.
 double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>& before, double modulus,
                         double window) const {
   if (test_.grows) return 1 / row.time_s;

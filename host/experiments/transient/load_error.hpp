@@ -38,7 +38,7 @@ class LoadErrors {
   /// load; empty if the change is not known or zero.
   std::string ramp_words() const;
 
-  /// Returns a text that says what the column `error` in the table of results means.
+  /// Returns a text that explains the column `error` in the table of results.
   std::string meaning() const;
 
   /// Returns a warning that names the row with the largest error, its cause and what reduces it; empty if no error is

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_plan.hpp  Chooses the settings that a scene leaves open for a stepped test of a load. They are chosen
-/// once, before the first step.
+/// \file load_plan.hpp  Chooses the settings that a scene leaves open for a stepped test of a load. All settings
+/// are chosen once, before the first step.
 #pragma once
 
 #include <string>

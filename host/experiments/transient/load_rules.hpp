@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_rules.hpp  Computes ramp, damping and time step of a stepped relaxation, creep or constant-rate test. The
-/// plan of a run uses these rules, and the forecast of its duration.
+/// \file load_rules.hpp  Computes ramp, damping and time step of a stepped relaxation, creep or constant-rate test.
+/// Both the plan of a run and the forecast of its duration use these rules.
 #pragma once
 
 #include "host/experiments/transient/transient_experiment.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_load.cpp  Steps a test with a load on the top wall, from one point of the result to the next.
+// step_load.cpp  Takes the time steps of a test with a load on the top wall, from one point of the result to the
+// next.
 #include "host/experiments/transient/step_load.hpp"
 
 #include <fmt/format.h>
@@ -62,8 +63,8 @@ class SteppedLoad : public PlannedExperiment {
         cracks_(scene, prepared, at_.cracks),
         owns_checkpoint_(resumed) {}
 
-  /// Makes the stepper. This is done before any file is changed, so that all files stay as they were if the stepper
-  /// refuses the scene.
+  /// Makes the stepper. The stepper is made before any file is changed, so that all files stay as they were if the
+  /// stepper refuses the scene.
   void make(RunResult& result, const std::filesystem::path& checkpoint) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const LoadPlan& p = at_.plan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file step_load.hpp  Steps relaxation, creep and constant rates in time.
+/// \file step_load.hpp  Runs relaxation, creep and constant-rate tests in time steps.
 #pragma once
 
 #include "host/experiments/transient/transient_experiment.hpp"

@@ -34,8 +34,8 @@ bool passed_peak(const SteppedResponse& found) {
 
 bool measures_strength(const SteppedResponse& found) { return found.peak && !found.points.empty(); }
 
-/// Returns the line about the strength. It is printed first, because the strength is what the user of such a test looks
-/// for.
+/// Returns the line about the strength. This line is printed first, because the strength is the main result of such a
+/// test.
 std::string strength_words(const SteppedResponse& found) {
   return fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
                      passed_peak(found) ? "strength" : "largest stress", found.peak->stress_pa / 1e6,

@@ -23,8 +23,8 @@ struct LoadTimes {
   std::optional<double> release;  ///< time at which the removal begins [s]; empty: never
 };
 
-/// Describes a relaxation, creep or constant-rate test. It is used for stepped tests and for tests computed without
-/// time steps.
+/// Describes a relaxation, creep or constant-rate test. The same description is used for stepped tests and for tests
+/// computed without time steps.
 struct TransientExperiment {
   std::string kind;
   History history;
@@ -36,7 +36,7 @@ struct TransientExperiment {
 
   bool by_stress = false;  ///< whether the load is a stress; otherwise it is a strain
   LoadTimes when;          ///< times as given in the scene
-  /// Whether the load grows during the whole test; the duration of the ramp is then that of the test.
+  /// Whether the load grows during the whole test; the ramp then lasts as long as the test.
   bool grows = false;
   std::optional<double> platen_mass;  ///< mass of the top wall if a stress loads it [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand
@@ -61,15 +61,15 @@ struct LoadWords {
   const char* comment;              ///< comment in the file of a run without time steps
   bool stress_first;                ///< whether the column of the stress comes before the column of the strain
   const char* shown;                ///< name of the ratio in printed text, with its unit
-  /// The same for a stepped run, where the ratio is computed from strain and stress of a row.
+  /// Name of the ratio in printed text for a stepped run, where the ratio is computed from strain and stress of a row.
   const char* shown_stepped;
   double unit;  ///< unit of the ratio in printed text
 };
 /// Returns the names and units for a kind of test. \throws RunError for a kind that is not a test of a load.
 const LoadWords& load_words(const std::string& kind);
 
-/// Return a point as text for the kind's file, for summary.json and for the terminal, and the header lines of the file
-/// and the terminal's table.
+/// Return the text of a point of the result: for the file of this kind of test, for summary.json, and for the terminal.
+/// The functions `…_head` return the header lines of the file and of the terminal's table.
 /// @{
 std::string csv_head(const LoadWords& words);
 std::string csv_line(const LoadWords& words, const experiments::ResponsePoint& point);

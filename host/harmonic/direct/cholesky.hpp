@@ -9,7 +9,7 @@
 
 namespace macadam::harmonic {
 
-/// The Cholesky factors of one matrix. They are computed once and used in every iteration of the direct solver.
+/// The Cholesky factors of one matrix. The factors are computed once and used in every iteration of the direct solver.
 class Cholesky {
  public:
   /// Orders the particles (METIS nested dissection on the contact graph), assembles the matrix and factors it.

@@ -7,7 +7,7 @@
 
 namespace macadam::harmonic {
 
-/// Stiffness of each pair for F solutions, and the factor `inertia` of the mass matrix M in K* − inertia·M.
+/// Stiffness of each pair type for F solutions, and the factor `inertia` of the mass matrix M in K* − inertia·M.
 template <int F>
 struct BlockStiffness {
   std::array<Factor<F>, pair_types> k{};

@@ -103,7 +103,7 @@ class BlockCocg {
     return out;
   }
 
-  /// Sets out to of(task, number), for every task and every number of its vector.
+  /// Sets `out` to the values `of(task, number)`, for every task and every component `number` of the task's vector.
   template <class Of>
   void load(LaneVector<F>& out, Of&& of) const {
 #pragma omp parallel for schedule(static)
@@ -154,7 +154,7 @@ class BlockCocg {
         done_[f] = residual <= task.tolerance && task.energy <= task.energy_limit;
         task.converged = done_[f];
         task.iterations += k > 0;
-        if (!std::isfinite(residual)) done_[f] = true;  // this task cannot converge any more; the other tasks continue
+        if (!std::isfinite(residual)) done_[f] = true;  // this task cannot converge any more, but the other tasks can
         if (!done_[f]) worst = std::max(worst, residual);
       }
       const Complex rho = done_[f] ? Complex(0) : sums.rz.plain(f) + coarse_product_.plain(f);
@@ -168,7 +168,8 @@ class BlockCocg {
   double energy_of(const Sums& sums, int f) const {
     return std::max(sums.rz.conjugated(f) + coarse_product_.conjugated(f), 0.0);
   }
-  /// Computes the energy from r = f − K·x, because the r that the iteration updates has accumulated rounding errors.
+  /// Computes rᴴ·P⁻¹·r of every task from the true residual r = f − K·x, because the r that the iteration updates has
+  /// accumulated rounding errors.
   void renew_energy() {
     load_right();
     const Sums sums = start();

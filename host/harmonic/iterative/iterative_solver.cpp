@@ -75,8 +75,8 @@ class CudaSolver : public LinearSolver {
         std::copy(on.load.begin(), on.load.end(), load.load);
       }
     }
-    // Allocating memory for large solutions takes the CPU as long as tens of iterations take the device. So it is done
-    // in another thread while the device iterates.
+    // Allocating memory for large solutions takes the CPU as long as tens of iterations take the device. So another
+    // thread allocates the memory while the device iterates.
     const auto make_room = [&] {
       for (LinearTask* task : tasks) task->motion.resize(6 * layout_.particles());
     };

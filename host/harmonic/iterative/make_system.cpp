@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_system.cpp  Builds the arrays of the iterative solver. The columns of R are rigid motions of boxes of particles.
-// The coarse matrix RᵀKR is summed only over contacts between boxes, because a rigid motion of a box does not strain
-// the contacts inside it.
+// make_system.cpp  Builds the arrays of the iterative solver. The columns of the matrix R are rigid motions of
+// boxes of particles. The coarse matrix RᵀKR is summed only over contacts between boxes, because a rigid motion of a
+// box does not strain the contacts inside it.
 #include "host/harmonic/iterative/make_system.hpp"
 
 #include "host/harmonic/iterative/invert.hpp"
@@ -156,8 +156,8 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
   return out;
 }
 
-/// Returns the mass-weighted products of a free motion of some particles with the motions of the boxes. They are not
-/// all zero if the boxes can move as in the free motion.
+/// Returns the mass-weighted products of a free motion of some particles with the motions of the boxes. The products
+/// are not all zero if the boxes can move as in the free motion.
 Eigen::VectorXd weights_of_boxes(const LinearSystem& system, int motion) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   return Eigen::Map<const Eigen::VectorXd>(system.weight.data() + motion * size, size);
@@ -215,8 +215,8 @@ LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen
   make_weights(out);
   Eigen::MatrixXd k = coarse_stiffness(out);
   // Free motions of the whole specimen have no stiffness among the boxes either, so the coarse matrix would be
-  // singular. This loop gives them some stiffness. It has no effect on the solution, because the iteration removes the
-  // free motions from the preconditioned residual z.
+  // singular. This loop gives the free motions some stiffness. The added stiffness has no effect on the solution,
+  // because the iteration removes the free motions from the preconditioned residual z.
   const double usual = k.trace() / static_cast<double>(k.rows());
   for (int m = 0; m < out.free; ++m) {
     const bool of_all = free.motions[static_cast<std::size_t>(m)].particles.size() == layout.particles();

@@ -10,7 +10,8 @@
 namespace macadam::harmonic {
 
 /// Returns the linear system in the order of the layout: the contacts of each particle, the free motions, and the
-/// coarse level of the preconditioner, whose motions are the rigid motions of the layout's tiles (boxes of particles).
+/// coarse level of the preconditioner. The coarse level consists of the rigid motions of the layout's tiles (boxes of
+/// particles).
 /// \throws NotIterable when boxes of particles can move without force.
 kernels::LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen,
                                   const kernels::Layout& layout, const PairStiffness& typical, const Inertia& inertia,

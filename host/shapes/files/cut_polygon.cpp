@@ -31,8 +31,8 @@ using Triangulation =
                                                CGAL::No_constraint_intersection_tag>;
 
 using Triangle = std::array<std::int32_t, 3>;  // corner numbers
-/// Maps each pair of corner numbers (lower, higher) to the number of times that the outline runs from the lower to the
-/// higher, minus the number of times that it runs back.
+/// Maps each pair of corner numbers (lower, higher) to a count: how often the outline runs from the lower to the higher
+/// corner, minus how often the outline runs back.
 using Outline = std::map<std::pair<std::int32_t, std::int32_t>, int>;
 
 bool same(const Vec3d& a, const Vec3d& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }

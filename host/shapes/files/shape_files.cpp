@@ -36,7 +36,8 @@ Surface drawn(const MultiSphere& cluster) {
   return all;
 }
 
-/// Checks that the folder holds no surface files except those of these shapes. \throws InputError if it holds others.
+/// Checks that the folder holds no surface files other than the files of these shapes. \throws InputError if it holds
+/// others.
 void refuse_others(const std::filesystem::path& folder, const std::vector<Surface>& shapes) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string file = entry.path().filename().string();

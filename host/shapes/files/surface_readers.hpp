@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_readers.hpp  Declares the readers of surface files, one per format. They do not trust the file: every
-/// word must be valid at its position, and a count of items is accepted only if the file is large enough to hold them.
+/// \file surface_readers.hpp  Declares the readers of surface files, one per format. The readers do not trust the
+/// file: every word must be valid at its position, and a count of items is accepted only if the file is large enough to
+/// hold them.
 #pragma once
 
 #include <cstdint>

@@ -105,8 +105,8 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
   const std::int64_t count = spheres(scale, spec);
   if (count < spec.least) return {{scale * measure_.centroid}, {scale * single_radius(spec.single)}};
 
-  // From here on, all lengths are those of the shape at scale 1, because the distances from its surface are
-  // precomputed.
+  // From here on, all lengths refer to the shape at scale 1, because the distances from the surface were computed at
+  // this scale.
   RandomStream radii(spec.seed, radius_stream), positions(spec.seed, position_stream);
   const double volume = (1 - spec.porosity) * measure_.volume * scale * scale * scale;
   const std::vector<double> diameter = draw_diameters(diameters(spec), count, volume, radii);

@@ -53,8 +53,8 @@ class ShapeFiller {
   SurfaceDistance distance_;
 };
 
-/// Returns a specimen whose mastic particles are the spheres of the cluster. Its box extends from `low` to `high`;
-/// everything is shifted so that `low` becomes the origin.
+/// Returns a specimen whose mastic particles are the spheres of the cluster. The box of the specimen extends from `low`
+/// to `high`; everything is shifted so that `low` becomes the origin.
 Specimen in_box(const MultiSphere& cluster, const Vec3d& low, const Vec3d& high);
 
 }  // namespace macadam

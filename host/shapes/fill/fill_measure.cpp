@@ -145,8 +145,8 @@ void measure_deviation(const Surface& surface, const MultiSphere& cluster, FillR
   for (const Vec3d& p : surface.points) report.deviation_largest = std::max(report.deviation_largest, deviation(p));
   report.deviation_mean = sum / area;
 
-  // A sphere whose centre is at depth d protrudes by R − d beyond the nearest point of the surface. This is an upper
-  // bound if the surface is not convex.
+  // A sphere whose centre is at depth d protrudes by R − d beyond the nearest point of the surface. If the surface is
+  // not convex, R − d is only an upper bound.
   const SurfaceDistance distance(surface);
   for (std::size_t i = 0; i < cluster.size(); ++i)
     report.deviation_largest =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// library_targets.cpp  Takes target values from strata of distributions, and combines them to shapes by exchanging
-// values.
+// library_targets.cpp  Takes target values from the strata of distributions and combines these values to shapes.
+// Exchanges values between shapes until the statistics of the library match the published ones.
 #include "host/shapes/library/library_targets.hpp"
 
 #include <algorithm>
@@ -35,9 +35,9 @@ const Quantiles elongations{{0, 0.38}, {2, 0.4}, {17, 0.6}, {61, 0.8}, {82, 0.97
 /// Distribution of the flatness F. There are 3 very flat and 19 moderately flat shapes. The other knots are chosen such
 /// that the average is 0.64.
 const Quantiles flatnesses{{0, 0.358}, {3, 0.4}, {22, 0.6}, {60, 0.7}, {79, 0.8}, {82, 0.94}};
-/// Distribution of the true sphericity ψ^w. It has the minimum, average and maximum of Table 1 of [1].
+/// Distribution of the true sphericity ψ^w. The minimum, average and maximum are those of Table 1 of [1].
 const Quantiles sphericities{{0, 0.718}, {8, 0.79}, {41, 0.865}, {74, 0.92}, {82, 0.968}};
-/// Distribution of the number of points. It has the minimum, average and maximum of Table 1 of [1], and nine shapes
+/// Distribution of the number of points. The minimum, average and maximum are those of Table 1 of [1], and nine shapes
 /// have fewer than 100 facets.
 const Quantiles points{{0, 24.5}, {9, 51}, {41, 145}, {70, 270}, {82, 411.5}};
 
@@ -190,8 +190,8 @@ class Pairing {
 /// correlation of ψ^w with ψ^A is 0.89, and its correlation with the sizes is -0.06 to -0.34. The random part
 /// `disorder` and the correction `fineness`, which gives larger values to smaller stones, reproduce these correlations.
 /// The correction `lack` is for the number of points: a convex surface with few points has a lower sphericity than the
-/// smooth body through its points, by about 0.8 divided by the number of points (for a sphere: 0.06 with the 12 points
-/// of the icosahedron, 0.02 with 42).
+/// smooth body through its points, by about 0.8 divided by the number of points. For a sphere the difference is 0.06
+/// with 12 points (an icosahedron) and 0.02 with 42 points.
 void add_sphericities(std::vector<ShapeMeasure>& shapes, RandomStream& random) {
   constexpr double disorder = 0.02, fineness = 0.04, lack = 0.8;
   std::vector<std::pair<double, std::size_t>> order;

@@ -15,7 +15,7 @@ struct ShapeProperty {
   const char* name;    ///< symbol that [1] uses
   const char* column;  ///< heading in CSV files, with the SI unit
   const char* unit;    ///< unit in the printed table, e.g. `"mm"`
-  double per_unit;     ///< factor from SI to `unit`
+  double per_unit;     ///< number of `unit` per SI unit, e.g. 1e3 for mm
   int decimals;        ///< number of decimals in the printed table
   bool standardised;   ///< true for SI and Fl: their standards define them for D^I ≥ 4 mm only, so tables leave out
                        ///< smaller shapes

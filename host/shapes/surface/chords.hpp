@@ -22,9 +22,9 @@ struct Chords {
 /// D^L is the longest distance between two vertices. D^I lies in a plane perpendicular to D^L. Such a plane cuts the
 /// surface in a polygon whose corners move along edges when the plane is shifted. The squared distance of two corners
 /// is therefore a convex quadratic function of the shift, and its maximum is reached in a plane where one of the two
-/// corners is a vertex. D^S has a fixed direction, perpendicular to D^L and D^I. In the projection along this direction
-/// the length of a chord is linear as long as the chord runs between the same two facets, so the maximum is reached
-/// where a vertex is projected onto a facet or where two edges cross.
+/// corners is a vertex. D^S has a fixed direction, perpendicular to D^L and D^I. Seen along this direction, the length
+/// of a chord is a linear function of position as long as the chord joins the same two facets. So the longest chord
+/// lies where a vertex is projected onto a facet or where two projected edges cross.
 ///
 /// If several D^L are equally long (a cube has four), the one with the longest D^I is taken; among several such D^I,
 /// the one with the longest D^S. The lengths therefore do not depend on the orientation of the surface.

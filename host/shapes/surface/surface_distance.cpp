@@ -82,9 +82,9 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(const Facet& facet, const Vec3
   return found(a + (vb / (va + vb + vc)) * ab + (vc / (va + vb + vc)) * ac, face);
 }
 
-/// Searches the candidates in order. They are sorted by their distance D from another point, which is `way` [m] from
-/// `point`. The distance of a candidate from `point` is therefore at least D − way, and the search ends when D − way
-/// exceeds the smallest distance found.
+/// Searches the candidates in order. The candidates are sorted by their distance D from another point, which is `way`
+/// [m] from `point`. The distance of a candidate from `point` is therefore at least D − way, and the search ends when D
+/// − way exceeds the smallest distance found.
 SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> nearest_first, double way,
                                                      const Vec3d& point) const {
   Nearest best{std::numeric_limits<double>::infinity(), {}, {}};
@@ -96,10 +96,10 @@ SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> 
   return best;
 }
 
-/// Makes a node. In a cell with half diagonal g whose centre is at distance d from the nearest facet, the nearest facet
-/// of any point of the cell is within d + 2g of the centre: the point is at most g from the centre and at most d + g
-/// from that facet. `candidates` are the facets that can be nearest in the parent cell, whose centre is `way` [m] from
-/// the centre of this cell.
+/// Makes a node. Let g be half of the cell's diagonal, and d the distance of the cell's centre from the nearest facet.
+/// A point of the cell is at most g from the centre, so its nearest facet is at most d + g from the point, and at most
+/// d + 2g from the centre. Only such facets are kept. `candidates` are the facets that can be nearest in the parent
+/// cell. `way` [m] is the distance between the centres of the parent cell and of this cell.
 void SurfaceDistance::grow(std::int32_t node, const Vec3d& centre, const Vec3d& half, int level,
                            std::span<const Candidate> candidates, double way) {
   const double g = norm(half) * (1 + 1e-9);  // enlarged, so that rounding loses no candidate
@@ -146,7 +146,7 @@ WallDepth SurfaceDistance::below(const Vec3d& p, double reach) const {
       centre = child_centre(centre, half, k);
       at = node_[at].child + k;
     }
-    // The depth at p differs from the depth at the centre by at most their distance.
+    // The depth at p differs from the depth at the centre of the cell by at most the distance between p and the centre.
     const double way = norm(p - centre);
     if (const double least = node_[at].depth - way; least > reach) return {least, {}};
     best = nearest_of(std::span(candidates_).subspan(node_[at].first, node_[at].last - node_[at].first),

@@ -27,8 +27,8 @@ class SurfaceDistance {
   /// direction.
   WallDepth below(const Vec3d& point, double reach) const;
 
-  /// Returns whether a point lies in the bounding box of the surface. This is a fast test; computing the depth of a
-  /// point outside the box is slow because it searches all facets.
+  /// Returns whether a point lies in the bounding box of the surface. The test is fast, whereas computing the depth of
+  /// a point outside the box is slow, because all facets are searched.
   bool may_contain(const Vec3d& p) const {
     return p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y && p.z >= low_.z && p.z <= high_.z;
   }
@@ -65,8 +65,8 @@ class SurfaceDistance {
 
   /// Returns the nearest point of one facet.
   static Nearest nearest(const Facet& facet, const Vec3d& point);
-  /// Returns the nearest point of the candidates. They are sorted by their distance from another point, which is `way`
-  /// [m] from `point`.
+  /// Returns the nearest point of the candidates. The candidates are sorted by their distance from another point, which
+  /// is `way` [m] from `point`.
   Nearest nearest_of(std::span<const Candidate> nearest_first, double way, const Vec3d& point) const;
   /// Makes a node and, recursively, its children.
   void grow(std::int32_t node, const Vec3d& centre, const Vec3d& half, int level, std::span<const Candidate> candidates,

@@ -212,7 +212,7 @@ class Repair {
   }
 
   /// Drops specks, which are pieces whose area is small compared with the area of the largest piece. If there are two
-  /// or more larger pieces, keeps everything, because the program cannot choose between them.
+  /// or more larger pieces, keeps everything, because the program cannot choose between the pieces.
   Surface without_specks(const Surface& surface) {
     const SurfacePieces pieces(surface);
     constexpr double speck = 0.05;  // fraction of the area of the largest piece

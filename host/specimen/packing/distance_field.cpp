@@ -21,7 +21,7 @@ DistanceField::DistanceField(const Surface& surface, const ShapeSolid& solid, in
   const Vec3d size = high - low;
   edge_ = std::max({size.x, size.y, size.z}) / cells;
   error_ = std::sqrt(0.75) * edge_;
-  // One more cell on each side, so that the gradient of the distance is right everywhere on the surface.
+  // The grid has one more cell on each side, so that the gradient of the distance is right everywhere on the surface.
   const auto nodes = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / edge_)) + 3; };
   nx_ = nodes(size.x), ny_ = nodes(size.y), nz_ = nodes(size.z);
   low_ = low - Vec3d{edge_, edge_, edge_};

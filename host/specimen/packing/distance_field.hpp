@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file distance_field.hpp  Interpolates the signed distance from the surface of a shape on a grid. This is fast and
-/// has a known error bound.
+/// \file distance_field.hpp  Interpolates the signed distance from the surface of a shape on a grid. The
+/// interpolation is fast and has a known error bound.
 #pragma once
 
 #include <cstddef>

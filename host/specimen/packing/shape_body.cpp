@@ -103,7 +103,7 @@ bool sample_inside(const ShapeBody& a, const ShapeBody& b) {
   return inside;
 }
 
-/// Returns whether the surface of `a` intersects that of `b`, or a point of it is inside `b`.
+/// Returns whether the surface of `a` intersects the surface of `b`, or a point of `a` is inside `b`.
 bool surface_enters(const ShapeBody& a, const ShapeBody& b) {
   const Transfer transfer(a, b);
   const ShapeGeometry &ga = *a.geometry, &gb = *b.geometry;

@@ -13,8 +13,8 @@
 
 namespace macadam {
 
-/// A template, which is a shape of which scaled copies are placed, with all data for testing these copies. Lengths are
-/// in the frame of the template [m].
+/// A template (a shape whose scaled copies are placed), with all data for testing these copies. Lengths are in the
+/// frame of the template [m].
 struct ShapeGeometry {
   explicit ShapeGeometry(const ShapeTemplate& shape);
 
@@ -45,7 +45,8 @@ struct ShapeBody {
 
   void set_turn(const Quaternion& q) { turn = q, rotation = Rotation(q); }
   double sphere_radius() const { return scale * geometry->shape.d_intermediate / 2 * geometry->shape.sphere_size; }
-  /// Radii of a ball about the centre that contains the body, and of one that the body contains [m].
+  /// radius() is the radius of a ball about the centre that contains the body; inner_radius() is the radius of a ball
+  /// about the centre that lies inside the body [m].
   double radius() const { return sphere ? sphere_radius() : cluster ? cluster->radius() : scale * geometry->radius; }
   double inner_radius() const { return sphere ? sphere_radius() : cluster ? 0 : scale * geometry->inner; }
   /// Transform a point: from the frame of the template to the box (to_space), from the box to the frame of the template
@@ -54,13 +55,13 @@ struct ShapeBody {
   Vec3d to_own(const Vec3d& space) const { return (1 / scale) * rotation.back(space - centre); }
   Vec3d to_cluster(const Vec3d& space) const { return rotation.back(space - centre); }
 
-  /// Lower and upper bound of the signed distance of a point from the surface [m]; fast.
+  /// Return a lower and an upper bound of the signed distance of a point from the surface [m]. Both are fast.
   double distance_at_least(const Vec3d& space) const;
   double distance_at_most(const Vec3d& space) const;
 };
 
-/// Returns whether two bodies touch, overlap or contain one another. The test is exact for the triangles as transformed
-/// into the frame of one of the two bodies, that is, up to the rounding of this transform.
+/// Returns whether two bodies touch, overlap or contain one another. The triangles of one body are transformed into the
+/// frame of the other body. The test is exact except for the rounding of this transform.
 bool overlap(const ShapeBody& a, const ShapeBody& b);
 
 /// Returns whether two bodies overlap or are closer than `spacing` [m]. The test is exact for the spheres of bodies

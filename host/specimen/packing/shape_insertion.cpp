@@ -48,8 +48,8 @@ bool ShapeInsertion::place(std::size_t k, ShapeBody& body) {
   };
   bool placed = find(plain, 6, anywhere, body);
   if (!placed && attempts_ > plain) {
-    // Points distributed uniformly over the cells that are not completely covered by placed bodies have the same
-    // distribution as successful trials over the whole box, but more trials succeed.
+    // Trials are made only in the cells that placed bodies do not cover completely. Successful trials then have the
+    // same distribution as successful trials over the whole box, but more trials succeed.
     const std::vector<std::size_t> open = open_cells(k, body.inner_radius());
     if (open.empty()) return false;
     const auto in_the_open = [&](Draws draws, ShapeBody& b) {

@@ -22,8 +22,8 @@ class ShapeInsertion {
                  RandomStream random);
 
   /// Sets the rotation and centre of body number `k` such that it is inside the box and touches no body placed so far.
-  /// Returns false if `attempts` trials failed. Bodies must come in order; some may be left out. Trials run on all
-  /// threads; the result is the same as with one thread.
+  /// Returns false if `attempts` trials failed. Calls must be in ascending order of `k`; some bodies may be left out.
+  /// Trials run on all threads; the result is the same as with one thread.
   bool place(std::size_t k, ShapeBody& body);
 
  private:

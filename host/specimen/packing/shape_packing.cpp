@@ -25,8 +25,8 @@ constexpr double skin_share = 0.2;     // skin of the neighbour lists, divided b
 constexpr double settled = 0.5, growing = 4;
 constexpr double growth_a_gap = 0.15;  // relative growth in one iteration, divided by the relative gap
 constexpr int most_idle = 2000;        // iterations without growth after which the bodies count as jammed
-// Largest number of rounds in which bodies are separated that touch by the exact test although their samples show no
-// contact.
+// At the end, bodies may touch according to the exact test although their samples show no contact. Such bodies are
+// separated in at most this number of rounds.
 constexpr int most_rounds = 40;
 constexpr double freeing = 1.4;  // factor by which the gaps of such bodies are widened in each round
 
@@ -167,7 +167,8 @@ class Packing {
     }
   }
 
-  /// Widens the gaps of all bodies that touch another one by the exact test. Returns the number of such pairs.
+  /// Widens the gaps of all bodies that touch another body according to the exact test. Returns the number of touching
+  /// pairs.
   int widen_gaps_of_overlaps() {
     std::vector<std::uint8_t> touch(pairs_.size());
     for_each_in_blocks(pairs_.size(), bodies_.size() >= parallel_from,

@@ -17,7 +17,7 @@
 namespace macadam {
 namespace {
 
-/// Fraction of the box that the bodies fill when packing begins. Insertion finds places for this fraction quickly.
+/// Fraction of the box that the bodies fill when packing begins. Insertion still finds places quickly at this fraction.
 constexpr double share_at_first = 0.30;
 constexpr std::int64_t attempts_at_first = 100'000;
 

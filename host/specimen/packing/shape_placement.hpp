@@ -79,9 +79,9 @@ struct ShapePlacement {
 };
 
 /// Places the aggregates at random positions and rotations inside the box, such that no two surfaces touch and none
-/// contains another. This is ensured by exact tests of the triangles, or of the spheres if these are given. The same
-/// input gives the same bits for any number of threads. \throws RunError naming the class that did not fit, and how
-/// much of it was placed, unless `spec.allow_short`.
+/// contains another. Exact tests of the triangles, or of the spheres if these are given, ensure both conditions. The
+/// same input gives the same bits for any number of threads. \throws RunError naming the class that did not fit, and
+/// how much of it was placed, unless `spec.allow_short`.
 ShapePlacement place_shapes(const Box& box, const std::vector<ShapeTemplate>& shapes,
                             const ShapeComposition& composition, const ShapePlacementSpec& spec,
                             const std::function<void(const char* stage, double share)>& progress = {});

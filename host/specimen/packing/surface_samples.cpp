@@ -33,8 +33,9 @@ SurfaceSamples::SurfaceSamples(const Surface& s, double tolerance) : point_(s.po
     const auto other = facet_of.find({edge.second, edge.first});
     if (other == facet_of.end() || edge.first > edge.second) continue;
     const Vec3d a = s.points[edge.first], b = s.points[edge.second];
-    // If a plane just touches two neighbouring samples, the edge can penetrate the plane between them unnoticed, by at
-    // most x·sin(half of the angle by which the surface turns at the edge). x is the distance from the nearest sample.
+    // If a plane just touches two neighbouring samples of an edge, the edge can penetrate the plane between the samples
+    // unnoticed. The depth is at most x·sin(half of the angle by which the surface turns at the edge), where x is the
+    // distance from the nearest sample.
     const double turn = norm(cross(unit_normal(s, s.facets[facet]), unit_normal(s, s.facets[other->second])));
     const double pieces = std::clamp(std::ceil(norm(b - a) * turn / (4 * tolerance)), 1.0, most_samples_an_edge);
     for (int k = 1; k < pieces; ++k) point_.push_back(a + (k / pieces) * (b - a));

@@ -23,8 +23,9 @@ struct BenchCase {
 /// wall.
 BenchCase lattice(std::size_t particles, bool walls);
 
-/// Returns the specimen that a text names: "lattice:1e5"; the file of a scene, whose specimen is generated or read,
-/// with its contacts; or "scene.toml=specimen.csv", a specimen file with the box, laws and contact rules of the scene.
+/// Returns the specimen that a text names. "lattice:1e5" is a lattice of 1e5 particles. "scene.toml" is the specimen of
+/// this scene, generated or read from its file. "scene.toml=specimen.csv" is a specimen file with the box, laws and
+/// contact rules of the scene.
 /// \throws InputError
 BenchCase case_of(const std::string& text);
 

@@ -33,7 +33,7 @@ double factor_of(const std::string& unit) {
   return unit == "ns" ? 1e-9 : unit == "us" ? 1e-6 : unit == "ms" ? 1e-3 : 1;
 }
 
-/// Returns the mean and the standard deviation (n − 1); 0 for a single value.
+/// Returns the mean and the sample standard deviation (with divisor n − 1), which is 0 for a single value.
 std::pair<double, double> mean_and_deviation(const std::vector<double>& list) {
   const double n = static_cast<double>(list.size()), mean = std::accumulate(list.begin(), list.end(), 0.0) / n;
   double squares = 0;

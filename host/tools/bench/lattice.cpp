@@ -32,7 +32,7 @@ BenchCase lattice(std::size_t particles, bool walls) {
   out.name = fmt::format("lattice:{}", particles);
   const auto n = static_cast<std::int32_t>(std::llround(std::cbrt(static_cast<double>(particles) / 4)));
   const double cell = 1e-3 * std::sqrt(2.0);
-  const std::int32_t side = 2 * n;  // sites are the half-cell indices with an even sum
+  const std::int32_t side = 2 * n;  // in half cells; lattice sites have indices x, y, z with an even sum
   std::mt19937 random(1);
   const auto jitter = [&] { return 0.05 * cell * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
   std::vector<std::int32_t> number(static_cast<std::size_t>(side) * side * side, -1);

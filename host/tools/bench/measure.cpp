@@ -90,7 +90,8 @@ class Measured {
       row.seconds.push_back(seconds_of([&] { stepper->advance(row.iterations); }) /
                             static_cast<double>(row.iterations));
     }
-    // times of each part in each repetition; the median is used, because one repetition may be disturbed
+    // the times of each part of a step, one per repetition; their median is used, because one repetition may be
+    // disturbed
     std::map<std::string, std::vector<double>> parts;
     for (int k = 0; k < axes_.repetitions; ++k) {
       for (const PartTime& part : stepper->advance_timed(std::min<std::int64_t>(row.iterations, 2000)))
@@ -258,7 +259,7 @@ MachineSpeed measure_machine(Backend backend, const DeviceList& devices, int thr
     out.devices.push_back(measure_device(device));
     out.copy += out.devices.back().copy;
   }
-  if (const Ranks* team = ranks()) {  // all ranks are taken to have the same device
+  if (const Ranks* team = ranks()) {  // assumes that all ranks have devices of the same model
     out.devices.resize(static_cast<std::size_t>(team->count()), out.devices.front());
     out.copy *= team->count();
   }

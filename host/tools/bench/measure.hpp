@@ -46,7 +46,7 @@ struct MachineSpeed {
                                      ///< [byte/s]
   std::vector<DeviceSpeed> devices;  ///< one per GPU; backend cuda only
 };
-/// Measures the bandwidths; `threads` of the CPU, 0: all.
+/// Measures the bandwidths. `threads`: number of CPU threads; 0 means all.
 MachineSpeed measure_machine(Backend backend, const DeviceList& devices, int threads);
 
 double median(std::vector<double> list);

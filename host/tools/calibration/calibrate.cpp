@@ -2,9 +2,9 @@
 // calibrate.cpp  Searches for the parameters of least misfit, and judges whether the result is acceptable.
 //
 // Each round minimises the misfit that the reduced model predicts, and then solves the networks at the minimum. (The
-// reduced model is the equations of motion restricted to combinations of the motions found so far.) The motions of the
-// new solution are added to the reduced model. The search ends when the prediction finds nothing better than the last
-// solution.
+// reduced model consists of the equations of motion, restricted to combinations of the motions found so far.) The
+// motions of the new solution are added to the reduced model. The search ends when the prediction finds nothing better
+// than the last solution.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,9 +32,10 @@ constexpr double worst_modulus = 0.15, worst_phase = 8;
 /// alone stays below 2.
 constexpr double worst_miss = 2;
 
-/// A ratio of measured to predicted |E*| below this, or above its inverse, suggests that the unit is wrong.
+/// A ratio of measured to predicted |E*| below this number, or above its inverse, suggests that the unit of the
+/// measurements is wrong.
 constexpr double wrong_unit = 1 / 300.0;
-/// A normal distribution has 95 % within this number of standard deviations on both sides.
+/// 95 % of a normal distribution lie within this number of standard deviations on either side of the mean.
 constexpr double two_sided = 1.96;
 
 /// The error of a modulus or phase that was not measured.
@@ -43,8 +44,8 @@ constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 /// Largest change of a parameter's logarithm in one round, and the change below which the search ends. The error of an
 /// estimate is about the square of the change, so at the end it is below 1e-12.
 constexpr double farthest = 2, least_move = 1e-6;
-/// Decrease of the misfit below which the search ends, in squared standard deviations. The parameters then move by
-/// about 1e-3 of their standard deviations.
+/// Decrease of the misfit per round below which the search ends, in squared standard deviations. In a round with this
+/// decrease the parameters move by about 1e-3 of their standard deviations.
 constexpr double least_gain = 1e-6;
 constexpr int most_rounds = 40;
 
@@ -167,7 +168,7 @@ class Calibrator {
   }
 
   /// Returns the state of least misfit. The estimates and their derivatives are exact at the best solution so far; the
-  /// search ends when they predict no better state.
+  /// search ends when the estimates predict no better state.
   State find(Specimens& specimens) {
     std::vector<double> theta;
     for (const CalibratedParameter& p : out_.parameters)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibration_files.cpp  Calibrates into a folder, and writes a calibration as JSON, CSV and text.
+// calibration_files.cpp  Runs a calibration, and writes its results to a folder as JSON, CSV and text.
 #include "macadam/calibration.hpp"
 
 #include <fmt/format.h>
@@ -139,7 +139,7 @@ std::string calibration_text(const Calibration& c) {
 
 namespace {
 
-/// Checks the output folder. \throws InputError if it has a scene.toml that would be overwritten and that was not
+/// Checks the output folder. \throws InputError if a scene.toml in the folder would be overwritten although it was not
 /// written by a calibration.
 void require_calibration_folder(const Scene& scene, const std::filesystem::path& out) {
   if (scene.text.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// free_parameters.cpp  Finds the free parameters and their bounds, and checks what the user asks for.
+// free_parameters.cpp  Finds the free parameters and their bounds, and checks the user's options.
 #include "host/tools/calibration/free_parameters.hpp"
 
 #include <fmt/format.h>

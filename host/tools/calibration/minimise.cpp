@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// minimise.cpp  Uses Ceres Solver with derivatives that the caller computes.
+// minimise.cpp  Minimises by Ceres Solver, with derivatives that the caller computes.
 #include "host/tools/calibration/minimise.hpp"
 
 #include <ceres/cost_function.h>
@@ -56,7 +56,7 @@ bool minimise(const Residuals& residuals, std::size_t count, const std::vector<P
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 200;  // a misfit with narrow, bent valleys needs so many; the next round continues
+  options.max_num_iterations = 200;  // a misfit with narrow, bent valleys needs this many iterations
   options.function_tolerance = 1e-9;
   options.gradient_tolerance = 1e-13;
   options.parameter_tolerance = 1e-10;
@@ -74,7 +74,7 @@ Directions directions(const std::vector<double>& jacobian, std::size_t columns) 
   full.topRows(full.rows() - n) = Eigen::Map<const RowMajor>(jacobian.data(), full.rows() - n, n);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(full, Eigen::ComputeThinV);
   const Eigen::VectorXd& s = svd.singularValues();
-  const double smallest = 1e-10 * s[0];  // smaller ones are errors of the solver, which stops at a tolerance
+  const double smallest = 1e-10 * s[0];  // smaller values are errors of the solver, which stops at a tolerance
   Directions out;
   for (Eigen::Index i = 0; i < n; ++i) {
     out.deviation.push_back(s[i] > smallest ? 1 / s[i] : std::numeric_limits<double>::infinity());

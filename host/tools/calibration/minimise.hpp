@@ -18,9 +18,9 @@ struct ParameterBounds {
   double low, high;
 };
 
-/// Minimises the sum of the squared residuals by Levenberg–Marquardt within bounds. It starts from θ, which must lie
-/// within the bounds, and returns the result in θ. `count`: number of residuals. Returns whether it ended with finite
-/// residuals.
+/// Minimises the sum of the squared residuals by Levenberg–Marquardt within bounds. The search starts from θ, which
+/// must lie within the bounds, and stores the result in θ. `count`: number of residuals. Returns whether the final
+/// residuals are finite.
 bool minimise(const Residuals& residuals, std::size_t count, const std::vector<ParameterBounds>& bounds,
               std::vector<double>& theta);
 

@@ -45,7 +45,7 @@ void add_residuals(const ModulusData& data, const CalibrationOptions& options, c
       row((p.modulus - measured).imag() / loss, [&](Complex change) { return change.imag() / loss; });
       continue;
     }
-    // its argument is the difference of the phases, which is far from ±180°
+    // the argument of this ratio is the difference of the phases, which is far from ±180°
     const Complex ratio = p.modulus / measured;
     if (options.misfit != Misfit::phase) {
       row(std::log(std::abs(ratio)) / modulus_deviation,

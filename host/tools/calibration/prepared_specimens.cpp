@@ -30,8 +30,8 @@ double scatter(const std::vector<double>& values) {
   return values.size() > 1 ? std::sqrt(sum / static_cast<double>(values.size() - 1)) : 0;
 }
 
-/// Residual tolerance of the solutions. It gives E* nine digits (harmonic.cpp). The derivatives of E* get only seven,
-/// because their error is of first order in the error of the motion.
+/// Residual tolerance of the solutions. With this tolerance E* has nine correct digits (harmonic.cpp). The derivatives
+/// of E* have only seven, because their error is of first order in the error of the motion.
 constexpr double residual = 1e-8;
 
 double degrees(Complex modulus) { return std::arg(modulus) * 180 / std::numbers::pi; }

@@ -21,9 +21,9 @@ struct Predicted {
 };
 
 /// Returns the temperature at which the laws are evaluated for each measurement, empty if neither scene nor data have
-/// one. If all shifts of the scene are WLF or Arrhenius laws, this is the reading itself, otherwise the temperature of
-/// its isotherm. \throws InputError if the scene has no valid laws at a measured temperature, or does not say which of
-/// its temperatures is meant.
+/// one. If all shifts of the scene are WLF or Arrhenius laws, this temperature is the reading itself, otherwise the
+/// temperature of the reading's isotherm. \throws InputError if the scene has no valid laws at a measured temperature,
+/// or does not say which of its temperatures is meant.
 std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data);
 
 /// The specimens, one per seed. Each has a reduced model: its equations of motion, restricted to combinations of the
@@ -34,9 +34,9 @@ class Specimens {
   /// prepare(), and InputError if the scene does not determine how a measurement is solved.
   Specimens(const Scene& scene, const ModulusData& data, int seeds, const Watcher& watcher);
 
-  /// Returns E* of every measurement with the given laws, from solutions in the frequency domain. Their motions are
-  /// kept for estimate(). \throws RunError if there is no solution; InterruptedError; InputError for a parameter that
-  /// has no effect in the specimen.
+  /// Returns E* of every measurement with the given laws, from solutions in the frequency domain. The motions of the
+  /// solutions are kept for estimate(). \throws RunError if there is no solution; InterruptedError; InputError for a
+  /// parameter that has no effect in the specimen.
   std::vector<Predicted> solve(const LawTable& laws, const std::vector<Parameter>& free);
 
   /// Returns estimates of E* of every measurement from the motions of all solutions so far. At the laws of a solution

@@ -40,7 +40,7 @@ void order(const Unknowns& u, std::vector<double>& theta) {
   if (k <= h) return;
   const double longer = log_tau - log_delta / k;                     // δ·τ^(−k) = τ'^(−k)
   log_delta = h * (longer - log_tau);                                // δ'·τ'^(−h) = τ^(−h)
-  if (u.model == FitModel::two_s2p1d) theta[6] += log_tau - longer;  // βτ stays
+  if (u.model == FitModel::two_s2p1d) theta[6] += log_tau - longer;  // keeps β·τ
   log_tau = longer;
   std::swap(k, h);
 }

@@ -42,7 +42,8 @@ std::vector<Limits> chain_limits(const Unknowns& unknowns, const std::vector<Tar
     fast = std::max(fast, std::log(t.place.omega));
   }
   constexpr double wide = 12;  // a factor of e^12 = 1.6e5; the effect of a unit beyond it is far below the noise
-  // Temperature adds the shift of the start and eleven decades more. Shifts beyond 200 (87 decades) are not plausible.
+  // If the temperature shifts the curves, the limits are wider by the largest |ln a_T| of the start plus 25 (eleven
+  // decades). A |ln a_T| above 200 (87 decades) is not plausible and counts as 200.
   double shifts = 0;
   std::vector<double> theta(unknowns.of_model(), 0.0);
   theta.insert(theta.end(), shift.begin(), shift.end());
@@ -71,8 +72,8 @@ Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, 
     minima.push_back(refine(unknowns, targets, limits, theta, near_enough));
   const auto lower = [](const Minimum& a, const Minimum& b) { return a.misfit < b.misfit; };
   std::sort(minima.begin(), minima.end(), lower);
-  // The three results with the lowest misfit are refined to the end, because one that converges slowly may still become
-  // the lowest.
+  // The three results with the lowest misfit are refined to the end, because the misfit of a result that converges
+  // slowly may still become the lowest.
   constexpr std::size_t most_refined = 3;
   Minimum best = minima.front();
   for (std::size_t i = 0; i < std::min(minima.size(), most_refined); ++i) {

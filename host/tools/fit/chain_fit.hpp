@@ -23,10 +23,11 @@ struct Chain {
 bool contains(const Unknowns& larger, const Unknowns& smaller);
 
 /// Returns the chain of `unknowns.units` units with the smallest misfit that is reached from chain_starts(). The misfit
-/// is at most that of each chain in `known` that this chain contains. An element without effect then lies at its limit,
-/// where a spring still changes |E*| by at most a fraction of e^-12. `limits`: of all unknowns, shift included.
-/// `shift`: first values of the unknowns of the shift. `tolerance`: relative change of the misfit per step at which the
-/// refinement ends. \throws RunError if no start has a finite misfit.
+/// is at most as large as the misfit of each chain in `known` that this chain contains. An element that the larger
+/// chain does not need then lies at its limit. A spring at its limit changes |E*| by at most a fraction of e^-12.
+/// `limits`: limits of all unknowns, including the unknowns of the shift. `shift`: first values of the unknowns of the
+/// shift. `tolerance`: relative change of the misfit per step at which the refinement ends. \throws RunError if no
+/// start has a finite misfit.
 Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
                   const std::vector<double>& shift, const std::vector<const Chain*>& known,
                   double tolerance = to_rounding);

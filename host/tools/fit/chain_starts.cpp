@@ -103,8 +103,8 @@ std::vector<double> merged(Linear grid, std::size_t count) {
   return out;
 }
 
-/// Returns θ for given compliances. A compliance of zero becomes a very stiff spring. It hardly changes the curve, and
-/// the refinement can still make it softer.
+/// Returns θ for given compliances. A compliance of zero becomes a very stiff spring. Such a spring hardly changes the
+/// curve, and the refinement can still make it softer.
 std::vector<double> theta_of(const Unknowns& unknowns, const Linear& linear, const std::vector<double>& shift,
                              const Reduced& at) {
   double sum = linear.spring;
@@ -183,8 +183,8 @@ class Starts {
   /// Returns whether the reduced frequencies are plausible: within 60 decades.
   static bool is_sensible(const Reduced& at) { return at.lowest > 0 && at.highest / at.lowest < 1e60; }
 
-  /// Returns retardation times whose addition lowers the linear misfit more than the neighbouring times of a grid, the
-  /// best one first.
+  /// Returns the times of a grid that, added to the retardation times, lower the linear misfit more than their
+  /// neighbours in the grid; the best time comes first.
   std::vector<double> places_for_one(std::vector<double> tau, const Reduced& at) const {
     const std::vector<double> grid = spaced(0.1 / at.highest, 10 / at.lowest, grid_points(at, 2));
     std::vector<double> misfit;

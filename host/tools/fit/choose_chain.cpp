@@ -76,7 +76,8 @@ class ChainSeries {
       if (const auto found = chains.find({of_units, of_flow}); found != chains.end()) starts.push_back(&found->second);
     };
     add(chains_, units - 1, flow);
-    add(chains_, flow ? units : units - 1, !flow);  // a dashpot is nearly a unit with a long retardation time
+    // a chain with a dashpot is close to a chain with one more unit, whose retardation time is long
+    add(chains_, flow ? units : units - 1, !flow);
     for (const Chains& chains : known) add(chains, units, flow);
     const auto limits = joined(chain_limits(u, problem_.targets, shift_), shift_limits(u, problem_.temperatures));
     Chain chain{u, {}};

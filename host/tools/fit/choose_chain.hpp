@@ -8,9 +8,10 @@
 namespace macadam::fitting {
 
 /// Fits the chains that the options of `fit` request, and adds them to `fit.candidates`. A chain also starts from the
-/// smaller chains that it contains, so its misfit is at most as large as theirs. Returns the chain with the smallest
-/// criterion among those without a parameter at its limits, or among all chains if each has one; its number is stored
-/// in `fit.chosen`. \throws InputError when there are fewer measured numbers than the smallest chain needs.
+/// smaller chains that it contains, so its misfit is at most as large as the misfits of the smaller chains. Returns the
+/// chain with the smallest criterion among those without a parameter at its limits, or among all chains if each has
+/// one; its number is stored in `fit.chosen`. \throws InputError when there are fewer measured numbers than the
+/// smallest chain needs.
 Chain choose_chain(const Problem& problem, const ModulusData& data, Fit& fit);
 
 }  // namespace macadam::fitting

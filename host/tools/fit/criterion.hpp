@@ -22,11 +22,11 @@ inline bool enough(std::size_t numbers, std::size_t parameters, Criterion criter
   return numbers >= parameters + (criterion == Criterion::aicc ? 3 : 1);
 }
 
-/// Returns −2·ln(likelihood) + penalty, for normal errors of known (`deviations`) or unknown size:
-/// AICc = … + 2p + 2p(p + 1)/(n − p − 1) (Hurvich and Tsai), BIC = … + p·ln n (Schwarz).
+/// Returns −2·ln(likelihood) + penalty, for normally distributed errors whose size is known (if `deviations`) or
+/// unknown: AICc = … + 2p + 2p(p + 1)/(n − p − 1) (Hurvich and Tsai), BIC = … + p·ln n (Schwarz).
 inline double criterion(Criterion kind, double misfit, std::size_t numbers, std::size_t parameters, bool deviations) {
-  // A misfit of 1e-16 per entry is an error of 1e-8 standard deviations. Smaller misfits are rounding errors and carry
-  // no information.
+  // A misfit of 1e-16 per measured number corresponds to errors of 1e-8 standard deviations. Smaller misfits are
+  // rounding errors and carry no information.
   constexpr double rounding = 1e-16;
   const auto n = static_cast<double>(numbers);
   const double p = counted(parameters, deviations);

@@ -152,9 +152,9 @@ double robust_deviation(std::vector<double> values) {
 }
 
 /// Warns of measurements that lie more than five standard deviations off the fit. Among 20,000 normally distributed
-/// errors, one is this large with a probability of 1 %. The standard deviation is the larger of two: the standard
-/// deviation of the data (or the assumed one), and the standard deviation of all differences, which is large if the
-/// model misses the whole curve.
+/// errors, one is this large with a probability of 1 %. The standard deviation is the larger of two: the given or
+/// assumed standard deviation of the data, and the standard deviation of all differences from the fit. The latter is
+/// large if the model misses the whole curve.
 void warn_of_outliers(const Problem& problem, Fit& fit) {
   constexpr double far_off = 5;
   constexpr std::size_t most_named = 3;
@@ -212,7 +212,8 @@ Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   Chain fitted = fit_any(problem, data, fit);
   move_reference(problem, data, fitted);
   // A free shift has one factor per isotherm. The isotherm of the reference temperature is then named by the
-  // temperature that the user gives, which may differ by tenths of a kelvin from the mean of its readings.
+  // temperature that the user gives. This temperature may differ by tenths of a kelvin from the mean of the isotherm's
+  // readings.
   if (options.shift == ShiftKind::free) problem.temperatures[problem.wanted_isotherm] = problem.wanted_reference;
   sort_units(fitted.unknowns, fitted.minimum.theta);
   if (options.model == FitModel::kelvin) {

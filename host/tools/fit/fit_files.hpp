@@ -22,7 +22,7 @@ std::string fit_csv(const Fit& fit);
 /// sides.
 std::string curve_csv(const Fit& fit);
 
-/// Returns a line that names the columns of the data that were not used; empty if all are used.
+/// Returns a line that names the unused columns of the data; empty if all columns were used.
 std::string unused_columns_text(const ModulusData& data);
 
 /// Returns candidates, parameters and errors as text for people.

@@ -13,14 +13,14 @@ struct Isotherm {
   double lowest = 0, highest = 0;  ///< smallest and largest reading [°C]
 };
 
-/// Readings that differ by at most this from the next one belong to one isotherm [K]. Temperature chambers hold a few
-/// tenths of a kelvin, and test temperatures lie some kelvins apart.
+/// Consecutive readings, in ascending order, belong to one isotherm if they differ by at most this [K]. Temperature
+/// chambers hold a few tenths of a kelvin, and test temperatures lie some kelvins apart.
 inline constexpr double same_isotherm = 0.5;
 /// Largest difference between the readings of one isotherm [K].
 inline constexpr double widest_isotherm = 1;
 
-/// Returns the isotherms of readings, which may be in any order; isotherms ascend. Readings that follow each other
-/// closely over more than `widest_isotherm`, as in a temperature ramp, are divided into pieces of that width.
+/// Returns the isotherms of readings, which may be in any order; isotherms ascend. If closely spaced readings cover
+/// more than `widest_isotherm`, as in a temperature ramp, they are divided into isotherms of that width.
 std::vector<Isotherm> isotherms_of(std::vector<double> readings);
 
 /// Returns the number of the isotherm whose readings are nearest to a temperature.

@@ -43,8 +43,8 @@ const LaboratoryColumn* find_column(std::string_view name);
 /// rad_s.
 std::string unit_suffix(std::string_view cell);
 
-/// Returns what a message expects in place of `value` [SI], with the unit, if the value is impossible for the quantity
-/// of the column; empty if it is possible.
+/// Returns the expected range as text for a message, with its unit, if `value` [SI] is impossible for the quantity of
+/// the column. Returns an empty text if the value is possible.
 std::string expected_of(const LaboratoryColumn& column, double value);
 
 }  // namespace macadam::fitting

@@ -55,8 +55,9 @@ struct Prediction {
 std::vector<Prediction> predict(const Unknowns& unknowns, const std::vector<Place>& places,
                                 const std::vector<double>& theta);
 
-/// The covariance (JᵀJ)⁻¹ of the residuals at θ, row by row. It leaves out directions in θ that the data do not
-/// determine at all; `undetermined` marks the unknowns of such a direction.
+/// The covariance (JᵀJ)⁻¹ of the unknowns θ, row by row; J holds the derivatives of the residuals by θ. Directions in θ
+/// that the data do not determine at all are left out of the covariance; `undetermined` marks the unknowns of such a
+/// direction.
 struct Covariance {
   std::vector<double> matrix;
   std::vector<bool> undetermined;

@@ -25,8 +25,8 @@ struct Problem {
 /// Returns the problem. \throws InputError when measurements or options are invalid or do not determine the shift.
 Problem make_problem(const ModulusData& data, const FitOptions& options);
 
-/// Returns the shift laws that are special cases of the problem's shift and that the temperatures determine, each law
-/// after those that it contains. WLF contains Arrhenius, and a free shift contains both.
+/// Returns the special cases of the problem's shift law, as far as the temperatures determine them. Each law follows
+/// the laws that it contains. WLF contains Arrhenius, and a free shift contains both.
 std::vector<ShiftKind> contained_shift_laws(const Problem& problem);
 
 }  // namespace macadam::fitting

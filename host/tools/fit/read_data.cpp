@@ -20,7 +20,7 @@ namespace fitting {
 namespace {
 
 constexpr std::size_t most_points = 10'000;  // because the least-squares matrices are dense
-/// Largest number of letters by which a name may differ from a known one to be reported as a misspelling of it.
+/// A column name that differs from a known name by at most this number of letters is reported as a misspelling.
 constexpr std::size_t misspelt = 2;
 
 /// Reads the measurements from one table.
@@ -45,7 +45,7 @@ class DataReader {
       complaints_.add(0, "measurements", fmt::format("{}", table_.rows.size()), fmt::format("at most {}", most_points));
       complaints_.throw_if_any();
     }
-    ModulusData sound = data_;  // the measurements without complaints
+    ModulusData sound = data_;  // the measurements in which no fault was found
     for (const LaboratoryTable::Row& row : table_.rows) {
       const std::size_t before = complaints_.count();
       add_point(row);
@@ -150,7 +150,7 @@ class DataReader {
                        expected);
   }
 
-  /// Decides whether the standard deviations are used, and gives them their units.
+  /// Decides whether the columns of standard deviations are used, and assigns units to them.
   void choose_deviations() {
     using enum Quantity;
     if (has(deviation_ == e_star_std ? g_star_std : e_star_std))
@@ -161,7 +161,7 @@ class DataReader {
     if (!data_.deviations && (modulus || angle))
       complain_of_header(modulus ? "the standard deviation of the modulus alone" : "phase_std alone",
                          "standard deviations of both modulus and phase, or of none");
-    // a deviation has the unit of the column that it belongs to
+    // a standard deviation has the unit of the column whose values it belongs to
     const auto take_unit = [&](Quantity of, Quantity from) {
       if (!has(of) || !has(from)) return;
       LaboratoryColumn& column = used_.at(of).column;

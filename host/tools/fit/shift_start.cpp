@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shift_start.cpp  Moves isotherms onto each other, and fits the shift law to the distances.
+// shift_start.cpp  Moves the curves of |E*| at different temperatures onto each other along the frequency axis, and
+// fits the shift law to these shifts.
 #include "host/tools/fit/shift_start.hpp"
 
 #include <Eigen/Dense>
@@ -45,8 +46,9 @@ std::vector<double> master_curve_shift(const std::vector<Target>& targets, const
   for (Curve& curve : curves) std::sort(curve.begin(), curve.end());
   std::vector<double> out{0};
   // `usual`: decades per kelvin of a usual binder at room temperature, for flat curves. `largest_rate`: more decades
-  // per kelvin than any polymer has; without this limit, flat curves far apart would be laid thousands of decades
-  // apart. `range`: limit of all steps together [decades], so that every a_T is within the range of a double.
+  // per kelvin than any polymer has; without this limit, nearly flat curves with different moduli would be shifted by
+  // thousands of decades. `range`: limit of all steps together [decades], so that every a_T is within the range of a
+  // double.
   constexpr double usual = 0.1, largest_rate = 1, range = 150;
   for (std::size_t i = 1; i < curves.size(); ++i) {
     const double kelvins = temperatures[i] - temperatures[i - 1];

@@ -8,9 +8,9 @@
 
 namespace macadam::fitting {
 
-/// Returns first values for the unknowns of the shift. They move the curves of |E*| at neighbouring temperatures by
-/// their mean distance along the frequency axis, so that the curves lie on each other. `temperatures` [°C] ascend;
-/// Place::isotherm is an index into them.
+/// Returns first values for the unknowns of the shift. With these values the curves of |E*| at neighbouring
+/// temperatures are moved along the frequency axis by their mean distance, so that the curves lie on each other.
+/// `temperatures` [°C] ascend; Place::isotherm is an index into them.
 std::vector<double> start_shift(const Unknowns& unknowns, const std::vector<Target>& targets,
                                 const std::vector<double>& temperatures);
 

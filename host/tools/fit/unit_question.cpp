@@ -16,9 +16,9 @@ namespace {
 constexpr double stiffest_solid = 2e12;
 /// Returns the modulus, |E*| or |G*| [Pa], below which the user is asked about the unit. `phase_deg` is the phase of
 /// the stiffest measurement of the file. For bitumen, mastics, mixtures and other polymers this measurement is 1e8 Pa
-/// or more at phases below 10 degrees (below the glass transition), 1e6 Pa or more below 45 degrees, and less for
-/// larger phases, which are those of fluids. Rubber, gels and hot oils are softer. Their moduli can be given in kPa or
-/// MPa, which are not questioned.
+/// or more if its phase is below 10 degrees (below the glass transition), and 1e6 Pa or more if its phase is below 45
+/// degrees. Fluids have larger phases and smaller moduli. Rubber, gels and hot oils are softer. Their moduli can be
+/// given in kPa or MPa, which are not questioned.
 double smallest_modulus(double phase_deg) {
   if (phase_deg < 10) return 1e8;
   if (phase_deg < 45) return 1e6;
@@ -41,7 +41,7 @@ void ask_about_moduli(const ModulusData& data, const ColumnsRead& columns, Compl
     complaints.add(0, "column " + column, fmt::format("moduli of up to {:.3g} Pa", high),
                    "less than 2e12 Pa; the moduli may be in another unit than the name of the column says");
   }
-  const double phase = data.phases ? stiffest->phase_deg : 44;  // without phases the material is taken for a solid
+  const double phase = data.phases ? stiffest->phase_deg : 44;  // without phases, the limit for solids applies
   const double smallest = smallest_modulus(phase);
   if (!column.ends_with("_pa") || high >= smallest) return;
   complaints.add(0, "column " + column,
@@ -67,13 +67,14 @@ bool moduli_contradict_phases(const ModulusData& data) {
     if (!(fast->frequency_hz >= 2 * slow->frequency_hz)) continue;
     const double slope =
         std::log(fast->e_star_pa / slow->e_star_pa) / std::log(fast->frequency_hz / slow->frequency_hz);
-    // the lower limit is 5 degrees, which a scatter of the moduli of some per cent does not reach
+    // `90 * slope` is the expected phase; scatter of the moduli by some per cent does not raise it above 5 degrees
     if (90 * slope > std::max(5.0, 10 * std::max(slow->phase_deg, fast->phase_deg))) return true;
   }
   const auto less = [](const ModulusPoint& a, const ModulusPoint& b) { return a.e_star_pa < b.e_star_pa; };
   const auto [softest, stiffest] = std::minmax_element(data.points.begin(), data.points.end(), less);
-  // If phases this small are in degrees, the material is nearly elastic at any temperature and frequency, so its moduli
-  // hardly differ.
+  // The phases are at most 1.66. If they were in degrees, the material would be nearly elastic at every temperature and
+  // frequency, and its moduli would hardly differ. So moduli that differ by more than a factor of two contradict the
+  // phases.
   return stiffest->e_star_pa > 2 * softest->e_star_pa;
 }
 

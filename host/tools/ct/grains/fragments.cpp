@@ -9,7 +9,8 @@
 namespace macadam::ct {
 namespace {
 
-/// Union-find of basins: for each basin the one into which it was merged, and its largest distance (peak).
+/// Union-find of basins. Stores for each basin the basin into which it was merged, and its peak (its largest distance
+/// from the surface).
 class Joined {
  public:
   std::uint32_t add(float peak) {

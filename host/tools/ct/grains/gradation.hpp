@@ -10,13 +10,13 @@
 namespace macadam::ct {
 
 /// Returns the fraction of a laboratory's gradation below `size` [m], interpolated linearly over the logarithm of the
-/// size between its sieves; below the smallest sieve it is proportional to the size. With `from` [m], returns the
-/// fraction of the part that is larger than `from`.
+/// size between its sieves. Below the smallest sieve the fraction is proportional to the size. With `from` [m], returns
+/// the fraction of the part that is larger than `from`.
 double passing_at(const std::vector<SievePassing>& gradation, double size, double from = 0);
 
 /// Returns a table of the fraction of the grains' volume that passes each sieve, by D^I and by the square mesh. If a
-/// laboratory's gradation is given, the table also has this gradation: in full, and for the part above half of
-/// `smallest` [m], which is the part that a scan can show.
+/// laboratory's gradation is given, the table also has this gradation: in full, and for sizes above half of `smallest`
+/// [m], because a scan does not show smaller grains.
 std::string gradation_csv(const std::vector<ScannedGrain>& grains, const std::vector<SievePassing>& laboratory = {},
                           double smallest = 0);
 

@@ -43,8 +43,8 @@ void even_out(Image<float>& field);
 /// Makes the values at the ends of a field negative, so that its isosurface is closed.
 void close_ends(Image<float>& field);
 
-/// Returns the grain's surface with few facets. It gets more facets if it would intersect itself or be farther than
-/// `error` [m] from the fine surface, and is repaired if it still intersects itself.
+/// Returns the grain's surface with few facets. The surface gets more facets if it would intersect itself or be farther
+/// than `error` [m] from the fine surface. If it still intersects itself, it is repaired.
 Simplified fit_surface(const Surface& fine, const SegmentOptions& options, double error);
 
 }  // namespace macadam::ct

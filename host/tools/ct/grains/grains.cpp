@@ -146,7 +146,8 @@ class Groups {
 
 }  // namespace
 
-// Neck, solidity and valley count relative to 0.8, 0.93 and 0.85, values at which they favour neither a cut nor a join.
+// The measures neck, solidity and valley are compared with 0.8, 0.93 and 0.85. At these values the measures favour
+// neither a cut nor a join.
 double margin_of(double neck, double solidity, double valley) {
   const double score = 4 * (0.8 - neck) + 20 * (0.93 - solidity) + 6 * (0.85 - valley);
   return std::tanh(0.5 * score);

@@ -15,7 +15,7 @@ Surface isosurface(const Image<float>& field);
 /// A surface with fewer facets.
 struct Simplified {
   Surface surface;
-  double error = 0;  ///< largest distance of the original surface's points from it [m]
+  double error = 0;  ///< largest distance of the original surface's points from `surface` [m]
 };
 
 /// Returns a surface of about `facets` facets. If points of the original surface are farther than `error` [m] from this

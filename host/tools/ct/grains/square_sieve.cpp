@@ -21,11 +21,11 @@ struct Flat {
   double x, y;
 };
 
-/// Returns the side of the smallest square around a convex outline in a plane. It tries 90 orientations of the square,
-/// one degree apart. The side is the larger of the outline's two widths along the axes of the square. While the square
-/// turns, each width follows a sine between two orientations at which an edge of the outline lies along the square. So
-/// the larger width is smallest at such an orientation, or where both widths are equal. Steps of one degree find this
-/// minimum to a thousandth.
+/// Returns the side of the smallest square around a convex outline in a plane. The function tries 90 orientations of
+/// the square, one degree apart. The side is the larger of the outline's two widths along the axes of the square. While
+/// the square turns, each width follows a sine between two orientations at which an edge of the outline lies along the
+/// square. So the larger width is smallest at such an orientation, or where both widths are equal. Steps of one degree
+/// find this minimum to a thousandth.
 double square_around(const std::vector<Flat>& outline) {
   static const std::vector<Flat> turns = [] {
     std::vector<Flat> out;

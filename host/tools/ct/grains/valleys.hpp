@@ -7,8 +7,8 @@
 namespace macadam::ct {
 
 /// Returns the labels of the grains on the grid of the fragments; `grain` gives the grain of each fragment. The
-/// watershed of distances cuts at the narrowest place of the aggregate, which is not always where two grains touch: a
-/// thin edge of grain A along the side of grain B may be nearer to the middle of B and be assigned to B. Therefore
+/// watershed of distances cuts at the narrowest place of the aggregate. Two grains do not always touch there: a thin
+/// edge of grain A along the side of grain B may be nearer to the middle of B, and then it is assigned to B. Therefore
 /// voxels less than `depth` [m] below a cut or a surface are assigned again, each to the grain that is reached through
 /// the least mastic (`grey` is 0 for mastic and 1 for aggregate). If no mastic is visible, a cut moves by about a voxel
 /// at most. With a depth of 0 all cuts stay.

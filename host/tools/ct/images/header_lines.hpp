@@ -32,7 +32,7 @@ class HeaderLines {
 
   /// Returns the next line without its line end, or nothing after the last line. \throws InputError for a line of
   /// 65,536 bytes or more, and for zero bytes or carriage returns inside a line, because ITK would end lines or values
-  /// there and this class would not.
+  /// at such bytes, and this class would not.
   std::optional<std::string> next();
   /// \throws InputError that names the line read last.
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const;

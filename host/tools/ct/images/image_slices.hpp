@@ -25,8 +25,8 @@ class ImageSlices {
   const std::filesystem::path& voxel_file() const { return voxels_; }
   /// Whether some slices can be read without the others. If not, all voxels stay in memory after the first read.
   virtual bool apart() const = 0;
-  /// Reads slices [first, first + count) and converts them to T. \throws InputError that names the first voxel that T
-  /// cannot hold or that is not finite.
+  /// Reads slices [first, first + count) and converts them to T. \throws InputError naming the first voxel whose value
+  /// is not finite or does not fit into T.
   template <class T>
   void read(std::int64_t first, std::int64_t count, T* to);
 

@@ -37,8 +37,8 @@ itk::ImageIOBase::Pointer io_of(const fs::path& path) {
 
 namespace {
 
-/// Redirects std::cout and std::cerr into a text during the lifetime of the object. This is needed because MetaIO only
-/// prints its errors and then continues.
+/// Redirects std::cout and std::cerr into a text during the lifetime of the object. The text is needed because MetaIO
+/// only prints its errors and then continues.
 class Overheard {
  public:
   Overheard() : out_(std::cout.rdbuf(text_.rdbuf())), error_(std::cerr.rdbuf(text_.rdbuf())) {}

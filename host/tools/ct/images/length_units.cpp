@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// length_units.cpp  Accepts singular and plural names, in American and British spelling.
+// length_units.cpp  Recognises names of length units: singular and plural, in American and British spelling.
 #include "host/tools/ct/images/length_units.hpp"
 
 #include <algorithm>

@@ -43,8 +43,8 @@ void check(const HeaderLines& lines, std::string_view key, std::string_view valu
     lines.refuse(fmt::format("{} of {} bytes", key, value.size()), fmt::format("{} at the most", copied));
   // compared as text: ITK would accept 3e9 as a number, which is too large for its arrays
   if (key == "NDims" && value != "2" && value != "3") lines.refuse(key, value, "two or three dimensions");
-  // If ITK reads only some slices of voxels that are text, it reads one number for each byte that binary voxels would
-  // have.
+  // If the voxels are written as text and only some slices are read, ITK reads a wrong amount: one number for each byte
+  // that binary voxels would have.
   if (key == "BinaryData" && !value.starts_with('T') && !value.starts_with('t') && !value.starts_with('1'))
     lines.refuse(key, value, "True: voxels that are text are not read");
 }

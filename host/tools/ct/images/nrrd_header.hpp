@@ -7,9 +7,9 @@
 namespace macadam::ct {
 
 /// Checks an NRRD header and returns the file of the voxels and the unit of lengths (`space units` or `units`). The
-/// check is needed because of four faults of ITK. It keeps only 32 bits of a size, but its NRRD reader allocates memory
-/// for the full size. It waits for ever for a path that is not a regular file. It passes file name patterns to printf.
-/// It ignores units. \throws InputError that names the line.
+/// check is needed because of four faults of ITK. ITK keeps only 32 bits of a size, but its NRRD reader allocates
+/// memory for the full size. ITK waits for ever if a path is not a regular file. ITK passes file name patterns to
+/// printf. ITK ignores units. \throws InputError that names the line.
 HeaderFacts check_nrrd_header(const std::filesystem::path& file);
 
 }  // namespace macadam::ct

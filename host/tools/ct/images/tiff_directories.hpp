@@ -21,11 +21,11 @@ struct TiffPages {
 };
 
 /// Checks a TIFF file before ITK reads it, and returns the facts in its directories. The check is needed because ITK
-/// and its libtiff trust such files too much. libtiff follows a chain of directories that returns to itself for ever,
-/// and allocates memory for the number of values that a tag claims before it checks that the file holds them. ITK reads
-/// texts of unknown tags beyond their end, takes the size and type of all slices from the first page, and does not
-/// report voxels that it cannot read.
-/// A file that is not a TIFF is not checked; ITK reports it.
+/// and its libtiff trust such files too much. If a chain of directories returns to itself, libtiff follows the chain
+/// for ever. libtiff also allocates memory for as many values as a tag claims to have, before it checks that the file
+/// holds these values. ITK reads texts of unknown tags beyond their end, takes the size and type of all slices from the
+/// first page, and does not report voxels that it cannot read. A file that is not a TIFF is not checked; ITK reports
+/// it.
 /// \throws InputError for a chain of directories that returns to itself or points outside the file, tags with more
 /// values than the file has bytes, a text without a final 0, a known text tag of another type, colours, tiles, voxels
 /// other than whole numbers of 8 or 16 bits or floats of 32, inverted floats, pages that differ, and stacks of ImageJ

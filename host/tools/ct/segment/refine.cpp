@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// refine.cpp  Reads the file slab by slab and adds each slab to the nodes of the grains that it intersects. A grain is
-// finished when its last slab has been read.
+// refine.cpp  Reads the file slab by slab and adds each slab to the nodes of the grains that it intersects. A
+// grain's surface is made when the last slab that intersects the grain has been read.
 #include "host/tools/ct/segment/refine.hpp"
 
 #include "host/tools/ct/voxels/smoothing.hpp"

@@ -109,8 +109,8 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   const Image<float> distance = distance_inside(inside);
   const Fragments fragments = flood(distance, solid, 0.95);
   Decision decision = options.cuts ? decide(fragments, *options.cuts) : decide(fragments);
-  // With `refine`, the scan consists of block means. These do not show gaps thinner than a block, so the cuts stay
-  // where the watershed put them.
+  // With `refine`, the scan consists of block means. Block means do not show gaps thinner than a block, so the cuts
+  // stay where the watershed put them.
   const double depth = refine ? 0 : options.smallest / 4;
   const Image<std::uint32_t> parted = cut_along_valleys(fragments, decision.grain, solid, depth);
   out.labels = spread(out.phases, parted, edge);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // phantom.cpp  Makes a phantom: generates a specimen with the surfaces of its aggregates, saws it, converts it to
-// voxels, and adds the faults of a scanner. The truth is kept with it.
+// voxels, and adds the faults of a scanner. The true grains and phases are kept with the scan.
 #include "macadam/phantom.hpp"
 
 #include <fmt/format.h>

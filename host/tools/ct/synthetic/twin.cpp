@@ -138,9 +138,9 @@ Cut cut_out(const fs::path& folder, const TwinSpec& spec) {
   return out;
 }
 
-/// Returns the spheres of a grain in the frame of the box. They fill its surface; spheres whose centres are outside the
-/// box or closer to its sides than a tenth of their radius are left out. A grain without a surface file, or in a scene
-/// without shapes, becomes one sphere of its volume in the box.
+/// Returns the spheres of a grain in the frame of the box. The spheres fill the grain's surface; spheres whose centres
+/// are outside the box or closer to its sides than a tenth of their radius are left out. A grain without a surface
+/// file, or in a scene without shapes, becomes one sphere of its volume in the box.
 MultiSphere spheres_of(std::uint32_t id, const Part& part, const Cut& cut, const fs::path& folder,
                        const SpecimenSpec& how, std::uint64_t seed) {
   fs::path file = folder / ct::whole_grains / ct::surface_file(id);
@@ -173,9 +173,9 @@ std::function<bool(const Vec3d&)> taken_in(const Cut& cut) {
   };
 }
 
-/// Removes particles that contacts do not connect to both the bottom and the top wall, such as mastic enclosed by
-/// voids: they carry no load, and their motion would be undetermined. Their space goes to the voids and cells around
-/// them. Returns the numbers of removed particles of mastic and of other phases.
+/// Removes particles that no path of contacts joins to both the bottom and the top wall, such as mastic enclosed by
+/// voids. These particles carry no load, and their motion would be undetermined. Their space goes to the voids and
+/// cells around them. Returns the numbers of removed particles of mastic and of other phases.
 std::array<std::int64_t, 2> remove_hanging(Specimen& s, const NetworkSpec& spec) {
   std::array<std::int64_t, 2> out{};
   // repeats, because a cell that grows into the freed space may lose another contact

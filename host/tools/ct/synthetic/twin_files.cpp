@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// twin_files.cpp  Writes the folder of a twin: a scene that can be run, the specimen, and its numbers.
+// twin_files.cpp  Writes the folder of a twin: a scene that can be run, the specimen, and twin.json with counts and
+// volume fractions.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -144,7 +144,8 @@ double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, Cor
 }
 
 // The brightness of each ring, one voxel wide in radius, is compared with the median of the rings up to 8 voxels away.
-// The median follows smooth changes, which belong to beam hardening; the difference is the ring's offset.
+// The median follows smooth changes, which are due to beam hardening; the difference from the median is the ring's
+// offset.
 double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const auto [means, inside] = means_of_blocks(scan, region, {1, 1, 3});

@@ -22,8 +22,8 @@ struct CorrectionStep {
 };
 using CorrectionSteps = std::vector<CorrectionStep>;
 
-/// The functions below correct the scan in place, append the correction to `steps` if it is given, and return its size
-/// as a fraction of the contrast between mastic and aggregate.
+/// The functions below correct the scan in place, and append the correction to `steps` if `steps` is given. They return
+/// the size of the correction as a fraction of the contrast between mastic and aggregate.
 ///
 /// Gives every slice the grey levels of the whole scan. Returns the root mean square over the slices.
 double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps = nullptr);

@@ -201,8 +201,9 @@ GreyLevels fit_levels(const Histogram& h) {
   return levels;
 }
 
-// Repeats two steps: one iteration of expectation maximisation, whose means move freely; then the means are replaced by
-// the whole scan's levels, shifted by the one brightness that fits them best (least squares).
+// Repeats two steps: first one iteration of expectation maximisation, in which each mean moves freely. Then the means
+// are replaced by the levels of the whole scan, shifted by the brightness with which the shifted levels fit the means
+// best (least squares).
 PartLevel level_of_part(const Histogram& h, const GreyLevels& whole) {
   const auto total = static_cast<double>(h.total());
   if (total < 200) return {};

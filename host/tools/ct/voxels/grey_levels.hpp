@@ -38,9 +38,9 @@ double otsu(const Histogram& histogram, std::size_t from, std::size_t to);
 GreyLevels fit_levels(const Histogram& histogram);
 
 /// Difference in brightness between a part of the scan and the whole scan. A level of the whole scan becomes air + (1 +
-/// brighter)·(level − air) in the part, or level + brighter·contrast if the scan has no air. It is a single number
-/// because a part may hold little of one phase. The fractions of the phases are fitted too, so the composition of the
-/// part does not affect the result.
+/// brighter)·(level − air) in the part, or level + brighter·contrast if the scan has no air. The difference is a single
+/// number because a part may hold little of one phase. The fractions of the phases are fitted too, so the composition
+/// of the part does not affect the result.
 struct PartLevel {
   double brighter = 0;
   double weight = 0;  ///< number of voxels on which the value is based; 0: too few

@@ -88,8 +88,8 @@ void check_ends(const Image<std::uint8_t>& region, std::vector<std::string>& war
 }
 
 void check_rings(const Image<float>& scan, const Image<std::uint8_t>& region) {
-  // In a scan without rings, this fraction of the variance of the grey values is a few per cent: a ring of a few
-  // voxels' width crosses many grains, so the grey values in it average out.
+  // In a scan without rings, this fraction of the variance of the grey values is a few per cent. A ring of a few
+  // voxels' width crosses many grains, so the mean grey values of all rings are nearly equal.
   constexpr double most = 0.15;
   if (const double share = ring_share(scan, region); share > most) {
     throw InputError("the scan", 0, "rings",

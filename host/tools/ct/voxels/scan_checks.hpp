@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scan_checks.hpp  Checks whether a scan and its segmentation are plausible. A check throws if nothing can be
-/// determined. It warns and lowers the confidence if a person should look at the scan.
+/// \file scan_checks.hpp  Checks whether a scan and its segmentation are plausible. A check throws if nothing can
+/// be determined. A check warns and lowers the confidence if a person should look at the scan.
 #pragma once
 
 #include "host/tools/ct/voxels/grey_levels.hpp"

@@ -7,7 +7,7 @@
 namespace macadam::ct {
 
 /// Smooths by edge-preserving diffusion (Perona and Malik): grey value differences below `edge` are smoothed, larger
-/// ones remain. `rounds` is the number of steps. Not ITK's filter, because that takes twenty times as long.
+/// ones remain. `rounds` is the number of steps. ITK's filter is not used, because it takes twenty times as long.
 void diffuse(Image<float>& image, double edge, int rounds);
 
 /// Replaces each voxel by the median of 3 × 3 × 3 voxels, computed by ITK.
