@@ -41,8 +41,8 @@ struct Case {
   double deviation;     ///< the larger of the standard deviations of gauge and walls among the seeds [Pa]
   unsigned seeds;  ///< number of seeds used here; a coarse cube takes a tenth of the time of a fine one, and its moduli
                    ///< scatter three times as much
-  double contact_modulus;  ///< contact modulus that gives the cube the rock's 60 GPa; the modulus of [1] if that one
-                           ///< does [Pa]
+  double contact_modulus;  ///< contact modulus [Pa] with which the cube has the rock's modulus of 60 GPa. It is the
+                           ///< contact modulus of [1] if the cube has 60 GPa with that one.
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.spheres->name << ", " << to_string(c.filling); }

@@ -207,7 +207,7 @@ TEST_P(Iterative, BeginsAtASolutionAndStaysThere) {
   const HarmonicLoad there{.frequency_hz = 20, .near = &found.motion};
   const HarmonicResult again = solve(scene, LinearMethod::iterative, {there}, 1e-5)[0];
   EXPECT_EQ(again.iterations, 0);
-  double apart = 0;  // rounding when the free motions are removed from the starting point
+  double apart = 0;  // largest difference, from rounding when free motions are removed from the starting point
   for (std::size_t i = 0; i < found.motion.size(); ++i) {
     apart = std::max(apart, std::abs(again.motion[i] - found.motion[i]));
   }

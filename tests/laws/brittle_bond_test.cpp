@@ -183,7 +183,7 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   reference->advance(steps);
   stepper->advance(steps / 3);
   stepper->advance(steps - steps / 3);
-  // Same tolerance as StepperAgainstReference::tolerance().
+  // This is the tolerance of StepperAgainstReference::tolerance().
   const double tolerance =
       (own.precision == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24) * static_cast<double>(steps);
   const ParticleState want = reference->particles(), have = stepper->particles();
@@ -202,7 +202,7 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   EXPECT_LT(broken, points * 19 / 20);
 }
 
-// A breaking bond acts on both particles equally and oppositely, so without walls the momentum is conserved.
+// A breaking bond exerts equal and opposite forces on its two particles, so without walls the momentum is conserved.
 TEST_P(BrittleBond, FreeAssembliesKeepTheirMomentum) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;

@@ -258,7 +258,8 @@ TEST(ElasticLimit, AChainWithoutDashpotsIsTheElasticLaw) {
   for (int k = 0; k < 1000; ++k) {
     const double dx = increment(random);
     spring.advance(dx), bare.advance(dx), slow.advance(dx);
-    // A thousand roundings of forces below 1e2·E. Dashpots of 1e30 move by 1e-21 of the displacement per second.
+    // The tolerance covers a thousand roundings of forces below 1e2·E. The dashpots with a viscosity of 1e30 move per
+    // second by only 1e-21 of the displacement.
     ASSERT_NEAR(bare.force(), spring.force(), 1e-11 * 2.0e9);
     ASSERT_NEAR(slow.force(), spring.force(), 1e-11 * 2.0e9);
   }

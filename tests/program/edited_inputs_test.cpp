@@ -57,7 +57,7 @@ std::string run_of(const fs::path& file) {
                            fmt::join(f.files, " "));
 }
 
-/// Returns the number of rows. For each column, also returns the sum of its numbers, each multiplied by its position.
+/// Returns the number of rows and, for each column, the sum of its numbers, each multiplied by the position of its row.
 std::string sums_of(std::size_t rows, const std::vector<std::vector<double>>& columns) {
   std::string out = fmt::format("{}:", rows);
   for (const std::vector<double>& column : columns) {

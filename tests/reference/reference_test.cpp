@@ -188,8 +188,8 @@ TEST(Reference, TheTopWallFollowsItsLoading) {
     const Observation seen = stepper->observe();
     EXPECT_EQ(seen.step, 700);
     EXPECT_DOUBLE_EQ(seen.time, 0.35);
-    // During the smooth start the velocity is exact to (2π/1000)² = 4e-5. The displacement keeps the mean of this
-    // error.
+    // During the smooth start the velocity is exact to (2π/1000)² = 4e-5. The relative error of the displacement is the
+    // mean of this error.
     EXPECT_NEAR(seen.top_displacement(), loading.value(700), 1e-5 * loading.amplitude);
     const double stiffness = E * side * side / (side / 2);
     expect_near(seen.wall_force[wall_index(wall_z_hi)], {0, 0, -stiffness * seen.top_displacement()},

@@ -107,7 +107,8 @@ std::vector<Comparison> drift() {
 std::vector<Comparison> all() {
   std::vector<Comparison> out = study();
   for (const Comparison& c : drift()) out.push_back(c);
-  // The full specimen at true mass on a GPU, with about 40 layers of particles, compared with the harmonic solution.
+  // Adds the run of the full specimen at true mass on a GPU, with about 40 layers of particles. It is compared with the
+  // harmonic solution.
   for (const Row& r : committed("whole-tests-h200-2026-11-21.csv")) {
     if (r.at("scene") != "true mass") continue;
     out.push_back({r.at("precision"),

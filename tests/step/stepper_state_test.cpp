@@ -214,7 +214,8 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   struct Use {
     const char* name;
     const StepperOptions* options;
-    /// whether the CPU reuses the stepper; a GPU reuses less of it if the use before or after steps in blocks
+    /// Whether the CPU reuses the stepper. A GPU reuses fewer parts of it if the run before or after takes steps in
+    /// blocks.
     bool kept;
   };
   std::unique_ptr<Stepper> used;

@@ -31,7 +31,7 @@ class Setting:
     replaces: bool = False
 
     def clash(self, other: Setting) -> str:
-        """Returns why the study may not set both; empty if it may."""
+        """Returns why the study may not set both this key and the key of `other`; empty if it may."""
         if self.replaces != other.replaces:
             return ""
         if self.path == other.path:
