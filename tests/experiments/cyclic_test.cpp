@@ -58,8 +58,9 @@ TEST(EvaluateCyclic, SinusoidsAreReadToRounding) {
   }
 }
 
-// Large strains add a second harmonic to the stress. It is not orthogonal to the linear trend. Unless both are fitted
-// together, a second harmonic of amplitude h changes the fundamental by −0.78·h over one cycle.
+// Large strains add a second harmonic to the stress. The second harmonic is not orthogonal to the linear trend that is
+// fitted, so it is fitted too. Otherwise a second harmonic of amplitude h would change the fundamental by −0.78·h over
+// one cycle.
 TEST(EvaluateCyclic, ASecondHarmonicDoesNotLeak) {
   for (const int cycles : {1, 2, 4}) {
     Signal signal;

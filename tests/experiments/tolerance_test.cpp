@@ -151,7 +151,7 @@ bool says(const RunResult& result, const std::string& what) {
 }
 
 // Local damping is not linear, so the run starts with a ramp from rest although the scene asks for a steady start. The
-// result says so.
+// result states the start from rest.
 TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -200,7 +200,7 @@ TEST_F(Tolerance, AMechanismIsAFailedRun) {
   }
 }
 
-// If settings of the scene prevent the run from keeping the tolerance, the result says so.
+// If settings of the scene prevent the run from keeping the tolerance, the result states that the tolerance was missed.
 TEST_F(Tolerance, AMissIsSaid) {
   Scene scene = scene_of(t8(), 1e-3);
   scene.cyclic().frequencies = {20};

@@ -28,7 +28,7 @@ def main():
     soft = cmath.rect(MASTIC, math.radians(PHASE))
     cases = [  # name, arguments, exact modulus, exact Poisson's ratio
         ("homogeneous", ("z", 0.3, MASTIC, PHASE, 0.3), soft, 0.3),
-        ("in parallel", ("x", 0.3, ROCK, 0, 0.3), (soft + ROCK) / 2, 0.3),  # equal lateral strains: the layers do not press on each other
+        ("in parallel", ("x", 0.3, ROCK, 0, 0.3), (soft + ROCK) / 2, 0.3),  # equal lateral strains: no stress between layers
         ("in series", ("z", 0, ROCK, 0, 0), 2 / (1 / soft + 1 / ROCK), 0),
     ]
     wrong = 0

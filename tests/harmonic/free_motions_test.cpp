@@ -82,8 +82,8 @@ std::size_t number_of_free_motions(const TestScene& scene) {
   return found.motions.size();
 }
 
-// A single sphere can rotate about the vertical through its centre. The modulus equals that of the wall contacts, also
-// if the box is not a cube and the sphere is not in its centre.
+// A single sphere can rotate about the vertical through its centre. The modulus equals the modulus of the wall
+// contacts, also if the box is not a cube and the sphere is not in the middle of the box.
 TEST_P(FreeMotions, OneSphere) {
   Specimen s = lattice(1, 1, none);
   expect_by_both(make_scene(s, {}, laws_of(0.1, 0.1, 0.1)), of_wall);

@@ -89,7 +89,7 @@ TEST_P(Iterative, AgreesWithFactorsOnClusters) {
   }
 }
 
-// With almost no shear stiffness, facets still resist bending, but the bending stiffness is much smaller. So the
+// If the shear stiffness is almost zero, facets still resist bending, but the bending stiffness is small too. So the
 // condition number of the matrix and the error of E* are larger.
 TEST_P(Iterative, AgreesWithFactorsAlmostWithoutShear) {
   Laws laws = am1_laws();
@@ -111,7 +111,7 @@ std::vector<std::pair<std::string, TestScene>> hostile_networks() {
   return out;
 }
 
-// On a device (GPU) a whole thread block works on each particle that has so many contacts.
+// Two particles have about a hundred contacts each. On a device (GPU) a whole thread block works on each of them.
 TEST_P(Iterative, AgreesWithFactorsWhereParticlesTouchAHundredOthers) {
   const TestScene scene = make_scene(boulders(test_seed()));
   std::size_t with_many = 0;

@@ -43,7 +43,8 @@ TEST(SurfaceDistance, KnowsInsideFromOutsideAtAReentrantEdge) {
       ASSERT_NEAR(depth, union_of_two, tolerance);
     }
   });
-  // This point is on the bisector of the re-entrant edge, which is its nearest place; the four sides are farther away.
+  // This point is on the bisector of the re-entrant edge. The edge is the nearest part of the surface; the four sides
+  // are farther away.
   EXPECT_NEAR(distance.depth({0.7, 0.7, 0.5}), std::hypot(0.3, 0.3), tolerance);
 }
 

@@ -85,7 +85,7 @@ TEST_P(NeighboursOf, HoldAllThatTouchAfterManyMoves) {
   for (int round = 0; round < 20; ++round) {
     std::vector<std::int32_t> strayed;
     const double step = round % 5 == 4 ? skin : 0.1 * skin;
-    // In some rounds so many spheres move far that several threads make the new lists; in others one thread makes them.
+    // If many spheres move far, several threads make the new lists; if few do, one thread makes them.
     const double share = round % 3 == 2 ? 0.02 : 0.004;
     for (int i = first; i < n; ++i) {
       const bool far = random.uniform() < share;

@@ -96,8 +96,8 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
   for (std::size_t v = 0; v < p.phases.count(); ++v) {
     if (p.phases.voxels[v] == 255) { EXPECT_EQ(p.labels.voxels[v], 0U); }
   }
-  // The expected volume is that of the slab of the sphere between z = 2 and 6 mm over the sawn rectangle, by numerical
-  // integration over columns.
+  // The expected volume is the volume of the sphere between z = 2 and 6 mm over the sawn rectangle, integrated
+  // numerically over columns.
   double sum = 0;
   const int n = 600;
   for (int i = 0; i < n; ++i) {
