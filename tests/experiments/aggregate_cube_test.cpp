@@ -134,7 +134,7 @@ TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
   fmt::print("{} spheres: {:.4f} of the modulus of uniform strain, which is {:.4f} of the inner modulus\n", cube.size(),
              found / affine, affine / inner.E);
   EXPECT_LT(found, affine);
-  // Regression: in equilibrium the modulus of the recorded cubes is 4 to 10 % below that of affine strain. The
+  // Regression: in equilibrium the modulus of the recorded cubes is 4 to 10 % below the modulus at affine strain. The
   // difference is largest in cubes with layers of flat facets along the walls.
   EXPECT_GT(found, 0.85 * affine);
 }

@@ -43,7 +43,8 @@ class Iterative : public BackendTest<std::tuple<Backend>> {
 INSTANTIATE_TEST_SUITE_P(Backends, Iterative, testing::Combine(all_backends()), name_of_case<Backend>);
 
 /// Expects the same E* from the iterative and the direct solver. The error of E* is the square of the residual of 1e-11
-/// times a condition number of about 1e5. This is far below rounding, so the tolerance is the rounding of the sums.
+/// times a condition number of about 1e5. This error is far below the rounding of the sums, which the tolerance allows
+/// for.
 void Iterative::expect_same(const TestScene& scene, const std::vector<HarmonicLoad>& loads, const std::string& what,
                             double tolerance) const {
   const auto found = solve(scene, LinearMethod::iterative, loads), expected = solve(scene, LinearMethod::direct, loads);
@@ -145,8 +146,8 @@ TEST_P(Iterative, AResidualOf1e8GivesNineDigits) {
   }
 }
 
-// At s = a + iω, the stiffness, the inertia and the damping are those of a motion proportional to e^(s·t). For real s
-// the modulus is real, and conjugate s give conjugate moduli.
+// At s = a + iω, stiffness, inertia and damping have the values for a motion proportional to e^(s·t). For real s the
+// modulus is real, and conjugate s give conjugate moduli.
 TEST_P(Iterative, AnyComplexFrequency) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   for (const double growth : {0.5, 30.0}) {

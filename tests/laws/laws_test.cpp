@@ -224,7 +224,7 @@ void expect_relaxation(const GeneralisedKelvin& law, double t, double exact) {
   const double coarse = std::abs(computed_relaxation(law, t / 100, 100) / exact - 1);
   const double fine = std::abs(computed_relaxation(law, t / 200, 200) / exact - 1);
   EXPECT_LT(coarse, 1e-3);
-  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next term is (Δt/τ)² times the first, less than 1e-2 of it
+  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next term of the error is (Δt/τ)² times the first, below 1e-2
 }
 
 TEST(Relaxation, Maxwell) {

@@ -162,8 +162,8 @@ void quick_shapes(std::string& scene) {
       scene.replace(at, slow.size(), "\"icosahedron\"");
 }
 
-/// Returns the numbers of the lines to change: all of a scene, otherwise the first dozen and the last two, because the
-/// lines between are similar.
+/// Returns the numbers of the lines to change. These are all lines of a scene. In other files they are only the first
+/// dozen and the last two lines, because the lines between are similar.
 std::vector<std::size_t> lines_to_change(const std::vector<std::string>& all, const std::string& ending) {
   std::vector<std::size_t> out;
   std::size_t rows = 0;

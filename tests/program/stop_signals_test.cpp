@@ -20,7 +20,7 @@ class FullPipe {
   FullPipe() {
     if (pipe2(ends_, O_NONBLOCK) != 0) throw std::system_error(errno, std::generic_category(), "pipe2");
     while (::write(ends_[1], "", 1) == 1) {}
-    fcntl(ends_[1], F_SETFL, 0);  // from now on a writer waits until there is room
+    fcntl(ends_[1], F_SETFL, 0);  // from now on a writer waits until the pipe has space
     fcntl(ends_[0], F_SETFL, 0);
   }
   FullPipe(const FullPipe&) = delete;

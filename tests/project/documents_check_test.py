@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests that scripts/documents --check fails for copies of the documents with one fault each, and the queries of marks.
+"""Tests that scripts/documents --check fails for copies of the documents with one fault each.
+Also tests the queries of marks (comments in a document that say which value of a table its number is).
 
 usage: documents_check_test.py REPOSITORY; exit code 1 if a fault passes, or if a correct document does not."""
 import contextlib

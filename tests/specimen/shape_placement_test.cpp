@@ -189,8 +189,8 @@ TEST(ShapeComposition, CountsAreKept) {
 }
 
 /// For the logarithmic size law between a and b, sizes from c to d contribute (d³ − c³)/(3 ln(b/a)) to the mean cube of
-/// all sizes. Here aggregates of sizes below √(a·b) become spheres. The volume of these spheres is much smaller than
-/// that of stones.
+/// all sizes. Here aggregates of sizes below √(a·b) become spheres. These spheres have a much smaller volume than the
+/// stones.
 TEST(ShapeComposition, TheNumberFollowsFromTheMeanVolumeOfSpheresAndStones) {
   std::vector<ShapeTemplate> shapes = stones();
   for (ShapeTemplate& t : shapes) t.sphere_size = 0.5;

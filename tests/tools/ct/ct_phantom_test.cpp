@@ -110,7 +110,7 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
   EXPECT_NEAR(p.grains[0].volume / (sum * 1e-9), 1, 1e-3);
 }
 
-/// A grain counts as cut by the saw even if only its lower side is cut. Its volume and centre are those of the part of
+/// A grain counts as cut by the saw even if only its lower side is cut. Volume and centre are computed from the part of
 /// the sphere that is left.
 TEST_F(CtPhantom, ASphereCutFromBelowAloneIsCut) {
   const Scene scene = scene_of_rows("0,0.005,0.004,0.0033,0.003,aggregate,4\n");  // lowest point 0.3 mm above z = 0
