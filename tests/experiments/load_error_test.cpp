@@ -80,7 +80,7 @@ class LoadError : public TestFolder {
     return spectrum_of(prepared.specimen, prepared.network, scene.laws, {1e-4, 1, 1e-8}).relaxation;
   }
 
-  /// Returns the true difference of each row, relative in the same way as `error`.
+  /// Returns the true difference of each row, divided by the same quantity as `error`.
   static std::vector<double> differences(const Case& c, const SteppedResponse& found, const PronySeries& e) {
     const CreepSeries j = exact_creep();
     std::vector<double> out;

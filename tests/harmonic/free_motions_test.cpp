@@ -121,7 +121,7 @@ TEST_P(FreeMotions, PartsOfAColumnSlideOnOneAnother) {
   EXPECT_NEAR(modulus(scene, LinearMethod::direct) / in_series(scene.specimen, 5), 1, 1e-11);
 }
 
-/// Two blocks of several columns slide on each other; each has three free motions.
+/// Two blocks of several columns slide on each other; each block has three free motions.
 TEST_P(FreeMotions, TwoBlocksSlideOnOneAnother) {
   const TestScene scene = make_scene(lattice(3, 4, [](int z) { return z >= 2; }), {}, laws_of(0.1, 0, 0.1));
   EXPECT_EQ(number_of_free_motions(scene), 6u);

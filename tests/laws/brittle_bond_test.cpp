@@ -230,7 +230,7 @@ TEST_P(BrittleBond, FreeAssembliesKeepTheirMomentum) {
   EXPECT_LT(norm(after - before), 500 * rounding() * size);  // velocities are rounded every step
 }
 
-/// Only the point form can step brittle bonds; the condensed form is refused.
+/// Only the contact form `points` can step brittle bonds; the form `condensed` is refused.
 TEST(BrittleBondInput, IsSteppedByPointsAlone) {
   const TestScene scene = make_scene(random_specimen(2), {}, same_law(bond));
   StepperOptions options = shaking_options(scene);

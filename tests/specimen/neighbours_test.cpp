@@ -25,8 +25,8 @@ std::vector<Ball> spheres(int n, RandomStream& random) {
   return balls;
 }
 
-/// Returns the neighbours of sphere i that are nearer than `gap`, found by comparing all pairs. They are in the order
-/// that the header documents.
+/// Returns the neighbours of sphere i that are nearer than `gap`, found by comparing all pairs. The neighbours are in
+/// the order that the header documents.
 std::vector<std::int32_t> by_hand(const std::vector<Ball>& balls, const std::vector<std::int32_t>& number, int i,
                                   double gap) {
   std::vector<std::pair<std::pair<int, int>, int>> row;

@@ -80,7 +80,7 @@ TEST(CtSegment, ABallAndABlockAreMeasured) {
   std::sort(out.grains.begin(), out.grains.end(), by_volume);
   ASSERT_EQ(out.grains.size(), 2u);
   const double r = 12 * voxel;
-  // tolerance for the resolution of a ball of radius 12 voxels
+  // The tolerance allows for the resolution of a ball with a radius of 12 voxels.
   EXPECT_NEAR(out.grains[0].measure.area / (4 * pi * r * r), 1, 0.02);
   EXPECT_NEAR(out.grains[0].measure.volume / (4 * pi / 3 * r * r * r), 1, 0.02);
   const ShapeMeasure& block = out.grains[1].measure;
