@@ -66,8 +66,8 @@ def test_what_a_callback_sees(specimen):
         force = step.contacts().force
         assert state.displacement.shape == (len(specimen), 3) and force.shape == (len(specimen.contacts), 3)
         top = specimen.contacts.b == -6
-        # The force on the wall is opposite to the sum of the forces on its particles. Each is a sum of some hundred
-        # terms in single precision
+        # The force on the wall is opposite to the sum of the forces on its particles. Each force is a sum of some
+        # hundred terms in single precision.
         assert step.observation.top_force == pytest.approx(-force[top, 2].sum(), rel=1e-6)
     result = mc.run(specimen, on_step=lambda s: (look(s) if s.step % 10_000 == 0 else None), every=2000,
                     **{"loading.frequencies": [20.0]})

@@ -139,8 +139,9 @@ TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
   EXPECT_GT(found, 0.85 * affine);
 }
 
-// Regression with fixed seeds: the contact modulus `c.contact_modulus` gives the cube the rock's 60 GPa. It is the
-// modulus of [1], except for coarse cubes filled as shapes, for which we determined another value.
+// Regression with fixed seeds: with the contact modulus `c.contact_modulus` the cube has the rock's modulus, 60 GPa.
+// This contact modulus is taken from [1], except for coarse cubes filled as shapes, for which we determined another
+// value.
 TEST_P(CubeOfSpheres, HasTheModulusOfTheAggregate) {
   if (!long_tests) GTEST_SKIP() << "the same code as above, for other numbers";
   const Case& c = GetParam();

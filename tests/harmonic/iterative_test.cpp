@@ -128,8 +128,8 @@ TEST_P(Iterative, AgreesWithFactorsOnHostileNetworks) {
   for (const auto& [name, scene] : hostile_networks()) expect_same(scene, {{10}}, name);
 }
 
-// The error of E* is the square of the residual, so 1e-8 gives nine digits. For the specimens of examples/ see
-// bench/results/harmonic-digits.csv.
+// The error of E* is the square of the residual times a condition number, so a residual of 1e-8 gives nine digits. For
+// the specimens of examples/ see bench/results/harmonic-digits.csv.
 TEST_P(Iterative, AResidualOf1e8GivesNineDigits) {
   auto networks = hostile_networks();
   networks.emplace_back("random", make_scene(random_specimen(test_seed(), 6, 6, 8)));

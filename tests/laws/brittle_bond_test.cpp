@@ -183,7 +183,7 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   reference->advance(steps);
   stepper->advance(steps / 3);
   stepper->advance(steps - steps / 3);
-  // This is the tolerance of StepperAgainstReference::tolerance().
+  // This is the tolerance that StepperAgainstReference::tolerance() returns.
   const double tolerance =
       (own.precision == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24) * static_cast<double>(steps);
   const ParticleState want = reference->particles(), have = stepper->particles();

@@ -67,7 +67,7 @@ class ReferenceElement {
 struct Case {
   std::string name;
   GeneralisedKelvin law;
-  double settling;  ///< more than 35 of the slowest relaxation times [s]; transients decay below e⁻³⁵ ≈ 6e-16
+  double settling;  ///< more than 35 times the slowest relaxation time [s]; transients decay below e⁻³⁵ ≈ 6e-16
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -207,7 +207,7 @@ TEST(Creep, FollowsTheClosedForm) {
     if (c.law.units() == 0) {
       EXPECT_LT(coarse, 1e-13) << c.name;  // a Maxwell unit creeps linearly, so there are only 50 roundings
     } else {
-      EXPECT_LT(coarse, 2e-5) << c.name;  // (Δt/τ)²/12·e⁻¹ times the part of one unit
+      EXPECT_LT(coarse, 2e-5) << c.name;  // (Δt/τ)²/12·e⁻¹ times the part of one unit in the creep
       EXPECT_NEAR(coarse / fine, 4, 0.02) << c.name;
     }
   }

@@ -187,7 +187,8 @@ TEST_F(StopSignals, BeforeTheHarmonicPlanTheFolderStaysAsItWas) {
   EXPECT_TRUE(fs::exists(folder_ / "out/response.csv"));
 }
 
-// Generating this specimen takes longer than the test would ever wait, unless the signal stops it.
+// Generating this specimen takes longer than the test waits, so the test passes only if the signal stops the
+// generation.
 TEST_F(StopSignals, BeforeTheFirstStepTheyLeaveTheFolderAsItWas) {
   write_scene();
   ASSERT_EQ(run_quick("out").code, 0);

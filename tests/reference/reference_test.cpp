@@ -41,8 +41,8 @@ class SmallMotion : public testing::TestWithParam<Geometry> {
     stepper->advance(10);
     return stepper->particles();
   }
-  /// Expects the given forces and moments on A and B. In updated geometry the normal rotates by amount/distance = 6e-7;
-  /// the tolerance is 2e-6.
+  /// Expects the given forces and moments on A and B. In updated geometry the normal rotates by amount/distance = 6e-7,
+  /// so the tolerance is 2e-6.
   void expect_loads(const ParticleState& p, const Vec3d& force_a, const Vec3d& moment_a, const Vec3d& moment_b) {
     const double error = GetParam() == Geometry::fixed ? 1e-13 : 2e-6;
     const double force = E * contact.area / contact.distance * amount;

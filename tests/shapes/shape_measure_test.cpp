@@ -289,7 +289,7 @@ TEST(Indices, FollowTheirDefinitions) {
   EXPECT_DOUBLE_EQ(m.flatness(), 0.8);
   EXPECT_DOUBLE_EQ(m.elongation(), 0.625);
   EXPECT_DOUBLE_EQ(m.flakiness(), 4 / 6.3);
-  // p = 0.8, q = 0.625: 12.8·∛0.4 / (1 + 1.3 + 6·√(1 + 0.64·1.390625))
+  // With p = D^S/D^I = 0.8 and q = D^I/D^L = 0.625 the formula gives 12.8·∛0.4 / (1 + 1.3 + 6·√(1 + 0.64·1.390625)).
   EXPECT_NEAR(m.sphericity_working(), 12.8 * std::cbrt(0.4) / (2.3 + 6 * std::sqrt(1.89)), 1e-15);
   m.d_intermediate = 20e-3;
   EXPECT_TRUE(std::isnan(m.flakiness()));
