@@ -233,7 +233,8 @@ TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {
 }
 
 /// A contact pushes both particles with the same force. One of two similar aggregates is four times as large as the
-/// second and has about 16 times the mass in this relaxation. So it moves 16 times less, and rotates still less.
+/// second and has about 16 times the mass in this relaxation. So the larger aggregate moves 16 times less than the
+/// smaller one, and rotates still less.
 TEST(ShapePlacement, PackedStonesGiveWayByTheirMasses) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));
   const ShapeGeometry geometry(shape);

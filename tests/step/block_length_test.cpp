@@ -97,7 +97,7 @@ TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   EXPECT_EQ(steps(212), 212);
   EXPECT_EQ(steps(424), 212);
   EXPECT_EQ(steps(600), 200);
-  EXPECT_EQ(steps(251), 250);  // 251 steps is a prime number, so no useful length divides it
+  EXPECT_EQ(steps(251), 250);  // 251 is a prime number, so no useful length divides it
   EXPECT_EQ(steps(100), 200);  // two observations per block
   EXPECT_EQ(steps(1), 250);
 }

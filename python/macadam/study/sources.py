@@ -2,8 +2,8 @@
 """The places of a study that set keys of the scene (grid, hypercubes, lists, choices, experiments), and the order in
 which they are applied.
 
-The files of choices are applied first, then the single keys that choices, the grid, hypercubes, lists and
-the experiment set. Two places may not set the same key, so the order of single keys does not matter. A file replaces the
+The files of choices are applied first, then the single keys that choices, the grid, hypercubes, lists and the
+experiment set. Two places may not set the same key, so the order of single keys does not matter. A file replaces the
 whole entry of a pair of contacts; another place may set a key of that entry which the file does not set."""
 
 from __future__ import annotations

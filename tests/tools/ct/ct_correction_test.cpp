@@ -80,8 +80,8 @@ TEST_F(CtCorrection, BetweenTwoSlicesHalfOfEachIsTakenOut) {
   for (const double k : {20.0, 31.0, 86.0}) {
     const double low = steps[0].of(mastic, 5, 6, k), high = steps[0].of(mastic, 5, 6, k + 1);
     EXPECT_GT(std::abs(high - low), 0.005 * contrast);
-    // The test divides grey values by a factor that is linear between slices. The quotient is not linear, so the
-    // correction deviates from a line by about a hundredth of the difference.
+    // The test divides grey values by a factor that is linear between slices. The quotient is not linear, so between
+    // two slices the correction deviates from a line by about a hundredth of the difference between the slices.
     EXPECT_NEAR(steps[0].of(mastic, 5, 6, k + 0.5), (low + high) / 2, 0.02 * std::abs(high - low));
   }
 }
