@@ -11,7 +11,7 @@
 /// Force f = E·x up to |x| = x_0, with the slope E_2 beyond. The only state of the law is the displacement x.
 struct Bilinear {
   static constexpr const char* name = "bilinear";
-  // so the points of a contact are stepped one by one, not as a condensed contact
+  // The law is not linear, so the points of a contact are stepped one by one and not as one condensed contact.
   static constexpr bool linear = false;
   static constexpr int only_units = 1;
   double E = 0, E_2 = 0;  ///< [Pa], E_2 ≤ E

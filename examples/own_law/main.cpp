@@ -41,7 +41,7 @@ double stress_after(const OwnLaw& law, StepperOptions options, D drive, double s
   drive.step = options.dt;
   drive.ramp_steps = std::llround(2e-4 / options.dt);
   options.boundary = moving_top(drive);
-  // in this file, and in on_device.cu for GPUs, the kernels are compiled for these laws and this precision
+  // Compiles the CPU kernels for these laws and this precision; on_device.cu compiles the GPU kernels.
   const auto stepper = make_stepper_of<OwnLaw, on_device, Precision::double_>(Backend::automatic, column, network, laws,
                                                                               inertia, options);
   stepper->advance(std::llround(seconds / options.dt));

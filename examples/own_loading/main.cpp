@@ -12,7 +12,8 @@ namespace {
 
 using namespace macadam;
 
-/// Displacement that rises from 0 to `height` and falls back linearly, in `period` steps each.
+/// Displacement that rises from 0 to `height` and falls back to 0. Both changes are linear and take `period` steps
+/// each.
 struct Sawtooth final : Drive {
   double height, step;
   std::int64_t period;

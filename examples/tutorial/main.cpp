@@ -15,7 +15,7 @@ int main(int argc, char** argv) try {
   scene.specimen.box.size = {14e-3, 14e-3, 16e-3};  // m
   scene.cyclic().frequencies = {20};                // Hz
 
-  // 2. Makes its particles, their Laguerre cells and the contacts between them
+  // 2. Makes the particles of the scene, their Laguerre cells, and the contacts between the particles
   const macadam::Preparation prepared = macadam::prepare(scene);
   std::printf("%zu particles, %zu contacts\n", prepared.specimen.size(), prepared.network.contacts.size());
 
@@ -30,7 +30,7 @@ int main(int argc, char** argv) try {
   const std::string folder = argc > 2 ? argv[2] : "tutorial-results";
   macadam::run(scene, folder);
 
-  // 5. Reads the recorded strain and stress back and evaluates them again
+  // 5. Reads the recorded strain and stress from the file, and evaluates |E*| and phase angle from them again
   std::ifstream file(folder + "/response.csv");
   file.ignore(1000, '\n');  // the names of the columns
   std::vector<macadam::ResponseSample> samples;

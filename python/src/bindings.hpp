@@ -13,7 +13,8 @@
 
 namespace macadam::python {
 
-/// The scene object of Python: a scene, and the options (seed, backend, …) by which the caller replaced its values.
+/// The scene object of Python: a scene, and the options (seed, backend, …) by which the caller replaced values of the
+/// scene.
 struct GivenScene : Scene {
   Overrides instead = {};  ///< Options that replace the scene's own values.
 };

@@ -19,9 +19,9 @@ namespace macadam::python {
 
 namespace nb = nanobind;
 
-/// One long call from Python. The work asks stop() regularly, or calls progress(), which asks it too. An exception of
-/// Python that occurs during the work (Ctrl-C, or raised by a callback) is stored, ends the work, and is raised again
-/// when the work has returned.
+/// One long call from Python. The work asks stop() regularly, or calls progress(), which also asks stop(). An exception
+/// of Python that occurs during the work (Ctrl-C, or raised by a callback) is stored, ends the work, and is raised
+/// again when the work has returned.
 class LongCall {
  public:
   /// progress: None, or a callable that is called with the stage of the work and the fraction of it that is done, 0
@@ -59,7 +59,7 @@ class LongCall {
   void show(const std::string& stage, double fraction) {
     if (!progress_.is_none()) call_python([&] { progress_(stage, fraction); });
   }
-  /// Returns progress() as a function for the library. It must not outlive this object.
+  /// Returns progress() as a function for the library. The function must not outlive this object.
   Progress progress_function() {
     return [this](const std::string& stage, double fraction) { progress(stage, fraction); };
   }

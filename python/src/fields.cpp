@@ -46,8 +46,8 @@ FieldFormat format_of(const Path& file) {
 /// Returns the path without its ending.
 Path stem_of(const Path& file) { return file.parent_path() / file.stem(); }
 
-/// Returns the arrays that the caller gives by name. Each has `rows` rows of one number or of several; integers become
-/// int32, others float32. They have no unit, because viewers show the name only.
+/// Returns the arrays that the caller gives by name. Each array has `rows` rows of one number or several. Integers
+/// become int32, other numbers float32. The arrays have no unit, because viewers show only the name.
 std::vector<FieldArray> arrays_of(const nb::dict& given, std::size_t rows) {
   std::vector<FieldArray> out;
   for (const auto& [key, value] : given) {

@@ -115,7 +115,7 @@ void pickle_scenes(nb::class_<GivenScene>& c) {
     const nb::object read = nb::cast(GivenScene{read_scene(nb::cast<std::filesystem::path>(state[0]), text)});
     read.attr("override")(**nb::cast<nb::dict>(state[2]));
     new (&self) GivenScene(nb::cast<GivenScene&>(read));
-    self.text = text;  // because override() has added the seed to the text a second time
+    self.text = text;  // override() has added the seed to the text a second time
   });
 }
 

@@ -39,7 +39,7 @@ _WAIT = 'case $value in 1.0) ;; *) [ -e "FILE" ] || exec sleep 3600 ;; esac  # u
 def stand_in(
     folder: Path, pause: float = 0.0, version: str = "1", real: str = "", go: Path | None = None
 ) -> tuple[str, Path]:
-    """Writes the stand-in and returns its path and that of its log. real: values that end with this text are computed
+    """Writes the stand-in. Returns its path and the path of its log. real: values that end with this text are computed
     by macadam itself. go: until this file exists, runs with values other than 1 never end."""
     log = folder / "log"
     lines = _REAL.replace("REAL", real).replace("PROGRAM", str(report_folders.PROGRAM)) if real else ""

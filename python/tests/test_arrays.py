@@ -101,7 +101,7 @@ def test_every_function_names_the_argument_of_wrong_shape(specimen):
 
 def test_lists_and_columns_serve_as_well(specimen):
     table = pd.DataFrame({"t": [0.0, 1e-6], "u": [0.0, 1e-9]})
-    # rounding in the interpolation
+    # The tolerance covers rounding in the interpolation.
     assert mc.drives.Table(1e-6, table.t, table.u).value(1) == pytest.approx(1e-9, rel=1e-12)
     assert mc.HarmonicSolver(specimen).solve(np.array([10], np.float32))[0].frequency_hz == 10
     assert mc.harmonic(specimen, np.int64(10)).table.frequency_hz[0] == 10

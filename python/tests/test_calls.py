@@ -19,7 +19,8 @@ LONG = {"loading.frequencies": [0.5], "solver.tolerance": None, "solver.density_
 
 
 def interrupted(work, said, tmp_path):
-    """Runs `work` in a new Python process. It prints `ready` during the call, and is then interrupted as by Ctrl-C."""
+    """Runs `work` in a new Python process. The process prints `ready` during the call, and is then interrupted as by
+    Ctrl-C."""
     code = "import macadam as mc, numpy as np, sys\n" + textwrap.dedent(work)
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                              cwd=tmp_path, env={**os.environ, "PYTHONUNBUFFERED": "1"})

@@ -55,7 +55,7 @@ def lab(specimen):
 
 def test_a_calibration_finds_what_was_there(scene, small_file, lab, tmp_path, program):
     found = mc.calibrate(scene, lab, free=["M-A.delta"])
-    # the error is the tolerance of the solver divided by the sensitivity
+    # The error of delta is the tolerance of the solver divided by the sensitivity of |E*| to delta.
     assert found.parameters.value[0] == pytest.approx(1.3, rel=1e-6)
     assert found.scene.as_dict()["contacts"][1]["delta"] == found.parameters.value[0]
     assert list(found.table.columns)[0] == "frequency_hz" and "M-A.delta" in str(found)
@@ -78,7 +78,7 @@ def test_results_are_targets_and_data(specimen, scene, tmp_path):
     few = mc.fit(found.table[["frequency_hz", "e_star_pa", "phase_deg"]], units=1)
     assert law.files["law.toml"] == few.files["law.toml"]
     again = mc.calibrate(scene, found.table, free=["M-A.delta"])
-    # the error is the tolerance of the solver divided by the sensitivity
+    # The error of delta is the tolerance of the solver divided by the sensitivity of |E*| to delta.
     assert again.parameters.value[0] == pytest.approx(1.3, rel=1e-6)
 
 

@@ -34,9 +34,8 @@ def test_a_stepped_creep_nears_the_spectrum(specimen):
     stepped = CALLS["creep"](specimen, method="explicit", platen_mass=1e-4, **FAST).table
     spectrum = mc.spectrum(specimen, shortest=1e-4, longest=1e-2)
     expected = 1e5 * spectrum.creep.compliance(stepped.time_s.to_numpy())
-    # The tolerance of 5 % covers the difference between the stepped test and the spectrum at 4 ms. The difference
-    # comes from damping and from the ramp, which takes some tenths of a millisecond. The spectrum has neither of the
-    # two.
+    # The tolerance of 5 % covers the difference between the stepped test and the spectrum at 4 ms. The difference comes
+    # from damping and from the ramp of some tenths of a millisecond. The spectrum contains neither damping nor a ramp.
     assert stepped.strain.iloc[-1] == pytest.approx(expected[-1], rel=0.05)
 
 

@@ -228,8 +228,8 @@ def test_other_wrong_requests(tmp_path: Path, capsys) -> None:
 
 
 def test_commands_of_the_page(tmp_path: Path, no_pictures) -> None:
-    """Runs every command and every line of Python of docs/report.md, in a folder with results of the names used
-    there."""
+    """Runs every command and every line of Python of docs/report.md, in a folder that contains results with the names
+    used on that page."""
     page = (ROOT / "docs/report.md").read_text(encoding="utf-8")
     shutil.copytree(make("stepped"), tmp_path / "results/demo")
     shutil.copytree(make("harmonic"), tmp_path / "results/harmonic")

@@ -65,7 +65,7 @@ def test_report_opens_and_prints_on_a4(kinds: tuple[str, ...], tmp_path: Path) -
     assert picture.shape[:2] == (2200, 900)
     written = picture.min(axis=2) < 0.98
     assert written[:, 100:800].any(axis=1).mean() > 0.5  # most rows of the page show something
-    assert not written[:, -20:].any()  # and nothing crosses its right edge
+    assert not written[:, -20:].any()  # nothing crosses the right edge of the page
     browse(tmp_path, page, f"--print-to-pdf={tmp_path}/page.pdf", "--no-pdf-header-footer")
     pdf = (tmp_path / "page.pdf").read_bytes()
     boxes = re.findall(rb"/MediaBox\s*\[\s*0\s+0\s+([\d.]+)\s+([\d.]+)", pdf)

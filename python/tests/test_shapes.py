@@ -85,7 +85,7 @@ def test_filling(cube):
     spheres = mc.shapes.fill(cube, (0.9e-3, 1.1e-3), seed=2)
     report = mc.shapes.measure_fill(cube, spheres)
     assert len(spheres) > 50 and 0.9e-3 <= spheres.radius.min() and spheres.radius.max() <= 1.1e-3
-    # the porosity is 0.12, and the number of spheres is an integer
+    # The requested porosity is 0.12. The tolerance is needed because the number of spheres is an integer.
     assert report.sphere_volume == pytest.approx(0.88e-6, rel=0.02)
     assert np.array_equal(mc.shapes.fill(cube, (0.9e-3, 1.1e-3), seed=2).centre, spheres.centre)
     assert len(mc.shapes.fill(cube, 5e-3, single="volume")) == 1

@@ -66,8 +66,8 @@ def test_what_a_callback_sees(specimen):
         force = step.contacts().force
         assert state.displacement.shape == (len(specimen), 3) and force.shape == (len(specimen.contacts), 3)
         top = specimen.contacts.b == -6
-        # The force on the wall is opposite to the sum of the forces on its particles. Each is a sum of some hundred
-        # terms in single precision
+        # The force on the wall is opposite to the sum of the forces on its particles. Each force is a sum of some
+        # hundred terms in single precision.
         assert step.observation.top_force == pytest.approx(-force[top, 2].sum(), rel=1e-6)
     result = mc.run(specimen, on_step=lambda s: (look(s) if s.step % 10_000 == 0 else None), every=2000,
                     **{"loading.frequencies": [20.0]})
@@ -144,8 +144,8 @@ def test_sensitivities_and_inertia(specimen):
     result = mc.harmonic(specimen, frequencies=[10], sensitivities=True)
     by = result.sensitivities.set_index("parameter").d_e_star_pa
     deltas = [by[name] for name in by.index if name.endswith(".delta")]
-    # |E*| is a homogeneous function of degree 1 of all stiffnesses, so the derivatives by the
-    # logarithms add up to |E*|
+    # |E*| is a homogeneous function of degree 1 of all stiffnesses, so its derivatives with respect to the logarithms
+    # of the stiffnesses add up to |E*|.
     assert sum(deltas) == pytest.approx(result.table.e_star_pa[0], rel=1e-9)
     heavy = mc.harmonic(specimen, frequencies=[10], inertia=True, **{"solver.density_scaling": 1e6})
     assert heavy.table.density_scaling[0] == 1e6 and heavy.table.e_star_pa[0] != result.table.e_star_pa[0]

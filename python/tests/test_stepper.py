@@ -36,7 +36,7 @@ def test_steady_start_gives_the_harmonic_modulus(specimen, dt):
         strain.append(now.top_displacement / height)
         stress.append(-now.top_force / area)
     e_star = np.fft.rfft(stress)[1] / np.fft.rfft(strain)[1]
-    # 1e-3: the error of the time stepping, which is of second order in the step
+    # The tolerance 1e-3 covers the error of the time stepping, which is of second order in the step.
     assert abs(e_star) == pytest.approx(solved.e_star_pa, rel=1e-3)
     assert np.degrees(np.angle(e_star)) == pytest.approx(solved.phase_deg, abs=0.05)
     assert solved.motion.shape == (len(specimen), 6) and solved.motion.dtype == complex
@@ -51,7 +51,7 @@ def test_samples_of_ones_own_are_evaluated():
     angle = 2 * np.pi * HZ * time
     found = mc.evaluate_cyclic(time, 1e-4 * np.sin(angle), 1e6 * np.sin(angle + np.radians(20)), HZ, fit_cycles=2)
     assert found["e_star_pa"] == pytest.approx(1e10) and found["phase_deg"] == pytest.approx(20)
-    # Tolerance 1e-3: peaks are found by parabolas through three samples, and a period has 200 samples.
+    # The tolerance is 1e-3, because peaks are found by parabolas through three samples, and a period has 200 samples.
     assert found["e_star_peaks_pa"] == pytest.approx(1e10, rel=1e-3) and found["fit_rms"] < 1e-9
     with pytest.raises(mc.InputError, match=r"strain: found numbers of shape \(2,\), expected .*\(3,\)"):
         mc.evaluate_cyclic([0.0, 1.0, 2.0], [0.0, 1.0], [0.0, 1.0], HZ)

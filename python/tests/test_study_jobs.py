@@ -14,7 +14,8 @@ from macadam.study.programs import error_line
 from study_faults import scene, stand_in
 
 KEY = "contacts.M-A.delta"
-# a program that logs its variables and its arguments after the folder, and prints an error between other lines
+# A program that logs two environment variables and the arguments after the folder. It prints an error between other
+# lines.
 _LOGGER = """#!/bin/sh
 [ $1 = --version ] && echo "macadam logger 1" && exit
 shift 4

@@ -59,8 +59,8 @@ def test_commands_of_the_page(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
 def test_the_example(tmp_path: Path, monkeypatch) -> None:
-    """The example's file has 48 points. The test computes the two corners with the most aggregate and the most
-    holes."""
+    """The example's file has 48 points. The test computes two opposite corners of this grid: little binder with few air
+    voids, and much binder with many air voids."""
     monkeypatch.setenv("MACADAM_PROGRAM", PROGRAM)
     example = ROOT / "examples/study/study.toml"
     assert len(read_design(example, "1").jobs) == 48

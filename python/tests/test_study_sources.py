@@ -77,7 +77,7 @@ def test_fitted_laws_by_delta(folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
         for name, e in (("fitted", 2e9), ("old", 1e9))
         for delta in (2, 3)
     }
-    assert got == pytest.approx(modulus, rel=1e-9)  # written with 10 digits or more
+    assert got == pytest.approx(modulus, rel=1e-9)  # moduli are written with 10 digits or more
     assert modulus["fitted", 2] == pytest.approx(5714.2857e6) and modulus["fitted", 3] == pytest.approx(7500e6)
 
 

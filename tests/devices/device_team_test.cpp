@@ -95,8 +95,8 @@ TEST_P(Team, GoesOnFromTheCheckpointOfAnother) {
   expect_same(five->state(), whole);
 }
 
-// Several specimens share one device and take turns with all of its multiprocessors. Their sizes differ, so each needs
-// a different amount of shared memory.
+// Several specimens share one device and take turns with all of its multiprocessors. The specimens have different
+// sizes, so each needs a different amount of shared memory.
 TEST(SideBySide, SpecimensOfOneDeviceTakeTheirOwnSteps) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   constexpr std::size_t specimens = 3;

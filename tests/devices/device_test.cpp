@@ -208,7 +208,7 @@ TEST(DeviceChoice, EveryCudaDeviceTakesTheSameSteps) {
   }
   for (std::size_t i = 0; i < steppers.size(); ++i) {
     EXPECT_EQ(steppers[i]->observe().step, 300);
-    if (report.devices[i].name != report.devices[0].name) continue;  // another type may divide the work otherwise
+    if (report.devices[i].name != report.devices[0].name) continue;  // another type may divide the work differently
     EXPECT_EQ(steppers[i]->observe().top_force(), steppers[0]->observe().top_force());
   }
 }

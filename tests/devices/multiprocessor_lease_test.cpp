@@ -47,8 +47,8 @@ class Specimen {
 void nowhere(Event) {}
 bool waits(std::future<Event>& taken) { return taken.wait_for(50ms) == std::future_status::timeout; }
 
-/// While the first specimen still queues steps, the second one waits. When the first has queued all, the steps of the
-/// second are queued behind them. Only one specimen at a time may be queued behind another.
+/// While the first specimen still queues steps, the second specimen waits. When the first has queued all of its steps,
+/// the steps of the second are queued behind them. Only one specimen at a time may be queued behind another.
 TEST(MultiprocessorLease, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
   Specimen a(Share{{0, 90}}), b(Share{{0, 90}}), c(Share{{0, 90}});
   EXPECT_EQ(a.takes().get(), nullptr);

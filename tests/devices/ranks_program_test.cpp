@@ -32,8 +32,8 @@ class RanksProgram : public Program {
     fs::create_symlink(cuda, plugins_ / "libmacadam_cuda.so");
   }
 
-  /// Returns the shell command that runs two processes. It stops them after ten minutes, because without a fault they
-  /// end much earlier.
+  /// Returns the shell command that runs two processes. The command stops the processes after ten minutes. Without a
+  /// fault they end much earlier.
   std::string command(const std::string& arguments) const {
     return fmt::format(
         "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMPI_ALLOW_RUN_AS_ROOT=1 "

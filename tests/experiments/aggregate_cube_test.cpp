@@ -41,8 +41,8 @@ struct Case {
   double deviation;     ///< the larger of the standard deviations of gauge and walls among the seeds [Pa]
   unsigned seeds;  ///< number of seeds used here; a coarse cube takes a tenth of the time of a fine one, and its moduli
                    ///< scatter three times as much
-  double contact_modulus;  ///< contact modulus that gives the cube the rock's 60 GPa; the modulus of [1] if that one
-                           ///< does [Pa]
+  double contact_modulus;  ///< contact modulus [Pa] with which the cube has the rock's modulus of 60 GPa. It is the
+                           ///< contact modulus of [1] if the cube has 60 GPa with that one.
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.spheres->name << ", " << to_string(c.filling); }
@@ -134,13 +134,14 @@ TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
   fmt::print("{} spheres: {:.4f} of the modulus of uniform strain, which is {:.4f} of the inner modulus\n", cube.size(),
              found / affine, affine / inner.E);
   EXPECT_LT(found, affine);
-  // Regression: in equilibrium the modulus of the recorded cubes is 4 to 10 % below that of affine strain. The
+  // Regression: in equilibrium the modulus of the recorded cubes is 4 to 10 % below the modulus at affine strain. The
   // difference is largest in cubes with layers of flat facets along the walls.
   EXPECT_GT(found, 0.85 * affine);
 }
 
-// Regression with fixed seeds: the contact modulus `c.contact_modulus` gives the cube the rock's 60 GPa. It is the
-// modulus of [1], except for coarse cubes filled as shapes, for which we determined another value.
+// Regression with fixed seeds: with the contact modulus `c.contact_modulus` the cube has the rock's modulus, 60 GPa.
+// This contact modulus is taken from [1], except for coarse cubes filled as shapes, for which we determined another
+// value.
 TEST_P(CubeOfSpheres, HasTheModulusOfTheAggregate) {
   if (!long_tests) GTEST_SKIP() << "the same code as above, for other numbers";
   const Case& c = GetParam();

@@ -37,7 +37,8 @@ class CheckpointedRun : public TestFolder {
   }
   fs::path file(const std::string& name) const { return out(name) / "checkpoint.h5"; }
 
-  /// Runs the scene as TestFolder::run_until() does. If the run was interrupted, checks that its summary says so.
+  /// Runs the scene as TestFolder::run_until() does. If the run was interrupted, checks that its summary has the status
+  /// "interrupted".
   bool run_until(const Scene& scene, const std::string& name, int asked, bool resume) const {
     const bool interrupted = TestFolder::run_until(scene, name, asked, resume);
     if (interrupted) { EXPECT_EQ(summary(name).at("status"), "interrupted"); }
@@ -79,7 +80,7 @@ struct InPieces : CheckpointedRun, testing::WithParamInterface<std::tuple<const 
   }
 };
 
-/// The run is interrupted six times, each time at a different place, and resumed. Its files must equal those of an
+/// The run is interrupted six times, each time at a different step, and resumed. Its files must equal the files of an
 /// uninterrupted run.
 TEST_P(InPieces, GivesTheBitsOfOne) {
   const auto [loading, solver, output] = GetParam();
@@ -418,8 +419,8 @@ TEST_F(CheckpointedRun, SceneSaysHowOftenAndTheReferenceRefuses) {
   EXPECT_FALSE(fs::exists(out("out")));  // refused before the folder is made
 }
 
-// Runs the program and interrupts it with SIGTERM (queueing system) and SIGINT (terminal). It must leave a checkpoint
-// from which it resumes.
+// Runs the program and interrupts it with SIGTERM (as a queueing system does) and SIGINT (as a terminal does). The
+// program must leave a checkpoint from which it can resume.
 TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
   scene(rest, long_tests ? "density_scaling = 3e2\nthreads = 1\n" : "density_scaling = 3e3\nthreads = 1\n");
   const auto start = [&](const std::string& name, bool resume) {

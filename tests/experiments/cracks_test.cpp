@@ -254,7 +254,7 @@ TEST_F(CracksOfATest, CompressionBreaksNoBondAndReachesNoStrength) {
   EXPECT_TRUE(rows_of(read(out("out") / "cracks.csv"), crack_head).empty());
 }
 
-/// A creep stress of 1.5 times the strength breaks the specimen before the first point; the summary reports it.
+/// A creep stress of 1.5 times the strength breaks the specimen before the first point; the summary reports the break.
 TEST_F(CracksOfATest, ACreepAboveTheStrengthSaysThatTheSpecimenBroke) {
   const RunResult result =
       run(column(2, "kind = \"creep\"\nstress = 1.5e5\ntimes = [\"1 ms\", \"20 ms\"]\npoints = 20\n"), out("out"));

@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(All, LoadedLattice,
                                           testing::Values(Geometry::updated, Geometry::fixed)),
                          [](const auto& info) { return name_of_case(info); });
 
-// A bar of height H that is held at the bottom and driven at the top at ω has the modulus
+// A bar of height H that is held at the bottom and driven at the top with the angular frequency ω has the modulus
 // E·κ/tan κ = E·(1 − κ²/3 − κ⁴/45 …) with κ = ω·H·√(ρ/E). So the effect of inertia on E grows with the square of the
 // frequency. A column of n spheres has its mass at n heights; therefore Σ ((i − ½)/n)²/n = ⅓·(1 − 1/(4n²)) replaces ⅓.
 TEST_P(LoadedLattice, SlowLoadingReachesTheStaticModulus) {

@@ -58,8 +58,9 @@ TEST(EvaluateCyclic, SinusoidsAreReadToRounding) {
   }
 }
 
-// Large strains add a second harmonic to the stress. It is not orthogonal to the linear trend. Unless both are fitted
-// together, a second harmonic of amplitude h changes the fundamental by −0.78·h over one cycle.
+// Large strains add a second harmonic to the stress. The second harmonic is not orthogonal to the linear trend that is
+// fitted, so it is fitted too. Otherwise a second harmonic of amplitude h would change the fundamental by −0.78·h over
+// one cycle.
 TEST(EvaluateCyclic, ASecondHarmonicDoesNotLeak) {
   for (const int cycles : {1, 2, 4}) {
     Signal signal;
@@ -236,8 +237,8 @@ TEST(CyclicLoading, VelocityIsTheMeanRateOfDisplacement) {
 }
 
 // During the smooth start the displacement is a growing factor r(t) times a sine. The velocity is computed from r and
-// the sine at the middle of the step. Each step adds an error of order Δt³, so the displacement has an error of order
-// Δt² at the end of the start, which stays constant afterwards.
+// the sine at the middle of the step. Each step adds an error of order Δt³, so at the end of the start the displacement
+// has an error of order Δt². This error stays constant afterwards.
 TEST(CyclicLoading, VelocityDuringTheSmoothStartIsOfSecondOrder) {
   std::vector<double> errors;
   for (const std::int64_t n : {100, 200, 400}) {

@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 class Experiments : public Program {
  protected:
-  /// Runs an experiment on the 175 particles of t8 and returns the text of its file.
+  /// Runs an experiment on the 175 particles of t8 and returns the text of the result file `file`.
   std::string run_t8(const std::string& loading, const std::string& file, const std::string& solver = "") const {
     const fs::path scene = write_scene_of(loading, solver);
     const Outcome outcome = run_quick("out");

@@ -94,8 +94,8 @@ TEST_F(ForecastRules, StepsOfALoadAreThoseOfItsPlan) {
   }
 }
 
-/// Returns the files of a folder and their bytes. In names of frames `*` replaces the number, and their bytes are added
-/// up.
+/// Returns the files of a folder and their sizes in bytes. In names of frames, `*` replaces the number of the frame,
+/// and the sizes of all frames are added up.
 std::map<std::string, double> files_in(const fs::path& folder) {
   std::map<std::string, double> out;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -19,8 +19,9 @@ struct Check : Program {
   Scene example(const std::string& name) const { return read_scene(fs::path(MACADAM_EXAMPLES) / name / "scene.toml"); }
 };
 
-// The forecast counts particles by sampling sizes as the run does, so their number is exact except with shapes. It
-// estimates the number of contacts from the mean number of facets per cell, which varies by some per cent.
+// The forecast counts particles by sampling sizes as the run does, so the number of particles is exact except with
+// shapes. The forecast estimates the number of contacts from the mean number of facets per cell, which varies by some
+// per cent.
 TEST_F(Check, CountsWhatIsMade) {
   for (const char* name : {"demo", "mastic", "stepped_creep", "aggregate_cube", "study"}) {
     Scene scene = example(name);
@@ -28,8 +29,8 @@ TEST_F(Check, CountsWhatIsMade) {
     const Forecast foretold = forecast(scene);
     const Preparation made = prepare(scene);
     const double particles = static_cast<double>(made.specimen.size());
-    // Packed shapes are sampled again if a class misses its volume, and mastic fills the rest, so their number is only
-    // approximate.
+    // If packed shapes miss the volume of a class, other shapes are sampled, and mastic fills the rest of the box. So
+    // the predicted number of particles is only approximate.
     EXPECT_NEAR(static_cast<double>(foretold.census.particles()), particles,
                 scene.specimen.shapes ? 0.01 * particles : 0)
         << name;

@@ -80,14 +80,15 @@ class LoadError : public TestFolder {
     return spectrum_of(prepared.specimen, prepared.network, scene.laws, {1e-4, 1, 1e-8}).relaxation;
   }
 
-  /// Returns the true difference of each row, relative in the same way as `error`.
+  /// Returns the true difference of each row, divided by the same quantity as `error`.
   static std::vector<double> differences(const Case& c, const SteppedResponse& found, const PronySeries& e) {
     const CreepSeries j = exact_creep();
     std::vector<double> out;
     for (const SteppedPoint& p : found.points) {
       const double t = p.time_s;
       if (found.kind == "creep") {
-        // The release acts at the nearest step. If the load is released at once, it acts up to this step.
+        // The load is released at the step nearest to the given time. Without a ramp, the full load acts until this
+        // step.
         const double gone = c.release ? std::round(*c.release / found.dt_s) * found.dt_s : INFINITY;
         const double held = j.after_ramp(t, c.ramp);
         const double expected = t > gone * (1 + 1e-9) ? held - j.after_ramp(t - gone, c.ramp) : held;

@@ -173,12 +173,13 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
     TestScene stiff = scene;
     stiff.laws[inner] = laws::Elastic{s * 1.125e11, 0.05};
     const double yielded = s * (rigid - solve(stiff, 1).top.e_star_pa) / yields;
-    // The modulus is accurate to about 1e-11. `yields / s` is only a small part of it, so its relative error is larger.
+    // The modulus has a relative error of about 1e-11. The difference of two moduli, `yields / s`, is only a small part
+    // of the modulus, so the relative error of this difference is larger.
     const double rounding = 1e-10 * s * rigid / yields;
     EXPECT_LT(yielded, 1 + rounding) << s;
     EXPECT_GT(yielded, 0) << s;
-    // The relative error of the estimate `yields / s` is of first order in 1/s. So from the second s on it is a tenth
-    // of the error before, when the inner contacts were a tenth as stiff.
+    // The relative error of the estimate `yields / s` is of first order in 1/s. Each s is ten times the previous one,
+    // so from the second s on the error must be a tenth of the error at the previous s.
     if (s > 10) { EXPECT_NEAR((1 - yielded) / before, 0.1, 0.02) << s; }
     fmt::print("inner contacts {:g} times as stiff: {:.3e} of the modulus below rigid, {:.6f} of first order\n", s,
                rigid / solve(stiff, 1).top.e_star_pa - 1, yielded);

@@ -66,8 +66,8 @@ TEST_F(NonlinearScene, WhatRestsOnLinearityIsRefused) {
   EXPECT_HAS(refusal(), "quadrature in [network]: found \"exact\" with law brittle_bond of M-M, expected \"lumped\"");
 }
 
-// With such a law the run uses the contact form `points` and starts from rest, even if the scene does not ask for this.
-// A warning explains the meaning of |E*|. Bonds that do not break give the same result as an elastic law.
+// With a law that is not linear the run uses the contact form `points` and starts from rest, even if the scene does not
+// ask for this. A warning explains the meaning of |E*|. Bonds that do not break give the same result as an elastic law.
 TEST_F(NonlinearScene, IsSteppedAndSaysWhatTheResultIs) {
   const auto solved = [&](const std::string& strength, const std::string& out, const std::string& loading) {
     scene(cyclic + loading, quick, strength);

@@ -174,8 +174,8 @@ TEST_F(RunMany, BeginsNoOtherAfterAStop) {
   EXPECT_THROW(run_many(jobs), InputError);
 }
 
-// A stop interrupts every running scene. Each scene leaves its files and a checkpoint. If it is resumed from the
-// checkpoint, its results are the same bit by bit.
+// A stop interrupts every running scene. Each scene leaves its files and a checkpoint. A scene that is resumed from its
+// checkpoint gives the same results, bit by bit.
 TEST_F(RunMany, StopsThoseThatRun) {
   std::vector<SceneJob> jobs;
   for (const std::string& name : names_) {

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 struct OwnTime {
   SparingSave::Clock::time_point now{1h};
   int saved = 0;
-  /// Returns a SparingSave whose every writing takes `cost`.
+  /// Returns a SparingSave for which every writing of the file takes the time `cost`.
   SparingSave save(SparingSave::Clock::duration cost) {
     return SparingSave(
         [this, cost](const std::string&) {

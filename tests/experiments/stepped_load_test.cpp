@@ -305,8 +305,8 @@ TEST(PlatenBalance, OfMomentumAndEnergy) {
     impulse += dt * (load - up - beta * scaling * mean_momentum);
     most_work = std::max(most_work, std::abs(work)), most_kinetic = std::max(most_kinetic, kinetic);
     most_impulse = std::max(most_impulse, std::abs(momentum));
-    // Only rounding is allowed: of a sum of about 1e3 steps, and of a platen velocity that is computed from
-    // displacements, which change by a fraction of 1e-3 per step.
+    // The tolerance allows only for rounding: the rounding of a sum of about 1e3 steps, and of the platen velocity,
+    // which is computed from displacements that change by a fraction of 1e-3 per step.
     ASSERT_NEAR(kinetic + stored + damped, work, 1e-9 * most_work) << k;
     ASSERT_NEAR(momentum, impulse, 1e-9 * most_impulse) << k;
     before = now, seen = next, wall_speed = speed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tolerance_test.cpp  Tests the key `tolerance` in [solver]: the error of a run stays below it and agrees with the
-// predicted error.
+// tolerance_test.cpp  Tests the key `tolerance` in [solver]: the error of a run stays below the tolerance and agrees
+// with the predicted error.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -151,7 +151,7 @@ bool says(const RunResult& result, const std::string& what) {
 }
 
 // Local damping is not linear, so the run starts with a ramp from rest although the scene asks for a steady start. The
-// result says so.
+// result states the start from rest.
 TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -200,7 +200,7 @@ TEST_F(Tolerance, AMechanismIsAFailedRun) {
   }
 }
 
-// If settings of the scene prevent the run from keeping the tolerance, the result says so.
+// If settings of the scene prevent the run from keeping the tolerance, the result states that the tolerance was missed.
 TEST_F(Tolerance, AMissIsSaid) {
   Scene scene = scene_of(t8(), 1e-3);
   scene.cyclic().frequencies = {20};
@@ -236,7 +236,7 @@ TEST_F(Tolerance, StepsFollowTheDecayOfViscousDamping) {
   EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 1e-4 / 3, 1e-9);
 }
 
-// At large strain the run updates the geometry, and says that the harmonic solution does not.
+// At large strain the run updates the geometry, and reports that the harmonic solution does not update it.
 TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   Scene scene = scene_of(t8(), 1e-3);
   scene.cyclic().frequencies = {20};

@@ -15,8 +15,8 @@ def stepped(setting):
 
 
 def tiles(setting):
-    """Makes faults in a run on one GPU that steps in tiles: blocks of threads that keep their part of the
-    specimen on the chip and wait for one another."""
+    """Makes faults in a run on one GPU that steps in tiles. A tile is a block of threads that keeps its part of the
+    specimen in registers and shared memory and waits for the other tiles."""
     faults(setting, "tiles", ["tiles.toml", "--method", "explicit", "--precision", "mixed", "--devices", "0"], "cuda, ", "tiles on the chip")
 
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// driver_faults.c  A library to be preloaded into a program that uses CUDA (x86-64). It makes one call of NVIDIA's driver
-// fail.
+// driver_faults.c  A library to be preloaded into a program that uses CUDA (x86-64). It makes one call of NVIDIA's
+// driver fail.
 //
-// It has the driver's library name, so that the CUDA runtime uses it as the driver. It looks up every function in the real
-// driver, and returns a replacement that counts the calls and does not make the call that is to fail. Environment:
+// It has the driver's library name, so that the CUDA runtime uses it as the driver. It looks up every function in the
+// real driver, and returns a replacement that counts the calls and does not make the call that is to fail. Environment:
 //   FAULT_DRIVER  path of the real driver
-//   FAULT_KIND    kind of the call: memory, launch, together (launches whose blocks wait for one another), graph (launches
+//   FAULT_KIND    kind of the call: memory, launch, together (launches whose blocks wait for one another), graph
+//   (launches
 //                 of several kernels with their arguments), wait, copy, other; lost: every call fails from a launch on;
-//                 dies, dies-together: the launch is made, but with invalid values instead of all pointers and numbers, so
-//                 that the kernel fails while it runs
+//                 dies, dies-together: the launch is made, but with invalid values instead of all pointers and numbers,
+//                 so that the kernel fails while it runs
 //   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none fails, the calls are only counted
 //   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails, and at the end, if none failed, `count KIND N`
 #define _GNU_SOURCE
@@ -21,7 +22,14 @@
 
 enum { memory, launch, together, graph, wait_, copy, other, kinds };
 static const char* const kind_names[kinds] = {"memory", "launch", "together", "graph", "wait", "copy", "other"};
-enum { out_of_memory = 2, not_initialised = 3, not_found = 500, device_unavailable = 46, launch_out_of_resources = 701, launch_failed = 719 };
+enum {
+  out_of_memory = 2,
+  not_initialised = 3,
+  not_found = 500,
+  device_unavailable = 46,
+  launch_out_of_resources = 701,
+  launch_failed = 719
+};
 
 // All functions of the driver take integers and pointers and return a code. So one function type with many arguments
 // serves all functions: each function ignores the arguments that it does not have.
@@ -50,22 +58,31 @@ static void say(const char* what, const char* name, long number) {
 
 static int code_of(int which) {
   switch (which) {
-    case memory: return out_of_memory;
-    case launch: case together: case graph: return launch_out_of_resources;
-    case other: return device_unavailable;
-    default: return launch_failed;
+    case memory:
+      return out_of_memory;
+    case launch:
+    case together:
+    case graph:
+      return launch_out_of_resources;
+    case other:
+      return device_unavailable;
+    default:
+      return launch_failed;
   }
 }
 
-// Launches with arguments of bytes 0x5a: as a pointer, this is an invalid address on every 64-bit machine.
+// Launches a kernel with arguments whose bytes are all 0x5a. Read as a pointer, these bytes are an invalid address on
+// every 64-bit machine.
 static int launched_with_nonsense(int function, TAKEN) {
   enum { most_parameters = 64 };
   static char nonsense[32768];  // CUDA's limit for all arguments of a kernel
   static void* parameters[most_parameters];
   memset(nonsense, 0x5a, sizeof nonsense);
   for (int x = 0; x < most_parameters; ++x) parameters[x] = nonsense;
-  if (strstr(names[function], "LaunchKernelEx")) c = (W)parameters;
-  else j = (W)parameters;
+  if (strstr(names[function], "LaunchKernelEx"))
+    c = (W)parameters;
+  else
+    j = (W)parameters;
   return real[function](GIVEN);
 }
 
@@ -86,14 +103,19 @@ static int pass(int function, TAKEN) {
   return real[function](GIVEN);
 }
 
-// 1024 functions, each with its own number.
-#define NUMBERS16(x) EACH(x##0) EACH(x##1) EACH(x##2) EACH(x##3) EACH(x##4) EACH(x##5) EACH(x##6) EACH(x##7) \
-                     EACH(x##8) EACH(x##9) EACH(x##a) EACH(x##b) EACH(x##c) EACH(x##d) EACH(x##e) EACH(x##f)
-#define NUMBERS256(x) NUMBERS16(x##0) NUMBERS16(x##1) NUMBERS16(x##2) NUMBERS16(x##3) NUMBERS16(x##4) NUMBERS16(x##5) \
-                      NUMBERS16(x##6) NUMBERS16(x##7) NUMBERS16(x##8) NUMBERS16(x##9) NUMBERS16(x##a) NUMBERS16(x##b) \
-                      NUMBERS16(x##c) NUMBERS16(x##d) NUMBERS16(x##e) NUMBERS16(x##f)
+// Defines 1024 functions, each with its own number.
+#define NUMBERS16(x)                                                                                            \
+  EACH(x##0)                                                                                                    \
+  EACH(x##1) EACH(x##2) EACH(x##3) EACH(x##4) EACH(x##5) EACH(x##6) EACH(x##7) EACH(x##8) EACH(x##9) EACH(x##a) \
+      EACH(x##b) EACH(x##c) EACH(x##d) EACH(x##e) EACH(x##f)
+#define NUMBERS256(x)                                                                                                 \
+  NUMBERS16(x##0)                                                                                                     \
+  NUMBERS16(x##1) NUMBERS16(x##2) NUMBERS16(x##3) NUMBERS16(x##4) NUMBERS16(x##5) NUMBERS16(x##6) NUMBERS16(x##7)     \
+      NUMBERS16(x##8) NUMBERS16(x##9) NUMBERS16(x##a) NUMBERS16(x##b) NUMBERS16(x##c) NUMBERS16(x##d) NUMBERS16(x##e) \
+          NUMBERS16(x##f)
 #define ALL_NUMBERS NUMBERS256(0x0) NUMBERS256(0x1) NUMBERS256(0x2) NUMBERS256(0x3)
-#define EACH(x) static int pass_##x(TAKEN) { return pass(x, GIVEN); }
+#define EACH(x) \
+  static int pass_##x(TAKEN) { return pass(x, GIVEN); }
 ALL_NUMBERS
 #undef EACH
 #define EACH(x) pass_##x,
@@ -101,7 +123,9 @@ static const Function between[most_functions] = {ALL_NUMBERS};
 
 static int kind_by_name(const char* name) {
   if (strstr(name, "Free") || strstr(name, "Destroy")) return other;
-  if (strstr(name, "MemAlloc") || strstr(name, "MemHostAlloc") || strstr(name, "MemCreate") || strstr(name, "MemAddressReserve")) return memory;
+  if (strstr(name, "MemAlloc") || strstr(name, "MemHostAlloc") || strstr(name, "MemCreate") ||
+      strstr(name, "MemAddressReserve"))
+    return memory;
   if (strstr(name, "LaunchCooperative")) return together;
   if (strstr(name, "GraphLaunch")) return graph;
   if (strstr(name, "Launch")) return launch;
@@ -112,7 +136,8 @@ static int kind_by_name(const char* name) {
 
 // Replaces a function, except functions that describe an error or look up other functions.
 static void put_between(const char* name, void** function) {
-  if (!*function || strstr(name, "GetError") || strstr(name, "GetProcAddress") || strstr(name, "GetExportTable")) return;
+  if (!*function || strstr(name, "GetError") || strstr(name, "GetProcAddress") || strstr(name, "GetExportTable"))
+    return;
   for (int x = 0; x < functions && x < most_functions; ++x) {
     if (real[x] == (Function)*function) {
       *function = (void*)between[x];

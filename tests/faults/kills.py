@@ -26,7 +26,7 @@ def kills(setting):
             more = ["--resume"] if (out / "checkpoint.h5").exists() else []  # the newest checkpoint is complete at every moment
             child = subprocess.Popen([setting.program, *setting.stepped(out, *more)], env=setting.environment, cwd=setting.folder,
                                      stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            # the time until a kill grows with each kill: other processes may use the processor
+            # the time until a kill grows with each kill, so that the run ends even if other processes use the processor
             longest = 0.6 * max(0.3, alone) * (1 + killed / 20)
             try:
                 _, err = child.communicate(timeout=setting.random.uniform(0.01, longest))

@@ -65,7 +65,8 @@ def trial(setting, campaign, command, kind, at, number=errno.EIO, limit=0):
     else:
         what += f", {errno.errorcode[number]}"
         said = os.strerror(number) in outcome.err and str(out) in outcome.err
-        # HDF5 1.10 crashes at the end of a program in which it could not close a file, after all results and messages
+        # If HDF5 1.10 could not close a file, it crashes at the end of the program, after all results and messages were
+        # written.
         crashes = outcome.code == -signal.SIGSEGV and "H5Fclose failed" in outcome.err
         if outcome.code not in (0, 1) and not crashes:
             complaints.append(f"exit code {outcome.code}, expected 1")

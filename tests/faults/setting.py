@@ -54,8 +54,8 @@ alpha = 0.0
 
 
 def scene(specimen, solver="density_scaling = 1e6", output=""):
-    """Returns a scene of one cycle at 20 Hz: 500 steps with density scaling 1e6, and in proportion to
-    1 / sqrt(density_scaling) otherwise."""
+    """Returns a scene of one cycle at 20 Hz. The cycle takes 500 steps with a density scaling of 1e6. The number of
+    steps is proportional to 1 / sqrt(density_scaling)."""
     return (f'[specimen]\nfile = "{specimen}"\nbox = [0.008, 0.008, 0.011]\n[loading]\nkind = "cyclic"\n'
             f"frequencies = [20.0]\ncycles = 1\n[solver]\n{solver}\n[output]\n{output}\n{CONTACTS}")
 

@@ -40,7 +40,8 @@ def full_disks(setting):
         return
     for command in setting.commands():
         prepare(setting, command)
-        held = sum((len(b) + 4095) // 4096 * 4096 for b in setting.older.files.values()) + 12288  # whole pages, and the folders
+        # bytes in use: the files take whole pages of 4096 bytes, and the folders take 12288 bytes
+        held = sum((len(b) + 4095) // 4096 * 4096 for b in setting.older.files.values()) + 12288
         for spare in setting.sample([4096 * (1 << k) // 2 for k in range(1, 12)], 4):
             left = setting.clear("left")
             script = ('mount -t tmpfs -o size="$SIZE" none "$DISK" && cp -r "$OLDER" "$DISK/out" || exit 99\n'

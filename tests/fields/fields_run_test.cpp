@@ -50,7 +50,8 @@ TEST_F(RunFields, ASteppedRunHasAFrameEverySoManySamples) {
   const auto z = numbers(file, "VTKHDF/Points");
   for (std::size_t k = 0; k < times.size(); ++k) {
     EXPECT_NEAR(times[k], 0.05 * static_cast<double>(k) / 5, 1e-12);
-    // The wall moves as −A·sin ωt. Particles move in the same direction, by less; the upper ones move more.
+    // The wall moves as −A·sin ωt. Particles move in the same direction, but less; upper particles move more than lower
+    // ones.
     const double wall = -1e-4 * 0.011 * std::sin(2 * std::numbers::pi * 20 * times[k]);
     double lower = 0, upper = 0;
     for (std::size_t i = 0; i < particles; ++i) {

@@ -64,7 +64,7 @@ def check(holds, what):
 
 
 def equal(found, expected, what):
-    """Checks that the values of a field equal those of a CSV file, rounded to single precision, bit by bit."""
+    """Checks that the values of a field equal, bit by bit, the values of a CSV file rounded to single precision."""
     found = np.asarray(found)
     expected = np.asarray(expected).astype(found.dtype)
     check(found.shape == expected.shape and np.array_equal(found, expected), f"{what}: {found} is not {expected}")

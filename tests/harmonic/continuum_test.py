@@ -8,14 +8,15 @@ import math
 import subprocess
 import sys
 
-# The solver ends at a residual of 1e-8 of the first one. The modulus follows from the energy, whose error is the square
-# of this; the printed digits are ten.
+# The solver stops when the residual is 1e-8 of the first residual. The modulus follows from the energy, whose relative
+# error is the square of this number, 1e-16. So the tolerance only has to cover the rounding to the ten printed digits.
 TOLERANCE = 1e-9
 MASTIC, PHASE, ROCK = 4e9, 30.0, 60e9
 
 
 def computed(layers, mastic_poisson, rock, rock_phase, rock_poisson):
-    """Returns the complex moduli and Poisson's ratios of both mixing rules; surfaces lie between voxels here."""
+    """Returns the complex moduli and Poisson's ratios of both mixing rules. The surfaces between layers lie between
+    voxels here."""
     out = subprocess.run([sys.argv[1], "--layers", layers, "--box", "0.004", "0.004", "0.008", "--voxel", "0.001", "--mastic",
                           str(MASTIC), str(PHASE), str(mastic_poisson), "--rock", str(rock), str(rock_phase), str(rock_poisson)],
                          capture_output=True, text=True, check=True).stdout
@@ -27,7 +28,7 @@ def main():
     soft = cmath.rect(MASTIC, math.radians(PHASE))
     cases = [  # name, arguments, exact modulus, exact Poisson's ratio
         ("homogeneous", ("z", 0.3, MASTIC, PHASE, 0.3), soft, 0.3),
-        ("in parallel", ("x", 0.3, ROCK, 0, 0.3), (soft + ROCK) / 2, 0.3),  # equal lateral strains, so no stress between them
+        ("in parallel", ("x", 0.3, ROCK, 0, 0.3), (soft + ROCK) / 2, 0.3),  # equal lateral strains: no stress between layers
         ("in series", ("z", 0, ROCK, 0, 0), 2 / (1 / soft + 1 / ROCK), 0),
     ]
     wrong = 0

@@ -82,8 +82,8 @@ std::size_t number_of_free_motions(const TestScene& scene) {
   return found.motions.size();
 }
 
-// A single sphere can rotate about the vertical through its centre. The modulus equals that of the wall contacts, for
-// any size and height.
+// A single sphere can rotate about the vertical through its centre. The modulus equals the modulus of the wall
+// contacts, also if the box is not a cube and the sphere is not in the middle of the box.
 TEST_P(FreeMotions, OneSphere) {
   Specimen s = lattice(1, 1, none);
   expect_by_both(make_scene(s, {}, laws_of(0.1, 0.1, 0.1)), of_wall);
@@ -121,7 +121,7 @@ TEST_P(FreeMotions, PartsOfAColumnSlideOnOneAnother) {
   EXPECT_NEAR(modulus(scene, LinearMethod::direct) / in_series(scene.specimen, 5), 1, 1e-11);
 }
 
-/// Two blocks of several columns slide on each other; each has three free motions.
+/// Two blocks of several columns slide on each other; each block has three free motions.
 TEST_P(FreeMotions, TwoBlocksSlideOnOneAnother) {
   const TestScene scene = make_scene(lattice(3, 4, [](int z) { return z >= 2; }), {}, laws_of(0.1, 0, 0.1));
   EXPECT_EQ(number_of_free_motions(scene), 6u);

@@ -43,7 +43,8 @@ class Iterative : public BackendTest<std::tuple<Backend>> {
 INSTANTIATE_TEST_SUITE_P(Backends, Iterative, testing::Combine(all_backends()), name_of_case<Backend>);
 
 /// Expects the same E* from the iterative and the direct solver. The error of E* is the square of the residual of 1e-11
-/// times a condition number of about 1e5. This is far below rounding, so the tolerance is the rounding of the sums.
+/// times a condition number of about 1e5. This error is far below the rounding of the sums, which the tolerance allows
+/// for.
 void Iterative::expect_same(const TestScene& scene, const std::vector<HarmonicLoad>& loads, const std::string& what,
                             double tolerance) const {
   const auto found = solve(scene, LinearMethod::iterative, loads), expected = solve(scene, LinearMethod::direct, loads);
@@ -89,7 +90,7 @@ TEST_P(Iterative, AgreesWithFactorsOnClusters) {
   }
 }
 
-// With almost no shear stiffness, facets still resist bending, but the bending stiffness is much smaller. So the
+// If the shear stiffness is almost zero, facets still resist bending, but the bending stiffness is small too. So the
 // condition number of the matrix and the error of E* are larger.
 TEST_P(Iterative, AgreesWithFactorsAlmostWithoutShear) {
   Laws laws = am1_laws();
@@ -111,7 +112,7 @@ std::vector<std::pair<std::string, TestScene>> hostile_networks() {
   return out;
 }
 
-// On a device (GPU) a whole thread block works on each particle that has so many contacts.
+// Two particles have about a hundred contacts each. On a device (GPU) a whole thread block works on each of them.
 TEST_P(Iterative, AgreesWithFactorsWhereParticlesTouchAHundredOthers) {
   const TestScene scene = make_scene(boulders(test_seed()));
   std::size_t with_many = 0;
@@ -127,8 +128,8 @@ TEST_P(Iterative, AgreesWithFactorsOnHostileNetworks) {
   for (const auto& [name, scene] : hostile_networks()) expect_same(scene, {{10}}, name);
 }
 
-// The error of E* is the square of the residual, so 1e-8 gives nine digits. For the specimens of examples/ see
-// bench/results/harmonic-digits.csv.
+// The error of E* is the square of the residual times a condition number, so a residual of 1e-8 gives nine digits. For
+// the specimens of examples/ see bench/results/harmonic-digits.csv.
 TEST_P(Iterative, AResidualOf1e8GivesNineDigits) {
   auto networks = hostile_networks();
   networks.emplace_back("random", make_scene(random_specimen(test_seed(), 6, 6, 8)));
@@ -145,8 +146,8 @@ TEST_P(Iterative, AResidualOf1e8GivesNineDigits) {
   }
 }
 
-// At s = a + iω, the stiffness, the inertia and the damping are those of a motion proportional to e^(s·t). For real s
-// the modulus is real, and conjugate s give conjugate moduli.
+// At s = a + iω, stiffness, inertia and damping have the values for a motion proportional to e^(s·t). For real s the
+// modulus is real, and conjugate s give conjugate moduli.
 TEST_P(Iterative, AnyComplexFrequency) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   for (const double growth : {0.5, 30.0}) {
@@ -207,7 +208,7 @@ TEST_P(Iterative, BeginsAtASolutionAndStaysThere) {
   const HarmonicLoad there{.frequency_hz = 20, .near = &found.motion};
   const HarmonicResult again = solve(scene, LinearMethod::iterative, {there}, 1e-5)[0];
   EXPECT_EQ(again.iterations, 0);
-  double apart = 0;  // rounding when the free motions are removed from the starting point
+  double apart = 0;  // largest difference, from rounding when free motions are removed from the starting point
   for (std::size_t i = 0; i < found.motion.size(); ++i) {
     apart = std::max(apart, std::abs(again.motion[i] - found.motion[i]));
   }

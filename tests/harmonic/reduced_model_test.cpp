@@ -52,8 +52,8 @@ TEST_P(Reduced, WhereThereIsASolutionItIsThat) {
     model.add({solved.motion});
     const ReducedModel::Solution found = model.solve(start, load(frequency));
     const double scale = std::abs(solved.parts.modulus());
-    // The rounding of a few thousand operations: sums over about a thousand contacts, and a small system that is scaled
-    // by its diagonal.
+    // The tolerance covers the rounding of a few thousand operations: sums over about a thousand contacts, and a small
+    // system of equations that is scaled by its diagonal.
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       EXPECT_LT(std::abs(found.parts.normal[pair] - solved.parts.normal[pair]) / scale, 1e-11) << pair;
       EXPECT_LT(std::abs(found.parts.shear[pair] - solved.parts.shear[pair]) / scale, 1e-11) << pair;

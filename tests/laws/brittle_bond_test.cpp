@@ -183,7 +183,7 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   reference->advance(steps);
   stepper->advance(steps / 3);
   stepper->advance(steps - steps / 3);
-  // Same tolerance as StepperAgainstReference::tolerance().
+  // This is the tolerance that StepperAgainstReference::tolerance() returns.
   const double tolerance =
       (own.precision == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24) * static_cast<double>(steps);
   const ParticleState want = reference->particles(), have = stepper->particles();
@@ -202,7 +202,7 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   EXPECT_LT(broken, points * 19 / 20);
 }
 
-// A breaking bond acts on both particles equally and oppositely, so without walls the momentum is conserved.
+// A breaking bond exerts equal and opposite forces on its two particles, so without walls the momentum is conserved.
 TEST_P(BrittleBond, FreeAssembliesKeepTheirMomentum) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;
@@ -230,7 +230,7 @@ TEST_P(BrittleBond, FreeAssembliesKeepTheirMomentum) {
   EXPECT_LT(norm(after - before), 500 * rounding() * size);  // velocities are rounded every step
 }
 
-/// Only the point form can step brittle bonds; the condensed form is refused.
+/// Only the contact form `points` can step brittle bonds; the form `condensed` is refused.
 TEST(BrittleBondInput, IsSteppedByPointsAlone) {
   const TestScene scene = make_scene(random_specimen(2), {}, same_law(bond));
   StepperOptions options = shaking_options(scene);

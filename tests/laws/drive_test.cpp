@@ -102,7 +102,7 @@ class DrivenWalls : public BackendTest<StepperCase> {
     reference->advance(steps);
     stepper->advance(steps / 3);
     stepper->advance(steps - steps / 3);
-    // Same tolerance as StepperAgainstReference::tolerance().
+    // This is the tolerance that StepperAgainstReference::tolerance() returns.
     const double rounding = precision == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24;
     const double tolerance = rounding * static_cast<double>(std::max<std::int64_t>(steps, 100));
     const ParticleState expected = reference->particles(), found = stepper->particles();

@@ -67,7 +67,7 @@ class ReferenceElement {
 struct Case {
   std::string name;
   GeneralisedKelvin law;
-  double settling;  ///< more than 35 of the slowest relaxation times [s]; transients decay below e⁻³⁵ ≈ 6e-16
+  double settling;  ///< more than 35 times the slowest relaxation time [s]; transients decay below e⁻³⁵ ≈ 6e-16
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -207,7 +207,7 @@ TEST(Creep, FollowsTheClosedForm) {
     if (c.law.units() == 0) {
       EXPECT_LT(coarse, 1e-13) << c.name;  // a Maxwell unit creeps linearly, so there are only 50 roundings
     } else {
-      EXPECT_LT(coarse, 2e-5) << c.name;  // (Δt/τ)²/12·e⁻¹ times the part of one unit
+      EXPECT_LT(coarse, 2e-5) << c.name;  // (Δt/τ)²/12·e⁻¹ times the part of one unit in the creep
       EXPECT_NEAR(coarse / fine, 4, 0.02) << c.name;
     }
   }
@@ -224,7 +224,7 @@ void expect_relaxation(const GeneralisedKelvin& law, double t, double exact) {
   const double coarse = std::abs(computed_relaxation(law, t / 100, 100) / exact - 1);
   const double fine = std::abs(computed_relaxation(law, t / 200, 200) / exact - 1);
   EXPECT_LT(coarse, 1e-3);
-  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next term is (Δt/τ)² times the first, less than 1e-2 of it
+  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next term of the error is (Δt/τ)² times the first, below 1e-2
 }
 
 TEST(Relaxation, Maxwell) {
@@ -258,7 +258,8 @@ TEST(ElasticLimit, AChainWithoutDashpotsIsTheElasticLaw) {
   for (int k = 0; k < 1000; ++k) {
     const double dx = increment(random);
     spring.advance(dx), bare.advance(dx), slow.advance(dx);
-    // A thousand roundings of forces below 1e2·E. Dashpots of 1e30 move by 1e-21 of the displacement per second.
+    // The tolerance covers a thousand roundings of forces below 1e2·E. The dashpots with a viscosity of 1e30 move per
+    // second by only 1e-21 of the displacement.
     ASSERT_NEAR(bare.force(), spring.force(), 1e-11 * 2.0e9);
     ASSERT_NEAR(slow.force(), spring.force(), 1e-11 * 2.0e9);
   }

@@ -57,7 +57,7 @@ std::string run_of(const fs::path& file) {
                            fmt::join(f.files, " "));
 }
 
-/// Returns the number of rows. For each column, also returns the sum of its numbers, each multiplied by its position.
+/// Returns the number of rows and, for each column, the sum of its numbers, each multiplied by the position of its row.
 std::string sums_of(std::size_t rows, const std::vector<std::vector<double>>& columns) {
   std::string out = fmt::format("{}:", rows);
   for (const std::vector<double>& column : columns) {
@@ -162,8 +162,8 @@ void quick_shapes(std::string& scene) {
       scene.replace(at, slow.size(), "\"icosahedron\"");
 }
 
-/// Returns the numbers of the lines to change: all of a scene, otherwise the first dozen and the last two, because the
-/// lines between are similar.
+/// Returns the numbers of the lines to change. These are all lines of a scene. In other files they are only the first
+/// dozen and the last two lines, because the lines between are similar.
 std::vector<std::size_t> lines_to_change(const std::vector<std::string>& all, const std::string& ending) {
   std::vector<std::size_t> out;
   std::size_t rows = 0;

@@ -111,8 +111,8 @@ TEST_F(Folder, OneCommandAtATimeAndTheLockDiesWithIt) {
         const ResultFolder held(out);
         for (;;) pause();
       } catch (const Error&) {
-        // The parent checks whether the folder is locked. Meanwhile it may hold the folder, and it removes the empty
-        // folder.
+        // The parent checks whether the folder is locked. During this check the parent itself may hold the lock, so the
+        // child tries again. The parent also removes the folder if it is empty.
         usleep(500);
       }
     }

@@ -20,7 +20,7 @@ class FullPipe {
   FullPipe() {
     if (pipe2(ends_, O_NONBLOCK) != 0) throw std::system_error(errno, std::generic_category(), "pipe2");
     while (::write(ends_[1], "", 1) == 1) {}
-    fcntl(ends_[1], F_SETFL, 0);  // from now on a writer waits until there is room
+    fcntl(ends_[1], F_SETFL, 0);  // from now on a writer waits until the pipe has space
     fcntl(ends_[0], F_SETFL, 0);
   }
   FullPipe(const FullPipe&) = delete;
@@ -187,7 +187,8 @@ TEST_F(StopSignals, BeforeTheHarmonicPlanTheFolderStaysAsItWas) {
   EXPECT_TRUE(fs::exists(folder_ / "out/response.csv"));
 }
 
-// Generating this specimen takes longer than the test would ever wait, unless the signal stops it.
+// Generating this specimen takes longer than the test waits, so the test passes only if the signal stops the
+// generation.
 TEST_F(StopSignals, BeforeTheFirstStepTheyLeaveTheFolderAsItWas) {
   write_scene();
   ASSERT_EQ(run_quick("out").code, 0);

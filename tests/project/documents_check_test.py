@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests that scripts/documents --check fails for copies of the documents with one fault each, and the queries of marks.
+"""Tests that scripts/documents --check fails for copies of the documents with one fault each.
+Also tests the queries of marks (comments in a document that say which value of a table its number is).
 
 usage: documents_check_test.py REPOSITORY; exit code 1 if a fault passes, or if a correct document does not."""
 import contextlib
@@ -33,7 +34,7 @@ def other_digit(text):
 
 
 def in_table(text):
-    """Returns the text with the first digit below the first table's query changed."""
+    """Returns the text in which the first digit after the query of the first table is changed."""
     return re.sub(r"(<!-- table\n.*?-->.*?)(\d)", lambda m: m[1] + other_digit(m[2]), text, count=1, flags=re.S)
 
 
@@ -42,7 +43,7 @@ def in_sentence(text):
 
 
 def queried(query):
-    """Returns a change that gives the first mark of a sentence this query."""
+    """Returns a function that replaces the query of the first mark in a sentence by `query`."""
     return lambda text: re.sub(r"<!--= .+? -->", lambda m: f"<!--= {query} -->", text, count=1)
 
 

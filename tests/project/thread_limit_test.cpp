@@ -101,7 +101,7 @@ TEST_F(ThreadLimitOfJobs, Calibrations) {
   EXPECT_TRUE(stages_.contains("solving")) << testing::PrintToString(stages_);
 }
 
-// Each of two scenes on five cores gets two; the first scene is limited to a single thread.
+// Five cores are divided between two scenes, so each gets two cores; the first scene is limited to a single thread.
 TEST_F(ThreadLimitOfJobs, SeveralScenesAtOnce) {
   const std::vector<SceneJob> jobs = {{scene_of(SolverMethod::harmonic, 1), folder_ / "a"},
                                       {scene_of(SolverMethod::harmonic, 0), folder_ / "b"}};

@@ -41,8 +41,8 @@ class SmallMotion : public testing::TestWithParam<Geometry> {
     stepper->advance(10);
     return stepper->particles();
   }
-  /// Expects the given forces and moments on A and B. In updated geometry the normal rotates by amount/distance = 6e-7;
-  /// the tolerance is 2e-6.
+  /// Expects the given forces and moments on A and B. In updated geometry the normal rotates by amount/distance = 6e-7,
+  /// so the tolerance is 2e-6.
   void expect_loads(const ParticleState& p, const Vec3d& force_a, const Vec3d& moment_a, const Vec3d& moment_b) {
     const double error = GetParam() == Geometry::fixed ? 1e-13 : 2e-6;
     const double force = E * contact.area / contact.distance * amount;
@@ -188,8 +188,8 @@ TEST(Reference, TheTopWallFollowsItsLoading) {
     const Observation seen = stepper->observe();
     EXPECT_EQ(seen.step, 700);
     EXPECT_DOUBLE_EQ(seen.time, 0.35);
-    // During the smooth start the velocity is exact to (2π/1000)² = 4e-5. The displacement keeps the mean of this
-    // error.
+    // During the smooth start the velocity is exact to (2π/1000)² = 4e-5. The relative error of the displacement is the
+    // mean of this error.
     EXPECT_NEAR(seen.top_displacement(), loading.value(700), 1e-5 * loading.amplitude);
     const double stiffness = E * side * side / (side / 2);
     expect_near(seen.wall_force[wall_index(wall_z_hi)], {0, 0, -stiffness * seen.top_displacement()},

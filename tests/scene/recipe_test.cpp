@@ -133,7 +133,7 @@ MixDesign random_design(std::mt19937& random) {
   for (int k = 0; k < sieves; ++k) {
     d.gradation.push_back({size, passing});
     size *= uniform(0.3, 0.9);
-    if (random() % 4) passing *= uniform(0.3, 1);  // otherwise nothing lies between the two sieves
+    if (random() % 4) passing *= uniform(0.3, 1);  // otherwise no aggregate is between the two sieves
     if (k > 0) d.aggregate_density.push_back(uniform(2000, 4000));
   }
   if (random() % 2) d.aggregate_density.resize(1);

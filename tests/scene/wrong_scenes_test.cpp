@@ -181,7 +181,7 @@ TEST_F(SceneFile, AFileBesideARecipeIsRefused) {
       << what;
 }
 
-// Spheres of 8 mm: 44 have 11.80 cm3, 45 have 12.06 cm3, and the box has 12 cm3.
+// The box has 12 cm³. 44 spheres of 8 mm have 11.80 cm³ and are accepted; 45 spheres have 12.06 cm³ and are refused.
 TEST_F(SceneFile, VoidsByCountLeaveRoomInTheBox) {
   const auto with_voids = [](int count) {
     return text_of(

@@ -65,7 +65,7 @@ TEST(Fill, IcosahedronTakesAsManySpheresAsThePublishedOne) {
     EXPECT_GT(report.covered, 0.7);  // twenty-four spheres; random positions would cover 1 − exp(−0.88) = 0.59
     EXPECT_LT(report.outside, 0.015);
     EXPECT_LT(report.largest_overlap, 0.5);           // no centre lies inside another sphere
-    EXPECT_LT(report.deviation_mean, 0.25 * radius);  // a layer of spheres that touch the wall has 0.2
+    EXPECT_LT(report.deviation_mean, 0.25 * radius);  // a layer of spheres that touch the wall has 0.2 radii
     EXPECT_NEAR(report.d_long, 2 * 6.295e-3, 0.5 * radius);
   }
 }

@@ -204,7 +204,7 @@ TEST(ShapeLibrary, PointsAndFacetsLieInThePapersRange) {
 }
 
 TEST(ShapeLibrary, SieveClassesHoldAsManyAsThePapers) {
-  std::map<double, int> found;  // keyed by the upper sieve [mm]
+  std::map<double, int> found;  // number of shapes by the upper sieve of their class [mm]
   for (const ShapeMeasure& m : measures()) ++found[1e3 * sieve_class(m.d_intermediate)[1]];
   const std::vector<std::pair<double, int>> expected{{0.5, 1},  {1, 6},   {2, 17},   {4, 27},
                                                      {6.3, 14}, {10, 12}, {12.5, 4}, {16, 1}};

@@ -155,8 +155,9 @@ TEST(Dimensions, OfAnEllipsoidConvergeAtSecondOrder) {
       return Vec3d{3 * q.x, 2 * q.y, q.z};
     }));
     // Edges of the sphere's mesh have a length h of about 1.1/2^level. Every point of the sphere has a mesh point
-    // within 0.6·h, so D^L is too small by at most 0.6²/2·h². D^I and D^S are also affected by the rotation of the axes
-    // before them. This angle is the same, but scaled by up to 3, which adds (3·0.6)²/2·h².
+    // within an angle of 0.6·h, so D^L is too small by at most the fraction 0.6²/2·h². The directions of the chords are
+    // wrong by the same angle, scaled by at most the ratio 3 of the half axes. For D^I and D^S, which depend on the
+    // directions of the chords before them, this adds the fraction (3·0.6)²/2·h².
     const double h = 1.1 / std::pow(2, level), bound = 0.18 * h * h, tilted = bound + 1.62 * h * h;
     EXPECT_LE(m.d_long, 6);
     EXPECT_NEAR(m.d_long, 6, 6 * bound);
@@ -191,7 +192,8 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
     const ShapeMeasure m = measure_shape(s);
     EXPECT_LE(m.d_short, m.d_intermediate);
     EXPECT_LE(m.d_intermediate, m.d_long);
-    // D^S: no line in this direction is longer, and lines through random points of the facets are almost as long
+    // No line in the direction of D^S is longer than D^S, and lines through random points of the facets are almost as
+    // long.
     RandomStream random(seed, 3);
     double found = 0;
     for (const auto& f : s.facets) {
@@ -205,7 +207,7 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
     }
     // the 3,200 lines are about 1/50 of the size apart, so they miss the longest line
     EXPECT_GT(found, 0.95 * m.d_short);
-    // D^I: lines in all directions perpendicular to D^L, through random points of the facets.
+    // Compares D^I with lines in all directions perpendicular to D^L, through random points of the facets.
     double across = 0;
     for (int k = 0; k < 20000; ++k) {
       const double angle = std::numbers::pi * random.uniform();
@@ -287,7 +289,7 @@ TEST(Indices, FollowTheirDefinitions) {
   EXPECT_DOUBLE_EQ(m.flatness(), 0.8);
   EXPECT_DOUBLE_EQ(m.elongation(), 0.625);
   EXPECT_DOUBLE_EQ(m.flakiness(), 4 / 6.3);
-  // p = 0.8, q = 0.625: 12.8·∛0.4 / (1 + 1.3 + 6·√(1 + 0.64·1.390625))
+  // With p = D^S/D^I = 0.8 and q = D^I/D^L = 0.625 the formula gives 12.8·∛0.4 / (1 + 1.3 + 6·√(1 + 0.64·1.390625)).
   EXPECT_NEAR(m.sphericity_working(), 12.8 * std::cbrt(0.4) / (2.3 + 6 * std::sqrt(1.89)), 1e-15);
   m.d_intermediate = 20e-3;
   EXPECT_TRUE(std::isnan(m.flakiness()));

@@ -43,7 +43,8 @@ TEST(SurfaceDistance, KnowsInsideFromOutsideAtAReentrantEdge) {
       ASSERT_NEAR(depth, union_of_two, tolerance);
     }
   });
-  // This point is on the bisector of the re-entrant edge, which is its nearest place; the four sides are farther away.
+  // This point is on the bisector of the re-entrant edge. The edge is the nearest part of the surface; the four sides
+  // are farther away.
   EXPECT_NEAR(distance.depth({0.7, 0.7, 0.5}), std::hypot(0.3, 0.3), tolerance);
 }
 
@@ -53,8 +54,9 @@ TEST(SurfaceDistance, GrowsAlongTheDirectionItGives) {
     const Vec3d q = p - Vec3d{0.5, 0.5, 0.5};
     const auto [depth, inward] = distance.below(q, 10);
     ASSERT_NEAR(norm(inward), 1, tolerance);
-    // A step of 0.1 against the direction reduces the depth by 0.1. Inside the surface, the step leads towards the
-    // nearest point, and no other point becomes nearer. Outside of a convex surface, it leads away from this point.
+    // A step of 0.1 against the direction `inward` reduces the depth by 0.1. Inside the surface, the step leads towards
+    // the nearest point of the surface, and no other point becomes nearer. Outside of a convex surface, the step leads
+    // away from the nearest point.
     ASSERT_NEAR(distance.depth(q - 0.1 * inward), depth - 0.1, 1e-12);
   });
 }

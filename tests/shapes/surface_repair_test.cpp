@@ -136,8 +136,8 @@ TEST(RepairSurface, WrapsWhatCutsItself) {
   EXPECT_NEAR(repair.area_before, 12, 1e-12);
 }
 
-/// A wrap (a new skin around the surface) that changes the volume is refused without `wrap`. The message states the
-/// volumes before and after.
+/// A wrap (a new skin around the surface) that changes the volume is refused unless `wrap` is set. The message states
+/// the volumes before and after.
 TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
   const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
   try {
@@ -153,7 +153,7 @@ TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
 }
 
 /// Two neighbouring points are exchanged, so that eight facets intersect. The wrap changes volume and area by less than
-/// the limit, so the repair may wrap without `wrap`.
+/// the limit, so the repair may wrap even if `wrap` is not set.
 TEST(RepairSurface, WrapsASmallFaultUnasked) {
   Surface s = mapped(icosphere(4), [](const Vec3d& p) { return 5.0 * p; });
   std::swap(s.points[s.facets[100][0]], s.points[s.facets[100][1]]);
@@ -211,7 +211,7 @@ TEST(RepairSurface, IsGoodAsItIsReadBack) {
     write_surface(file, repair_surface(s, &repair, file, true));
     EXPECT_TRUE(check_surface(read_surface(file)).good()) << check_surface(read_surface(file)).text();
     EXPECT_TRUE(contains(repair.what, "non-manifold point")) << repair.what;
-    if (file.extension() == ".off") {  // also without a file name
+    if (file.extension() == ".off") {  // the repair must also work without a file name
       write_surface(file, repair_surface(s, nullptr, {}, true));
       EXPECT_TRUE(check_surface(read_surface(file)).good());
     }

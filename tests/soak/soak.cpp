@@ -70,8 +70,8 @@ class Soak {
     add("backend = \"" + backend + "\"\nmethod = \"harmonic\"\nlinear = \"iterative\"\n", "contacts = true\n");
   }
 
-  /// Runs every case once, with or without interruptions.
-  /// \throws RunError if the output differs from the first time.
+  /// Runs every case once, with or without interruptions. \throws RunError if the output of a case differs from its
+  /// first output.
   void round() {
     for (Case& c : cases_) {
       const bool in_pieces = c.scene.solver.method == SolverMethod::explicit_ && random_() % 3 > 0;

@@ -100,8 +100,8 @@ TEST(Generate, SameBitsForAnyNumberOfThreads) {
   omp_set_num_threads(threads);
 }
 
-/// The generator computes a tessellation to check that every sphere has a cell. It returns these cells, so that the
-/// caller need not compute them again. They must equal a new tessellation.
+/// The generator computes a tessellation to check that every sphere has a cell. The generator returns the cells, so
+/// that the caller need not compute them again. The returned cells must equal a new tessellation.
 TEST(Generate, HandsOnTheCellsOfTheSpecimenAsItIs) {
   const auto same = [](const Facet& a, const Facet& b) {
     return a.a == b.a && a.b == b.b && a.area == b.area && norm(a.centroid - b.centroid) == 0;

@@ -25,8 +25,8 @@ std::vector<Ball> spheres(int n, RandomStream& random) {
   return balls;
 }
 
-/// Returns the neighbours of sphere i that are nearer than `gap`, found by comparing all pairs. They are in the order
-/// that the header documents.
+/// Returns the neighbours of sphere i that are nearer than `gap`, found by comparing all pairs. The neighbours are in
+/// the order that the header documents.
 std::vector<std::int32_t> by_hand(const std::vector<Ball>& balls, const std::vector<std::int32_t>& number, int i,
                                   double gap) {
   std::vector<std::pair<std::pair<int, int>, int>> row;
@@ -85,7 +85,7 @@ TEST_P(NeighboursOf, HoldAllThatTouchAfterManyMoves) {
   for (int round = 0; round < 20; ++round) {
     std::vector<std::int32_t> strayed;
     const double step = round % 5 == 4 ? skin : 0.1 * skin;
-    // makes relisting use several threads in some rounds, and one in others
+    // If many spheres move far, several threads make the new lists; if few do, one thread makes them.
     const double share = round % 3 == 2 ? 0.02 : 0.004;
     for (int i = first; i < n; ++i) {
       const bool far = random.uniform() < share;

@@ -58,8 +58,8 @@ void expect_classes(const Scene& scene, const std::vector<Body>& bodies, double 
   for (const MixClass& c : asked.classes) {
     double volume = 0, smallest = box;
     for (const Body& b : bodies) {
-      // A diameter may equal a sieve size. It is twice a radius that was computed as half of a diameter, so it may
-      // differ from the sieve size by rounding.
+      // A diameter may equal a sieve size. The diameter is computed as twice a radius, and the radius was computed as
+      // half of a diameter, so the diameter may differ from the sieve size by rounding.
       if (b.size < c.sieve_min * (1 - 1e-12) || b.size > c.sieve_max * (1 + 1e-12)) continue;
       ++counted, volume += b.volume, smallest = std::min(smallest, b.volume);
     }

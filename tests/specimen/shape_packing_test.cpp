@@ -53,8 +53,8 @@ TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
       EXPECT_GT(std::min({x.x, x.y, x.z}), radius[i]) << i;
       EXPECT_GT(std::min({0.05 - x.x, 0.05 - x.y, 0.08 - x.z}), radius[i]) << i;
     }
-  // Checks overlap independently of the packing: by solid angles, every eighth point of an aggregate must be outside of
-  // the aggregates near it. The edges and facets are checked in shape_placement_test.
+  // Checks overlap with solid angles, independently of the packing: every eighth point of an aggregate must be outside
+  // of the neighbouring aggregates. Edges and facets are checked in shape_placement_test.
   std::size_t looked = 0;
   for (std::size_t i = 0; i < surface.size(); ++i)
     for (std::size_t j = 0; j < surface.size(); ++j) {

@@ -189,8 +189,8 @@ TEST(ShapeComposition, CountsAreKept) {
 }
 
 /// For the logarithmic size law between a and b, sizes from c to d contribute (d³ − c³)/(3 ln(b/a)) to the mean cube of
-/// all sizes. Here aggregates of sizes below √(a·b) become spheres. The volume of these spheres is much smaller than
-/// that of stones.
+/// all sizes. Here aggregates of sizes below √(a·b) become spheres. These spheres have a much smaller volume than the
+/// stones.
 TEST(ShapeComposition, TheNumberFollowsFromTheMeanVolumeOfSpheresAndStones) {
   std::vector<ShapeTemplate> shapes = stones();
   for (ShapeTemplate& t : shapes) t.sphere_size = 0.5;
@@ -233,7 +233,8 @@ TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {
 }
 
 /// A contact pushes both particles with the same force. One of two similar aggregates is four times as large as the
-/// second and has about 16 times the mass in this relaxation. So it moves 16 times less, and rotates still less.
+/// second and has about 16 times the mass in this relaxation. So the larger aggregate moves 16 times less than the
+/// smaller one, and rotates still less.
 TEST(ShapePlacement, PackedStonesGiveWayByTheirMasses) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));
   const ShapeGeometry geometry(shape);

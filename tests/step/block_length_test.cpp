@@ -43,10 +43,10 @@ TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   Laws slow = lasting();
   slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // its time scale is 2π times the relaxation time of 0.01 s
   EXPECT_EQ(block_steps(options, facts_of(slow), size), 157);
-  // The time scale of the geometry is 4e-3 / (1e-4·20π/s) = 0.64 s, longer than that of the load.
+  // The time scale of the geometry is 4e-3 / (1e-4·20π/s) = 0.64 s, longer than the period of the load, 0.1 s.
   options.geometry = Geometry::updated;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 250);
-  // The time scale of the geometry is 4e-3 / (1e-2·20π/s) = 6.4e-3 s, shorter than that of the load.
+  // The time scale of the geometry is 4e-3 / (1e-2·20π/s) = 6.4e-3 s, shorter than the period of the load, 0.1 s.
   options.boundary = moving_top(drives::Cyclic(1e-3, 10, 1000000));
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 15);
   options.boundary = {};
@@ -97,7 +97,7 @@ TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   EXPECT_EQ(steps(212), 212);
   EXPECT_EQ(steps(424), 212);
   EXPECT_EQ(steps(600), 200);
-  EXPECT_EQ(steps(251), 250);  // 251 steps is a prime number, so no useful length divides it
+  EXPECT_EQ(steps(251), 250);  // 251 is a prime number, so no useful length divides it
   EXPECT_EQ(steps(100), 200);  // two observations per block
   EXPECT_EQ(steps(1), 250);
 }

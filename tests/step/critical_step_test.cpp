@@ -51,9 +51,9 @@ ContactNetwork with_exact_points(const ContactNetwork& network) {
   return out;
 }
 
-// The energy of a contact is at most twice the sum of two energies: those of moving each of its ends alone. So ω_max² ≤
-// 2·max λ(M_i⁻¹·K_ii), and the computed step is safe. Moving only one particle shows that ω_max² ≥ max λ(M_i⁻¹·K_ii).
-// So the computed step is at least 1/√2 of the true limit.
+// The energy of a contact is at most twice the sum of two energies, for each of which only one end of the contact
+// moves. So ω_max² ≤ 2·max λ(M_i⁻¹·K_ii), and the computed step is safe. Moving only one particle shows that ω_max² ≥
+// max λ(M_i⁻¹·K_ii). So the computed step is at least 1/√2 of the true limit.
 TEST(CriticalStep, IsBelowTheTrueLimitAndAboveItsRootHalf) {
   const unsigned seed = test_seed() + 99;
   double sum = 0;

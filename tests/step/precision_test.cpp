@@ -69,9 +69,9 @@ std::vector<Comparison> study() {
 }
 
 /// Returns the comparisons of the drift study in accuracy.csv and of the runs with `tolerance`. Each result is compared
-/// with double precision at the same settings or, if there is none, with the harmonic solution of the same inertia. The
-/// numbers of layers are those of the precision study. Inertia 0 makes the estimated error smaller, so the test is
-/// stricter.
+/// with a result in double precision with the same settings. If there is no such result, it is compared with the
+/// harmonic solution with the same inertia. The numbers of layers are taken from the precision study. The inertia is
+/// set to 0, which makes the estimated error smaller and so the test stricter.
 std::vector<Comparison> drift() {
   std::map<std::string, double> layers;
   for (const Comparison& c : study()) layers[c.scene] = c.scale.layers;
@@ -107,7 +107,8 @@ std::vector<Comparison> drift() {
 std::vector<Comparison> all() {
   std::vector<Comparison> out = study();
   for (const Comparison& c : drift()) out.push_back(c);
-  // The full specimen at true mass on a GPU, with about 40 layers of particles, compared with the harmonic solution.
+  // Adds the run of the full specimen at true mass on a GPU, with about 40 layers of particles. It is compared with the
+  // harmonic solution.
   for (const Row& r : committed("whole-tests-h200-2026-11-21.csv")) {
     if (r.at("scene") != "true mass") continue;
     out.push_back({r.at("precision"),

@@ -163,8 +163,9 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
   check("bonds, many of them broken", options_);
 }
 
-// A GPU with fewer multiprocessors divides the specimen into other tiles, or streams the tiles from memory. It must
-// give the same bits, and must be able to continue the state of a whole GPU. Elastic scenes have kernels of their own.
+// A GPU with fewer multiprocessors divides the specimen into other tiles, or streams the tiles from memory. Such a GPU
+// must give the same bits as a whole GPU, and must be able to continue from the state of a whole GPU. Elastic scenes
+// have kernels of their own.
 TEST_P(StepperState, IsThatOfADeviceOfAnySize) {
   if (backend_ != Backend::cuda) GTEST_SKIP() << "of devices alone";
   for (const Laws& laws : {am1_laws(), elastic_laws()}) {
@@ -214,7 +215,8 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   struct Use {
     const char* name;
     const StepperOptions* options;
-    /// whether the CPU reuses the stepper; a GPU reuses less of it if the use before or after steps in blocks
+    /// Whether the CPU reuses the stepper. A GPU reuses fewer parts of it if the run before or after takes steps in
+    /// blocks.
     bool kept;
   };
   std::unique_ptr<Stepper> used;

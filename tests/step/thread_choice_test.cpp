@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // thread_choice_test.cpp  Tests the choice between stepping with all threads and with one thread, given measured times
 // of steps. The faster choice must win, and changes must be noticed.
-// faster and notice changes.
 #include "kernels/cpu/thread_choice.hpp"
 
 #include <gtest/gtest.h>
@@ -31,8 +30,8 @@ TEST(ThreadChoice, KeepsAllThreadsOnAQuietMachine) {
 TEST(ThreadChoice, TakesOneWhileOthersWantTheCores) {
   ThreadChoice choice(2, false);
   play(choice, 1e-4, 2e-4, 30);
-  EXPECT_GT(play(choice, 2e-3, 4e-4, 30), 0.9);    // while a build uses the cores
-  EXPECT_LT(play(choice, 1e-4, 2e-4, 120), 0.55);  // the build has ended, which is noticed within a minute
+  EXPECT_GT(play(choice, 2e-3, 4e-4, 30), 0.9);    // while another program uses the cores
+  EXPECT_LT(play(choice, 1e-4, 2e-4, 120), 0.55);  // the other program has ended, which is noticed within a minute
   EXPECT_LT(play(choice, 1e-4, 2e-4, 30), 0.01);
 }
 

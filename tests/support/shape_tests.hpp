@@ -13,7 +13,7 @@
 
 namespace macadam::test {
 
-/// Returns the surface of an aggregate at its place in the box; an empty surface if it is a sphere.
+/// Returns the surface of an aggregate at its place in the box; an empty surface if the aggregate is a sphere.
 inline Surface placed_surface(const PlacedAggregate& a, const std::vector<ShapeTemplate>& shapes) {
   return a.sphere ? Surface{} : mapped(shapes[a.shape].surface, a.pose);
 }

@@ -109,7 +109,8 @@ struct PairShape {
   Vec3d n{0, 0, 1};                             ///< from a to b, a unit vector
   double s0 = 0, t0 = 0;                        ///< position of the centroid in the facet's frame [m]
 
-  /// Distance of x0 from each centre: R − Un/2 − dv with dv of Eq. 5. At x0 both spheres have equal power.
+  /// Returns the distance of x0 from the centre of A: R − Un/2 − dv with dv of Eq. 5 of [1]. At x0 both spheres have
+  /// equal power.
   double arm_a() const { return (distance * distance + radius_a * radius_a - radius_b * radius_b) / (2 * distance); }
   double arm_b() const { return distance - arm_a(); }
 };

@@ -149,7 +149,7 @@ inline double largest(const std::vector<Vec3d>& list) {
   return out;
 }
 
-/// Returns the largest difference between two lists over the largest length in the second.
+/// Returns the largest difference between two lists of vectors, divided by the largest length in the second list.
 inline double relative_difference(const std::vector<Vec3d>& list, const std::vector<Vec3d>& expected) {
   double out = list.size() == expected.size() ? 0 : INFINITY;
   for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -129,7 +129,7 @@ inline Surface lump(std::uint64_t seed, int level, const Vec3d& axes, double den
 inline Surface stone(std::uint64_t seed, int level = 2) {
   RandomStream random(seed, 0);
   const auto between = [&] { return random.uniform(-1, 1); };
-  std::vector<Vec3d> planes;  // unit normal over the distance of the plane from the origin
+  std::vector<Vec3d> planes;  // unit normal divided by the distance of the plane from the origin
   while (planes.size() < 14) {
     const Vec3d n{between(), between(), between()};
     if (dot(n, n) < 1 && dot(n, n) > 0.01) planes.push_back((1 / (random.uniform(0.75, 0.9) * norm(n))) * n);

@@ -110,7 +110,7 @@ TEST_F(RandomNetwork, EveryFacetIsAContactInOrder) {
   EXPECT_EQ(network.point_s.size(), network.point_area.size());
 }
 
-/// The lever arms put the reference point x0 into the plane of the facet, and equal the lever arms of Eq. 5–7.
+/// The lever arms put the reference point x0 into the plane of the facet, and equal the lever arms of Eq. 5–7 of [1].
 TEST_F(RandomNetwork, ArmsPutTheReferencePointOnTheFacetsPlane) {
   int outside = 0;
   for (std::size_t k = 0; k < network.contacts.size(); ++k) {
@@ -127,7 +127,7 @@ TEST_F(RandomNetwork, ArmsPutTheReferencePointOnTheFacetsPlane) {
     }
     const double ra = specimen.radius[c.a], rb = specimen.radius[c.b];
     EXPECT_NEAR(norm(specimen.centre[c.b] - c.arm_b * c.n - x0), 0, 1e-15 * (1 + std::abs(c.arm_a)));
-    // Eq. 5–7: R_a − Un/2 − dv, dv = ½ (R_a − R_b)(d − R_a − R_b)/d
+    // Eq. 5–7 of [1]: the lever arm is R_a − Un/2 − dv with dv = ½ (R_a − R_b)(d − R_a − R_b)/d.
     const double overlap = ra + rb - c.distance, dv = 0.5 * (ra - rb) * -overlap / c.distance;
     EXPECT_NEAR(c.arm_a, ra - overlap / 2 - dv, 1e-15 * (1 + ra / c.distance));
     outside += c.arm_a < 0 || c.arm_b < 0;
@@ -153,8 +153,8 @@ TEST_F(RandomNetwork, PointAreasAndFirstMoments) {
       t += network.point_area[j] * network.point_t[j];
       reach = std::max(reach, std::hypot(network.point_s[j], network.point_t[j]));
     }
-    // Local coordinates have an error of ε times the size of the box and the distance to x0. The area of a facet of
-    // length l therefore has a relative error of 1e-16/l.
+    // Local coordinates have an error of ε times the sum of the size of the box and the distance to x0. The area of a
+    // facet of length l therefore has a relative error of about 1e-16/l.
     const double relative = 1e-14 / std::sqrt(c.area) * (1 + reach);
     EXPECT_NEAR(area, c.area, relative * c.area);
     EXPECT_NEAR(c.moments.a, area, 1e-14 * area);

@@ -123,8 +123,8 @@ class LatticeSection : public testing::TestWithParam<double> {
   }
 
   static void expect_every_eighth(const Specimen& s, const Tessellation& t) {
-    // A facet almost parallel to the plane may meet another such facet. If the shift of a centre is δ, the two open or
-    // overlap in strips of width δ.
+    // If two neighbouring facets are almost parallel to the plane and a centre is shifted by δ, the polygons of their
+    // cells may overlap or leave a gap, in a strip of width δ.
     const double tolerance = rounding + 10 * GetParam();
     for (const char axis : {'x', 'y', 'z'}) {
       const double length = s.box.size.*component(axis);
@@ -174,8 +174,8 @@ TEST_P(LatticeSection, LargeSlabsOverSmallCells) {
 class RandomSection : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(RadiusRatio, RandomSection, testing::Values(1.0, 5.0, 50.0));
 
-/// Chooses random points of the plane. By brute force it finds the particle of smallest power distance; the polygon
-/// that contains the point must belong to this particle.
+/// Chooses random points of the plane. For each point, finds the particle of smallest power distance by comparing all
+/// particles. The polygon that contains the point must belong to this particle.
 TEST_P(RandomSection, EveryPointBelongsToThePolygonOfTheNearestInPower) {
   const Specimen s = random_box(400, GetParam(), 5);
   const Tessellation t = tessellate(s);

@@ -99,8 +99,8 @@ TEST(PackingCheck, ClustersOfOverlappingSpheresAreNoFault) {
   EXPECT_TRUE(warnings_of(one).empty()) << testing::PrintToString(warnings_of(one));
 }
 
-// The smallest of these fractions is just above the limit for sparse boxes. In such packings a cell reaches up to 6
-// radii, or 1.8 mean spacings, from its sphere.
+// The smallest of these filled fractions is just above the limit below which a box counts as sparse. In such packings a
+// cell reaches up to 6 radii, or 1.8 mean spacings, from the centre of its sphere.
 TEST(PackingCheck, LoosePackingsAreNoFault) {
   for (const double fill : {0.101, 0.15, 0.25}) {
     for (const unsigned seed : {test_seed(), test_seed() + 1}) {

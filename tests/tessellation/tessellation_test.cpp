@@ -180,7 +180,7 @@ TEST(Tessellation, NamesFileAndLine) {
 TEST(Tessellation, HiddenParticlesAreNamed) {
   Specimen s = empty_box({1, 1, 1});
   add(s, {0.50, 0.5, 0.5}, 0.3);
-  add(s, {0.52, 0.5, 0.5}, 0.01);  // pow_0 < pow_1 everywhere in the box, because the cell would be beyond x = 2.7
+  add(s, {0.52, 0.5, 0.5}, 0.01);  // hidden by particle 0 in the whole box: its cell would be beyond x = 2.7
   add(s, {0.2, 0.2, 0.2}, 0.1);
   add(s, {0.205, 0.2, 0.2}, 0.02);  // hidden by 0 and 2
   const Tessellation t = tessellate(s);

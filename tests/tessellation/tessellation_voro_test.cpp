@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation_voro_test.cpp  Compares the tessellation of the full single-sphere specimen with that of voro++,
-/// an independent implementation.
+/// \file tessellation_voro_test.cpp  Compares the tessellation of the full single-sphere specimen with the tessellation
+/// by voro++, an independent implementation.
 #include <gtest/gtest.h>
 #ifdef _OPENMP
 #include <omp.h>

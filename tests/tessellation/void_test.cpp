@@ -281,7 +281,7 @@ TEST_F(VoidScenes, TakeTheAirVoidsOfARecipe) {
   const Scene some = scene(recipe, "[specimen.voids]\nradius = [\"0.6 mm\", \"1 mm\"]\nfraction = \"3 %\"\n");
   EXPECT_NEAR((1 - *some.specimen.mastic->porosity) * 0.97, 0.96, 1e-12);
   const MixVolumes asked = volumes_of(*all.recipe);
-  for (const Scene& s : {all, some}) {  // with or without voids, the solid volumes are those of the mix design
+  for (const Scene& s : {all, some}) {  // the mix design gives the solid volumes, with or without voids
     const GeneratedSpecimen made = generate_specimen(s.specimen);
     const double rounding = volume_of(0.001) / s.specimen.box.volume();
     EXPECT_NEAR(made.composition[0].fraction, asked.classes[0].volume, rounding);

@@ -154,7 +154,8 @@ TEST(BenchLattice, IsANetwork) {
   for (const Contact& c : lattice.network.contacts) {
     if (c.b >= 0) continue;
     ++at_walls;
-    // a second moment is less than the area times the square of the distance from the wall, 0.32 mm at least
+    // A second moment is less than the area times the square of the distance from the centre to the wall (at least 0.32
+    // mm).
     for (const double moment : {c.moments.ss, c.moments.tt}) EXPECT_LT(moment, c.area * c.arm_a * c.arm_a);
   }
   EXPECT_EQ(most, 12u);

@@ -183,7 +183,7 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   const laws::Shift truth = laws::Wlf{13.5, 140, 20};
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}})
     EXPECT_NEAR(table.log10_a_T[i], laws::log10_shift(truth, nominal[i]) - laws::log10_shift(truth, 15), 0.1);
-  // differs by tenths of a degree from the readings, so the isotherm gets this temperature
+  // The isotherm whose readings differ from 15.3 degrees by tenths of a degree gets this temperature.
   options.reference_temperature = 15.3;
   const Fit named = fit_modulus(data, options);
   EXPECT_EQ(named.options.reference_temperature, 15.3);

@@ -191,8 +191,8 @@ def _sensitivities(page: Page, folder: Folder) -> None:
 
 
 def _at_first_temperature(results: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Returns the results at the temperature of the first one, sorted by frequency, so that only the frequency
-    differs."""
+    """Returns the results at the temperature of the first result, sorted by frequency, so that only the frequency
+    differs between them."""
     return sorted(
         (r for r in results if r.get("temperature_c") == results[0].get("temperature_c")), key=lambda r: r["frequency_hz"]
     )

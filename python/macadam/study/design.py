@@ -18,8 +18,8 @@ __all__ = ["Design", "Job", "number_and_unit", "read_design"]
 
 _KEYS = {"scene", "command", "arguments", "grid", "latin_hypercube", "list", "choice", "experiment", "run", "report"}
 _COMMANDS = ("run", "specimen")
-# Columns of the table other than the factors, named as in summary.json. AT: coordinates of a result (temperature,
-# frequency or time). MEASURED: results.
+# Columns of the table other than the factors, named as in summary.json. AT: the coordinates of a result (temperature,
+# frequency or time). MEASURED: the computed quantities.
 AT = ("temperature_c", "frequency_hz", "time_s")
 MEASURED = (
     "e_star_pa",

@@ -176,10 +176,10 @@ def _round(
     said: Callable[[], None],
     patience: tuple[float, float] | None,
 ) -> str:
-    """Submits the jobs and waits until all have ended, or until no worker has been working for longer than `patience`:
-    two times [s], one until the first worker begins and one for afterwards; None: waits forever. said: reports
-    progress. Returns the last error of a worker that died or did not start. Errors of the program are in the study's
-    folder."""
+    """Submits the jobs and waits until all have ended, or until no worker has been working for too long. `patience` has
+    two times [s]: the longest wait until the first worker begins, and the longest time without a working worker
+    afterwards. If it is None, the wait has no limit. `said` is called to report progress. Returns the last error of a
+    worker that died or did not start. Errors of the program are in the study's folder."""
     died = ""
     waiting = {pool.submit(compute, job) for job in jobs}
     locks = [Path(job["folder"]) / "running" / f"{job['key']}.lock" for job in jobs]

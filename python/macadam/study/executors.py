@@ -74,7 +74,7 @@ def patience(run: dict[str, Any]) -> tuple[float, float]:
     that is killed while it waits for a job can block the queue for all other workers."""
     slurm = run.get("on", "local") == "slurm"
     later = float(run.get("patience", 600 if slurm else 60))
-    # before the first worker begins there is no limit on a cluster: jobs may wait there for days
+    # on a cluster there is no time limit until the first worker begins, because jobs may wait in the queue for days
     return (float("inf") if slurm else 5 * later), later
 
 
@@ -120,7 +120,7 @@ def check(run: dict[str, Any]) -> None:
 
 
 def check_count(name: str, value: Any) -> None:
-    """Raises StudyError if a value is not a whole number above 0. name: of the value, for the message."""
+    """Raises StudyError if a value is not a whole number above 0. name: the name of the value, for the message."""
     if isinstance(value, bool) or not isinstance(value, int) or value < 1:
         raise StudyError(f"{name}: found {value!r}, expected a whole number above 0")
 

@@ -27,8 +27,8 @@ def start_time_of(process: int) -> str | None:
 
 
 def watch(study: int, manager: int, seconds: float) -> None:
-    """Returns when the manager, whose child this process is, has ended. Kills the manager if it still runs `seconds`
-    after the study has ended."""
+    """Returns when the manager, which is the parent of this process, has ended. Kills the manager if it still runs
+    `seconds` after the study has ended."""
     since, gone = start_time_of(study), None
     while os.getppid() == manager:
         time.sleep(1)

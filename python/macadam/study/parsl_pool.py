@@ -161,7 +161,7 @@ def _close(pool: Any) -> None:
 
 
 def _groups(provider: Any) -> set[int]:
-    """Returns the process groups of the workers on this machine, without that of this process."""
+    """Returns the process groups of the workers on this machine, except the process group of this process."""
     found = set()
     for job in list(provider.resources.values()):
         with contextlib.suppress(KeyError, ProcessLookupError):  # ignores a job of Slurm, and a process that has ended

@@ -7,7 +7,7 @@ import functools
 
 import numpy as np
 
-# steps of the integration, for which the quantiles are correct to five digits up to 10,000 degrees of freedom
+# Number of steps of the integration. The quantiles are then correct to five digits up to 10,000 degrees of freedom.
 _INTERVALS = 200_000
 
 

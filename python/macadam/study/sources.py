@@ -2,8 +2,8 @@
 """The places of a study that set keys of the scene (grid, hypercubes, lists, choices, experiments), and the order in
 which they are applied.
 
-The files of choices are applied first, then single keys: those of choices, of the grid, hypercubes and lists, and of
-the experiment. Two places may not set the same key, so the order of single keys does not matter. A file replaces the
+The files of choices are applied first, then the single keys that choices, the grid, hypercubes, lists and the
+experiment set. Two places may not set the same key, so the order of single keys does not matter. A file replaces the
 whole entry of a pair of contacts; another place may set a key of that entry which the file does not set."""
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Setting:
     replaces: bool = False
 
     def clash(self, other: Setting) -> str:
-        """Returns why the study may not set both; empty if it may."""
+        """Returns why the study may not set both this key and the key of `other`; empty if it may."""
         if self.replaces != other.replaces:
             return ""
         if self.path == other.path:

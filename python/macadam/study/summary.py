@@ -169,8 +169,8 @@ def _main_effects(page: Page, q: Quantity) -> None:
 
 
 def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
-    """Adds the table of effects, with the scatter of seeds if it is known, and with shares of the variance if there are
-    several factors."""
+    """Adds the table of effects. The table has the scatter of seeds if it is known, and the fractions of the variance
+    if there are several factors."""
     heads, notes = ["factor", "from … to", f"change of {q.name}"], []
     rows = [[e.factor, " … ".join(_level(e.levels[k]) for k in e.at_ends), _change_words(q, e)] for e in found]
     if any(e.scatter is not None for e in found):

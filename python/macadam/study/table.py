@@ -93,7 +93,7 @@ def _results(summary: dict[str, Any]) -> list[dict[str, Any]]:
 
 def failures(design: Design, folder: Path) -> list[dict[str, Any]]:
     """Returns the record of each failed job of the study, one per job. Points with the same scene share a record, and
-    an earlier study with other factors may have written it, so experiment and values are those of this study's jobs."""
+    an earlier study with other factors may have written it, so experiment and values come from this study's jobs."""
     files = {job.key: folder / "failures" / f"{job.key}.json" for job in design.results}
     records = {key: read_json(file) for key, file in files.items() if file.is_file()}
     return [

@@ -80,7 +80,8 @@ TEST_F(CtCommand, FractionsAreNumbersOrPerCent) {
 
 /// Aggregate in pieces that are too small to be grains is printed as a fraction and warned of.
 TEST_F(CtCommand, AggregateInNoGrainIsPrintedAndWarnedOf) {
-  // A ball of radius 12 voxels, 2.4 mm in diameter, beside eight balls of radius 5, 1 mm in diameter.
+  // The scan has a ball with a radius of 12 voxels (2.4 mm in diameter) and eight balls with a radius of 5 voxels (1
+  // mm).
   std::vector<Body> balls{ball(20, 20, 20, 12)};
   for (int n = 0; n < 8; ++n) balls.push_back(ball(44 + 14 * (n % 4), 12 + 16 * (n / 4), 20, 5));
   Image<float> scan = scan_of({100, 40, 40}, balls, {ball(70, 34, 34, 4)});

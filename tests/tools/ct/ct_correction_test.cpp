@@ -65,7 +65,7 @@ TEST_F(CtCorrection, SlicesThatDriftGetTheLevelsOfAll) {
   });
   const double before = difference(scan, true_).second;
   for (int round = 0; round < 3; ++round) ct::correct_slices(scan, region_);
-  // The level of a slice is a mean over 840 blocks. The noise of this level is what remains of the drift.
+  // The level of a slice is a mean over 840 blocks. After the correction, the noise of this mean replaces the drift.
   EXPECT_LT(difference(scan, true_).second, 0.2 * before);
 }
 
@@ -80,8 +80,8 @@ TEST_F(CtCorrection, BetweenTwoSlicesHalfOfEachIsTakenOut) {
   for (const double k : {20.0, 31.0, 86.0}) {
     const double low = steps[0].of(mastic, 5, 6, k), high = steps[0].of(mastic, 5, 6, k + 1);
     EXPECT_GT(std::abs(high - low), 0.005 * contrast);
-    // The test divides grey values by a factor that is linear between slices. The quotient is not linear, so the
-    // correction deviates from a line by about a hundredth of the difference.
+    // The test divides grey values by a factor that is linear between slices. The quotient is not linear, so between
+    // two slices the correction deviates from a line by about a hundredth of the difference between the slices.
     EXPECT_NEAR(steps[0].of(mastic, 5, 6, k + 0.5), (low + high) / 2, 0.02 * std::abs(high - low));
   }
 }
@@ -197,7 +197,7 @@ TEST(CtLevels, AreThoseOfThePhasesWithOrWithoutAir) {
   EXPECT_NEAR(levels.deviation, 0.15 * contrast, 0.02 * contrast);
 }
 
-/// With very little noise the fitted deviation is that of the noise plus the width of a bin.
+/// With very little noise, the fitted deviation consists of the noise and of the width of a bin.
 TEST(CtLevels, OfHardlyAnyNoiseHaveItsDeviation) {
   ct::Histogram histogram;  // bins of width 1, starting at 0
   histogram.counts.assign(512, 0);

@@ -68,7 +68,7 @@ TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
   EXPECT_NE(fault_of(cuts).find("fragments 1 and 2"), std::string::npos) << fault_of(cuts);
   EXPECT_NE(fault_of(cuts).find("other rows join the two"), std::string::npos) << fault_of(cuts);
   cuts = good;
-  cuts[2].place.x += 1.9 * voxel;  // within two voxels of the face, the tolerance
+  cuts[2].place.x += 1.9 * voxel;  // the place is within the tolerance of two voxels from the face
   EXPECT_EQ(fault_of(cuts), "none");
   cuts[2].place.x += 0.2 * voxel;
   EXPECT_NE(fault_of(cuts).find("row 3"), std::string::npos) << fault_of(cuts);

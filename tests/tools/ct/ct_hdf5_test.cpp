@@ -59,7 +59,7 @@ TEST_F(CtHdf5, TheLastAxisIsXAndRunsFastest) {
     const double edges[3] = {30, 20, 10};  // voxel sizes along z, y, x
     set.createAttribute("element_size_um", H5::PredType::IEEE_F64LE, H5::DataSpace(1, &three))
         .write(H5::PredType::NATIVE_DOUBLE, edges);
-    // not a volume, so it is not a candidate
+    // this dataset is not a volume, so it is not a candidate
     write(file, "angles", {7}, std::vector<float>(7), H5::PredType::NATIVE_FLOAT);
   }
   const auto image = read_image<std::uint16_t>(folder_ / "scan.h5");

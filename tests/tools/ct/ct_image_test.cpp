@@ -70,7 +70,7 @@ TEST_F(CtImage, FilesOfEveryTypeAreReadAsTheyWereWritten) {
   round_trip<float>(folder_);
 }
 
-/// Single slices of a compressed file equal those of the whole image.
+/// Single slices of a compressed file equal the slices of the whole image.
 TEST_F(CtImage, SomeSlicesOfAPackedFileAreThoseOfTheWhole) {
   const auto image = ramp<std::uint16_t>({6, 5, 9});
   for (const std::string name : {"packed.mha", "packed.nrrd"}) {

@@ -96,8 +96,8 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
   for (std::size_t v = 0; v < p.phases.count(); ++v) {
     if (p.phases.voxels[v] == 255) { EXPECT_EQ(p.labels.voxels[v], 0U); }
   }
-  // The expected volume is that of the slab of the sphere between z = 2 and 6 mm over the sawn rectangle, by numerical
-  // integration over columns.
+  // The expected volume is the volume of the sphere between z = 2 and 6 mm over the sawn rectangle, integrated
+  // numerically over columns.
   double sum = 0;
   const int n = 600;
   for (int i = 0; i < n; ++i) {
@@ -110,7 +110,7 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
   EXPECT_NEAR(p.grains[0].volume / (sum * 1e-9), 1, 1e-3);
 }
 
-/// A grain counts as cut by the saw even if only its lower side is cut. Its volume and centre are those of the part of
+/// A grain counts as cut by the saw even if only its lower side is cut. Volume and centre are computed from the part of
 /// the sphere that is left.
 TEST_F(CtPhantom, ASphereCutFromBelowAloneIsCut) {
   const Scene scene = scene_of_rows("0,0.005,0.004,0.0033,0.003,aggregate,4\n");  // lowest point 0.3 mm above z = 0

@@ -80,7 +80,7 @@ TEST(CtSegment, ABallAndABlockAreMeasured) {
   std::sort(out.grains.begin(), out.grains.end(), by_volume);
   ASSERT_EQ(out.grains.size(), 2u);
   const double r = 12 * voxel;
-  // tolerance for the resolution of a ball of radius 12 voxels
+  // The tolerance allows for the resolution of a ball with a radius of 12 voxels.
   EXPECT_NEAR(out.grains[0].measure.area / (4 * pi * r * r), 1, 0.02);
   EXPECT_NEAR(out.grains[0].measure.volume / (4 * pi / 3 * r * r * r), 1, 0.02);
   const ShapeMeasure& block = out.grains[1].measure;
@@ -92,8 +92,8 @@ TEST(CtSegment, ABallAndABlockAreMeasured) {
   EXPECT_LE(out.grains[1].surface.facets.size(), 800u);
 }
 
-/// Two balls that touch are separated, and a long grain is not cut. The cut can be removed by hand, but only with rows
-/// that match the scan.
+/// Two balls that touch are separated, and a long grain is not cut. The user can remove the cut by editing the table of
+/// cuts, but every row of the table must match the scan.
 TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
   const Body stone = [](double x, double y, double z) {  // an ellipsoid of half axes 24, 10, 9
     return 9 * (1 - std::sqrt((x - 40) * (x - 40) / 576 + (y - 55) * (y - 55) / 100 + (z - 25) * (z - 25) / 81));
@@ -110,7 +110,7 @@ TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
   const auto cuts = std::count_if(out.cuts.begin(), out.cuts.end(), [](const GrainCut& c) { return c.cut; });
   EXPECT_EQ(cuts, 1);
 
-  // Someone joins these two grains by hand, and nothing else changes.
+  // A user joins the two balls by setting `cut` to false in all cuts; nothing else changes.
   SegmentOptions by_hand = options_of(18);
   by_hand.cuts = out.cuts;
   for (GrainCut& cut : *by_hand.cuts) cut.cut = false;

@@ -55,8 +55,8 @@ TEST(CtIsosurface, HasTheEdgesOfVoxelsThatAreNoCubes) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  // Between nodes the surface is straight, so at each end of the ball it is at most 1/(8·12) voxel too deep. Both ends
-  // together make this 0.001 of the diameter, which is 24 voxels.
+  // The surface is straight between nodes, so at each end of the ball the surface is too deep by at most 1/(8·12) of a
+  // voxel. Both ends together make this 0.001 of the diameter, which is 24 voxels.
   const Vec3d edge = (1 / (24 * voxel)) * (high - low);
   EXPECT_NEAR(edge.x, 1, 0.002);
   EXPECT_NEAR(edge.y, 1.5, 0.003);

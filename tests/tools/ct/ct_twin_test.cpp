@@ -64,7 +64,7 @@ TEST_F(CtTwin, HasEveryGrainWhereItLayAndRuns) {
   double air = 0, here_air = 0;
   for (const VoidSphere& v : source.voids) air += 4 * pi / 3 * std::pow(v.radius, 3);
   for (const VoidSphere& v : twin.specimen.voids) here_air += 4 * pi / 3 * std::pow(v.radius, 3);
-  EXPECT_NEAR(here_air / air, 1, 0.03);  // the volume of air is that of whole voxels
+  EXPECT_NEAR(here_air / air, 1, 0.03);  // the volume of air is counted in whole voxels
   EXPECT_EQ(twin.specimen.voids.size(), source.voids.size());
   const Twin without = make_twin(truth, scene, {.least_void = 1e-2});
   EXPECT_TRUE(without.specimen.voids.empty());
@@ -131,7 +131,7 @@ TEST_F(CtTwin, WhatVoidsEncloseIsTakenOut) {
   });
   EXPECT_EQ(stages, (std::vector<std::string>{"reading the scan", "filling grains", "relaxing mastic", "tessellation",
                                               "removal of unconnected particles"}));
-  EXPECT_GT(twin.enclosed_mastic, 5);  // the volume of the enclosed mastic is that of about 14 spheres of 0.7 mm
+  EXPECT_GT(twin.enclosed_mastic, 5);  // the enclosed mastic has the volume of about 14 spheres of 0.7 mm
   EXPECT_EQ(twin.enclosed_aggregate, 0);
   for (const Vec3d& p : twin.specimen.centre) EXPECT_GT(norm(p - Vec3d{6e-3, 6e-3, 7e-3}), 3e-3);
   for (const Cluster& c : find_clusters(build_network(twin.specimen, tessellate(twin.specimen)), twin.specimen.size()))
