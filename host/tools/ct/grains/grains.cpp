@@ -238,7 +238,7 @@ Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts) {
   for (const GrainCut& cut : cuts) {
     if (cut.cut && groups.root(cut.a) == groups.root(cut.b)) {
       throw InputError("cuts", 0, name(cut.a, cut.b),
-                       "a cut, although other rows join the two through their neighbours",
+                       "a cut between two fragments that other rows join through their neighbours",
                        "cuts in all rows between two grains, or in none");
     }
   }
