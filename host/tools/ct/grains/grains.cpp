@@ -230,7 +230,7 @@ Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts) {
     if (cuts[f].a != face.a || cuts[f].b != face.b || norm(cuts[f].place - place) > near) {
       throw InputError(
           "cuts", 0, fmt::format("row {}", f + 1), name(cuts[f].a, cuts[f].b),
-          fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m: these cuts are of another scan or of other options",
+          fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m; the cuts in the file are of another scan or of other options",
                       name(face.a, face.b), place.x, place.y, place.z));
     }
     if (!cuts[f].cut) groups.join(face.a, face.b);

@@ -199,7 +199,7 @@ void measure_unassigned(Segmentation& out, const SegmentOptions& options) {
   const double finest = 4 * std::cbrt(out.phases.voxel_volume());
   out.warnings.push_back(fmt::format(
       "{:.0f} % of the aggregate's volume is in no grain: pieces below half of --smallest, {:.3g} mm, are left "
-      "out, also of gradation.csv. {}",
+      "out of the grains and of gradation.csv. {}",
       100 * out.in_no_grain, 500 * options.smallest,
       options.smallest > 1.01 * finest
           ? fmt::format("These voxels allow a --smallest of {:.3g} mm and more", 1e3 * finest)
