@@ -63,8 +63,8 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
     const auto law = facts_of(scene.laws)[pair];
     if (!law || law->linear) continue;
     plan.decisions.push_back(
-        fmt::format("errors are estimates, because law {} of {} is not linear, so no solution without time steps "
-                    "exists to compare with",
+        fmt::format("errors are estimates, because law {} of {} is not linear, and only linear laws have a "
+                    "solution without time steps",
                     law->name, to_string(static_cast<PairType>(pair))));
     return {};
   }

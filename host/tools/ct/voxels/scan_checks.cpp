@@ -106,7 +106,7 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
     throw InputError(
         "the scan", 0, "grey levels", fmt::format("two, {:.5g} and {:.5g}", levels.mastic, levels.aggregate),
         fmt::format(
-            "three, because the given air voids are {:.3g} % of the specimen. If so few voids have no grey level "
+            "three, because the given air voids are {:.3g} % of the specimen. If these voids have no grey level "
             "of their own in the histogram, give --air-voids 0, and the voids are taken for mastic",
             100 * *options.air_voids));
   }
