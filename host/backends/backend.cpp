@@ -20,16 +20,15 @@ namespace {
 
 /// Returns the device with this number. \throws InputError, which lists the devices of the report, if there is none.
 const DeviceInfo& device_of(const BackendReport& report, int number) {
-  std::string list;
+  std::string list, without_code;
   for (const DeviceInfo& d : report.devices) {
     if (d.number == number) return d;
     list += (list.empty() ? "" : ", ") + std::to_string(d.number) + " (" + d.name + ")";
   }
   for (const DeviceInfo& d : report.devices_without_code) {
-    if (d.number == number) list += "; " + std::to_string(d.number) + " (" + d.name + ") has no code in this build";
+    if (d.number == number) without_code = ", which this program was not compiled for (" + d.name + ")";
   }
-  throw InputError("device: found " + std::to_string(number) +
-                   ", expected the number of a device that can run Macadam: " + report.cuda_status + ": " + list);
+  throw InputError("device: found " + std::to_string(number) + without_code + ", expected one of " + list);
 }
 
 /// Returns the devices with the given numbers; all devices of the report if every device is requested; the first device

@@ -30,7 +30,7 @@ DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& d
   }
   if (out.size() > 1) {
     decision = fmt::format(
-        "devices {}: several devices step {} contacts faster than one device, and these devices were idle; --devices "
+        "devices {}: several devices step {} contacts faster than one device, and these devices were idle; --device "
         "{} uses only one",
         to_string(out), contacts, first);
   }

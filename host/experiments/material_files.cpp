@@ -21,7 +21,8 @@ constexpr double of_a_fluid = 1 - 1e-8;
 std::string comments(const Material& m, const char* mark) {
   return fmt::format(
       "{0} Relaxation of a specimen, {1}; units Pa and s.\n"
-      "{0} Valid from {2:g} to {3:g} s, where E(t) of this table differs from the specimen's by at most {4:.1e}.\n",
+      "{0} Valid from {2:g} to {3:g} s, where E(t) of this table differs from E(t) of the specimen by at most "
+      "{4:.1e}.\n",
       mark, modulus_words(m.confined), m.shortest_s, m.longest_s, m.table_error + m.error());
 }
 

@@ -160,7 +160,7 @@ nlohmann::ordered_json material_json(const char* kind, const Material& m) {
 std::string material_lines(const Material& m) {
   return fmt::format(
       "{}; E(t) from {:g} to {:g} s has a relative error of {:.1e}, from {} solutions in {:.1f} s\n"
-      "Prony series of {} units and Kelvin chain of {} differ from it by {:.1e}\n",
+      "The Prony series of {} units and the Kelvin chain of {} units differ from E(t) by at most {:.1e}\n",
       modulus_words(m.confined), m.shortest_s, m.longest_s, m.error(), m.spectrum.solutions, m.seconds,
       m.relaxation.units.size(), m.creep.units.size(), m.table_error);
 }

@@ -200,12 +200,12 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     refuse("another kind of file", "a checkpoint of Macadam");
   }
   if (const auto size = std::filesystem::file_size(file); size != bytes || size < user_block) {
-    refuse(fmt::format("{} bytes", size), fmt::format("{}: it is cut off or damaged", bytes));
+    refuse(fmt::format("{} bytes", size), fmt::format("{} bytes: the file is cut off or damaged", bytes));
   }
   std::string image(bytes - user_block, '\0');
   in.read(image.data(), static_cast<std::streamsize>(image.size()));
   if (!in || header != user_block_of(image))
-    refuse("a checksum that differs from its header's", "the same checksum: the file is damaged");
+    refuse("a checksum that differs from the checksum in the header", "the same checksum: the file is damaged");
   try {
     const QuietHdf5 quiet;
     require_memory_for_hdf5(2 * image.size());

@@ -72,10 +72,12 @@ double distance_to_wall(const Specimen& specimen, const Facet& f) {
   const double h = std::array<double, 6>{p.x, box.x - p.x, p.y, box.y - p.y, p.z, box.z - p.z}[-1 - f.b];
   if (!(h > 1e-9 * specimen.radius[f.a])) {
     constexpr std::array<const char*, 6> name{"-x", "+x", "-y", "+y", "-z", "+z"};
-    throw InputError(specimen.source, specimen.line_of(f.a),
-                     fmt::format("distance in metres of particle {}'s centre to the {} wall that it is bonded to", f.a,
-                                 name[-1 - f.b]),
-                     fmt::format("{}", h), "more than 1e-9 of the particle's radius");
+    throw InputError(
+        specimen.source, specimen.line_of(f.a),
+        fmt::format("distance between the centre of particle {} and the {} wall that the particle touches", f.a,
+                    name[-1 - f.b]),
+        fmt::format("{} m", h),
+        fmt::format("more than {} m, which is 1e-9 times the radius of the particle", 1e-9 * specimen.radius[f.a]));
   }
   return h;
 }

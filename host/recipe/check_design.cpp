@@ -41,8 +41,9 @@ void check_curve(const MixDesign& design) {
     if (!(curve[k].size < above.size))
       wrong(in_millimetres(curve[k].size) + " after " + in_millimetres(above.size), "sieves from coarse to fine");
     if (curve[k].passing > above.passing)
-      wrong(passing + " after " + in_percent(above.passing) + " passing " + in_millimetres(above.size),
-            "at most " + in_percent(above.passing) + ": what passes a sieve has passed the coarser ones");
+      wrong(
+          passing + " after " + in_percent(above.passing) + " passing " + in_millimetres(above.size),
+          "at most " + in_percent(above.passing) + ", because what passes a sieve has also passed every coarser sieve");
   }
   const auto is_cut = [&](const SievePassing& s) { return s.size == design.cut; };
   if (std::none_of(curve.begin(), curve.end(), is_cut)) {

@@ -156,9 +156,9 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
   if (spec.voids && !spec.voids->fraction) spec.voids->fraction = volumes.air_voids;
   const double of_voids = spec.voids ? *spec.voids->fraction : 0;  // fraction of the box
   alone(of_voids > volumes.air_voids + 1e-9,
-        fmt::format("voids of {} of the box, and {} of air voids in the mix", in_percent(of_voids),
+        fmt::format("voids that are {} of the box, although the mix has only {} of air voids", in_percent(of_voids),
                     in_percent(volumes.air_voids)),
-        "at most this fraction in [specimen.voids]");
+        "a fraction in [specimen.voids] that is at most the air voids of the mix");
   // The mastic's porosity is the air that is not in voids with their own cells. The porosity is given as a fraction of
   // the volume outside of these voids.
   spec.mastic->porosity = (volumes.air_voids - of_voids) / (1 - of_voids);

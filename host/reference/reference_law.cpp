@@ -30,7 +30,7 @@ ReferenceLaw read(const laws::GeneralisedKelvin& law, const std::string& pair) {
   require(law.C_m > 0, pair, "C_m", law.C_m, "a positive viscosity or infinity");
   if (law.E.size() != law.C.size()) {
     throw InputError("law of pair " + pair, 0, "Kelvin units", fmt::format("{} E and {} C", law.E.size(), law.C.size()),
-                     "as many of each");
+                     "as many E as C");
   }
   ReferenceLaw out{law.E_m, law.C_m, {}, law.alpha, {}};
   for (std::size_t l = 0; l < law.E.size(); ++l) {

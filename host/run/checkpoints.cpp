@@ -164,7 +164,7 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
       write(content, stepper);
       own_ = true;
     } catch (const RunError& error) { failure = error.what(); } catch (const std::bad_alloc&) {
-      failure = "not enough memory for it";
+      failure = "not enough memory";
     }
     last_ = Clock::now();
   }
@@ -175,7 +175,7 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
   if (!kept) resumable = "the run cannot be resumed, because " + why_not;
   if (!failure.empty()) {
     const bool older = own_ && std::filesystem::exists(file_);
-    resumable = fmt::format("its checkpoint could not be written: {}; {}", failure,
+    resumable = fmt::format("the checkpoint could not be written: {}; {}", failure,
                             older ? "--resume continues from the previous checkpoint" : "the run cannot be resumed");
   }
   throw InterruptedError(fmt::format("interrupted at {}, t = {:.6g} s; {}", where, stepper.observe().time, resumable));

@@ -25,7 +25,7 @@ std::pair<std::string, std::int64_t> pairs_that(const Scene& scene, const Prepar
   return {names, contacts};
 }
 
-constexpr const char* same_bits = "none: same bits";
+constexpr const char* same_bits = "none: the results are equal bit for bit";
 
 }  // namespace
 
@@ -78,12 +78,13 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   }
   if (!reference && nothing_turns(prepared.network, scene.laws)) {
     out.push_back({"rotations", "without shear and with centred facets particles do not rotate",
-                   "first moments of facets below 1e-12 of area times size count as 0"});
+                   "first moments of a facet below 1e-12 times its area times its size count as 0"});
   }
   append(geometry_skips(geometry, strain));
   if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
-    out.push_back(
-        {"second moments", "a facet has one contact point, so three chains of law states replace six", "rounding"});
+    out.push_back({"second moments",
+                   "a facet has one contact point, so a contact has three sets of law states instead of six",
+                   "rounding"});
   }
   if (const auto n = prepared.network.dropped_area; n > 0) {
     out.push_back({"tiny facets", fmt::format("{} facets with an area below area_min are not contacts", n),

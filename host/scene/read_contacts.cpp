@@ -86,7 +86,7 @@ Law law_named_in(const Section& section) {
   std::vector<Law> laws;
   list_laws(names, laws);
   const auto name = section.find("law");
-  if (!name) section.refuse("law", "nothing", fmt::format("this key, which is required: {}", fmt::join(names, " or ")));
+  if (!name) section.refuse("law", "nothing", fmt::format("law = \"{}\"", fmt::join(names, "\" or \"")));
   return laws[name->choice(names)];
 }
 
@@ -95,7 +95,7 @@ Law law_named_in(const Section& section) {
 /// Returns the keys that decide which facets between two particles become contacts.
 std::vector<Key> keys_of(FacetLimits& limits) {
   // For a distance d of the centres, the gap d − R_a − R_b in units of the mean radius is d/mean − 2.
-  constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, at which the centres coincide"};
+  constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii (at -2 the centres coincide)"};
   return {
       {"gap_max", Need::optional, into(limits.gap_max, ratio, gap),
        "largest gap between two particles in contact, in units of their mean radius", "every facet is a contact"},
@@ -140,8 +140,9 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
             if (kind != ValueKind::strength) value *= delta;
           });
           if (!laws::usable(law)) {
-            section.refuse("delta", fmt::format("a product of {} and a coefficient that is 0 or infinite", delta),
-                           "products within the range of a double");
+            section.refuse("delta",
+                           fmt::format("{}, whose product with a coefficient of the law is 0 or infinite", delta),
+                           "a factor whose products are within the range of a double");
           }
         },
         read_law);
@@ -151,8 +152,8 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
     if (pair < network.of_pair.size()) {
       network.of_pair[pair] = limits;
     } else if (limits.gap_max || limits.area_min) {
-      section.refuse(limits.gap_max ? "gap_max" : "area_min", "this key of a pair with a wall",
-                     "a pair of two particles: every facet on a wall is a contact");
+      section.refuse(limits.gap_max ? "gap_max" : "area_min", "this key for a pair with a wall",
+                     "this key only for pairs of two particles, because every facet on a wall is a contact");
     }
   }
   return table;

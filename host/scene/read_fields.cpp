@@ -35,7 +35,7 @@ void check_fields(const Section& section, const FieldSpec& spec) {
   for (const char* key : {"every", "format"}) {
     if (const auto value = section.find(key)) {
       value->refuse(value->shown() + " without the key fields",
-                    "also fields = [\"particles\"], or no " + std::string(key));
+                    "also a key such as fields = [\"particles\"], or no key " + std::string(key));
     }
   }
 }

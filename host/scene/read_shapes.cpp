@@ -19,7 +19,7 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
   constexpr Rule porosity{[](double v) { return v >= -0.5 && v < 1; },
                           "a porosity from -0.5 to below 1 (negative: the spheres overlap)"};
   constexpr Rule gap{[](double v) { return v > 0 && v < 0.5; }, "a fraction above 0 and below 0.5"};
-  constexpr Rule hold_out{[](double v) { return v >= 0 && v <= 10; }, "a stiffness from 0 to 10 times a pair's"};
+  constexpr Rule hold_out{[](double v) { return v >= 0 && v <= 10; }, "a number from 0 to 10"};
   ShapeSpec out;
   const auto read_library = [&](const Value& value) {
     const std::string name = value.text();

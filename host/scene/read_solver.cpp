@@ -34,7 +34,7 @@ std::vector<double> read_density_scaling(const Value& value, std::size_t frequen
   std::vector<double> scaling = value.numbers(ratio, positive);
   if (scaling.size() != frequencies) {
     value.refuse(fmt::format("{} entries", scaling.size()),
-                 fmt::format("a number, or an array of {}, one for each frequency", frequencies));
+                 fmt::format("a number, or an array of length {} with one number per frequency", frequencies));
   }
   return scaling;
 }
@@ -47,7 +47,7 @@ DeviceList read_devices(const Value& value, int most) {
   DeviceList out;
   for (const Value& entry : value.entries("an array of device numbers")) {
     out.push_back(number(entry));
-    if (std::count(out.begin(), out.end(), out.back()) > 1) entry.refuse(entry.shown(), "each device once");
+    if (std::count(out.begin(), out.end(), out.back()) > 1) entry.refuse(entry.shown() + " twice", "each device once");
   }
   if (out.empty()) value.refuse("no entry", "at least one device");
   return out;
@@ -116,7 +116,7 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
                                      {"cpu", Backend::cpu},
                                      {"cuda", Backend::cuda},
                                      {"reference", Backend::reference}}),
-        "backend that steps and iterates: auto is a CUDA device if there is one, else the CPU"},
+        "backend that computes: auto is a CUDA device if there is one, else the CPU"},
        {"linear", Need::optional,
         into<LinearMethod>(spec.linear, {{"auto", LinearMethod::automatic},
                                          {"iterative", LinearMethod::iterative},
@@ -139,8 +139,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
                    "\"harmonic\", because this kind is not stepped in time");
   }
   if (spec.inertia && spec.method == SolverMethod::explicit_) {
-    section.refuse("inertia", "true with method \"explicit\", which always has inertia",
-                   "false, or method = \"harmonic\"");
+    section.refuse("inertia", "true with method \"explicit\"",
+                   "no key inertia, because this method always has inertia; or method = \"harmonic\"");
   }
   if (!spec.devices.empty() && (spec.backend == Backend::cpu || spec.backend == Backend::reference)) {
     section.refuse("device", to_string(spec.devices), "no device with a backend other than \"cuda\" or \"auto\"");

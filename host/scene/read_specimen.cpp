@@ -72,7 +72,8 @@ MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
                  "none"}});
   for (const char* key : {"porosity", "count"}) {
     if (by_mass && section.has(key))
-      section.refuse(key, "this key with [specimen.recipe]", "the recipe alone: its air voids are the porosity");
+      section.refuse(key, "this key with [specimen.recipe]",
+                     "no such key, because the air voids of the recipe give the porosity");
   }
   if (!by_mass) require_one_of(section, "porosity", "count");
   require_fit_in_box(section, "radius", 2 * out.radius_max, box);
@@ -135,7 +136,7 @@ void require_possible(const Section& section, const SpecimenSpec& spec) {
   }
   if (solid >= 2 * box) {
     section.refuse(
-        spec.mastic ? "mastic" : "aggregate", fmt::format("spheres with a volume of at least {:.4g} m3", solid),
+        spec.mastic ? "mastic" : "aggregate", fmt::format("spheres with a total volume of at least {:.4g} m3", solid),
         fmt::format("less than twice the volume of the box, {:.4g} m3, so that the porosity is above -1", box));
   }
   for (const AggregateClass& c : spec.aggregate) {
@@ -235,15 +236,17 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
   if (spec.file) {
     for (const char* key : {"recipe", "aggregate", "shapes", "mastic", "voids", "seed", "size_law", "spacing",
                             "fix_aggregates", "attempts"}) {
-      if (section.has(key)) section.refuse(key, "this key of the generator with file", "only one of the two");
+      if (section.has(key))
+        section.refuse(key, "this key of the generator together with the key file", "only one of the two");
     }
   } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
-    section.refuse("file", "neither a file nor aggregate or mastic to generate", "one of the two");
+    section.refuse("file", "neither a specimen file nor the sections aggregate or mastic", "one of the two");
   } else {
     if (recipe) follow_recipe(section, *recipe, spec);
     require_possible(section, spec);
     if (spec.shapes && spec.aggregate.empty())
-      section.refuse("shapes", "shapes without aggregates", "[[specimen.aggregate]] with sieves of the shapes' D^I");
+      section.refuse("shapes", "shapes without aggregates",
+                     "[[specimen.aggregate]], whose sieves give the sizes D^I of the shapes");
     if (spec.shapes && spec.shapes->placement == PlacementMethod::packing && spec.spacing > 0)
       section.refuse("spacing", "a spacing with placement = \"packing\"",
                      "gap in [specimen.shapes], or placement = \"insertion\" there");

@@ -110,7 +110,7 @@ void check_together(const Scene& scene, const Section& root) {
   if (scene.network.quadrature == Quadrature::exact && scene.solver.backend == Backend::reference &&
       scene.solver.method == SolverMethod::explicit_) {
     root.find("network")->section().refuse("quadrature", "\"exact\" with backend = \"reference\" in [solver]",
-                                           "\"lumped\", because the reference works point by point");
+                                           "\"lumped\", because this backend computes each contact point by itself");
   }
   if (scene.network.quadrature == Quadrature::exact && scene.solver.form == ContactForm::points) {
     root.find("network")->section().refuse("quadrature", "\"exact\" with form = \"points\" in [solver]",

@@ -57,7 +57,8 @@ Change set(const std::string& text, const toml::table& table, const std::string&
   toml::source_position first{~toml::source_index{0}, 0};
   for (const auto& [k, v] : table)
     if (!v.is_table() || v.as_table()->is_inline()) first = std::min(first, k.source().begin);
-  if (first.line == ~toml::source_index{0}) throw RunError("a table without keys of its own takes no " + key);
+  if (first.line == ~toml::source_index{0})
+    throw RunError("the key " + key + " cannot be set in a table that has no keys of its own");
   const std::size_t at = offset_of(text, first);
   return {at, at, key + " = " + value + (table.is_inline() ? ", " : "\n")};
 }

@@ -45,8 +45,8 @@ laws::Shift ShiftKeys::shift(const Section& section) const {
       if (!wanted && section.has(key)) {
         section.refuse(
             key, "this key",
-            kind_ ? fmt::format("{}, the keys of shift = \"{}\"", fmt::join(taken[*kind_], ", "), kinds[*kind_])
-                  : "this key only together with shift");
+            kind_ ? fmt::format("only {}, the keys of shift = \"{}\"", fmt::join(taken[*kind_], ", "), kinds[*kind_])
+                  : "the key shift as well");
       }
     }
   }

@@ -26,7 +26,7 @@ std::string Value::shown() const {
   if (const auto* integer = node_->as_integer()) return std::to_string(integer->get());
   if (const auto* real = node_->as_floating_point()) return fmt::format("{}", real->get());
   if (const auto* boolean = node_->as_boolean()) return boolean->get() ? "true" : "false";
-  if (const auto* array = node_->as_array()) return fmt::format("an array of {}", array->size());
+  if (const auto* array = node_->as_array()) return fmt::format("an array of length {}", array->size());
   if (node_->is_table()) return "a table";
   return "a date or time";
 }

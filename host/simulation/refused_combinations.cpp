@@ -18,8 +18,8 @@ void require_combination(const Scene& scene) {
                      "\"harmonic\", because this kind is not stepped in time");
   }
   if (scene.solver.method == SolverMethod::explicit_ && scene.solver.inertia) {
-    throw InputError(scene.file.string(), 0, "inertia", "true with method \"explicit\", which always has inertia",
-                     "false, or method \"harmonic\"");
+    throw InputError(scene.file.string(), 0, "inertia", "true with method \"explicit\"",
+                     "no key inertia, because this method always has inertia; or method \"harmonic\"");
   }
   if (scene.solver.method == SolverMethod::explicit_ && scene.output.sensitivities) {
     throw InputError(scene.file.string(), 0, "sensitivities in [output]", "true with method \"explicit\"",
@@ -42,7 +42,7 @@ void require_combination(const Scene& scene) {
       throw InputError(
           scene.file.string(), 0, std::string("law of ") + to_string(without->pair) + " with method \"harmonic\"",
           std::string(without->law) + ", which has no complex stiffness" + (linear ? "" : ": it is not linear"),
-          "a law that has one, or method = \"explicit\" if the test can be stepped");
+          "a law that has a complex stiffness, or method = \"explicit\" if the test can be stepped");
     }
     return;
   }
@@ -59,7 +59,7 @@ void require_combination(const Scene& scene) {
     refuse("precision", to_string(*scene.solver.precision), "double");
   }
   if (scene.network.quadrature == Quadrature::exact)
-    refuse("quadrature", "exact", "lumped, because the reference works point by point");
+    refuse("quadrature", "exact", "lumped, because this backend computes each contact point by itself");
 }
 
 }  // namespace macadam

@@ -158,7 +158,7 @@ class Pool {
       };
       parts.place = [&](SolverSpec& solver) { take_device(job, solver, cores); };
       try {
-        if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
+        if (options_.stop && options_.stop()) throw InterruptedError("interrupted before the run began");
         const SceneJob& asked = jobs_[job];
         const bool resume = options_.resume && has_checkpoint(asked.out);
         Watcher watcher = watcher_of(job);
@@ -228,7 +228,7 @@ class Pool {
 
   Preparation prepare_in_turn(const Scene& scene, const Progress& progress, std::optional<Cores>& cores) {
     cores.emplace(*this, true, scene.solver.threads);
-    if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
+    if (options_.stop && options_.stop()) throw InterruptedError("interrupted before the run began");
     return prepare(scene, [&](const std::string& stage, double share) {
       if (stage == network_stage) cores->share();  // one thread, or the device, does most of the work that follows
       progress(stage, share);

@@ -135,9 +135,10 @@ std::int64_t ClassRequest::number(double box_volume) const {
   const double above = least * smallest - volume;
   if (std::min(below, above) > tolerance * box_volume)
     refuse(origin, name + ": volume", percent(volume / box_volume) + " of the box",
-           percent(most * largest / box_volume) + " (" + shown(most) + " spheres) or " +
+           "the volume of a whole number of spheres between the two sieves, such as " +
+               percent(most * largest / box_volume) + " (" + shown(most) + " spheres) or " +
                percent(least * smallest / box_volume) + " (" + shown(least) +
-               " spheres), or wider sieves, or a larger box");
+               " spheres); wider sieves or a larger box allow more volumes");
   return static_cast<std::int64_t>(below <= above ? most : least);
 }
 

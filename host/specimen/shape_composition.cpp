@@ -96,7 +96,8 @@ ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<Shap
     if (!request.count && std::abs(row.fraction - row.fraction_asked) > tolerance * row.fraction_asked)
       throw InputError(
           request.origin.source, request.origin.line, request.name + ": fraction of the box", shown(row.fraction_asked),
-          shown(row.fraction) + " (the nearest found with these shapes), or wider sieves, or a larger box");
+          shown(row.fraction) +
+              ", the nearest fraction found with these shapes; wider sieves or a larger box allow more fractions");
     if (!drawn.empty()) require_fit(request.origin, request.name, drawn.front().size, spec.box);
     result.row.push_back(row);
     result.aggregate.insert(result.aggregate.end(), drawn.begin(), drawn.end());

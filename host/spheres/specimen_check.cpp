@@ -63,7 +63,7 @@ std::optional<SpecimenFault> fault_of_sphere(const Specimen& s, std::size_t i, b
   };
   // The conditions are written such that NaN fails too.
   if (!(c.x >= 0 && c.x <= l.x && c.y >= 0 && c.y <= l.y && c.z >= 0 && c.z <= l.z))
-    return fault("centre", point(c), "a point of the box (0, 0, 0) to " + point(l));
+    return fault("centre", point(c), "a point in the box from (0, 0, 0) to " + point(l));
   if (!(std::isfinite(s.radius[i]) && s.radius[i] > 0))
     return fault("radius", shown(s.radius[i]), "a finite positive number");
   if (is_void) return std::nullopt;
@@ -88,9 +88,10 @@ std::optional<SpecimenFault> coincident_centres(const Specimen& s) {
     if (key(order[k - 1]) == key(order[k]) && (first.second < 0 || order[k] < first.second))
       first = {order[k - 1], order[k]};
   if (first.second < 0) return std::nullopt;
-  return SpecimenFault{first.second, "centre",
-                       point(s.centre[first.second]) + ", that of particle " + std::to_string(first.first),
-                       "no two coincident centres"};
+  return SpecimenFault{
+      first.second, "centre",
+      point(s.centre[first.second]) + ", which is also the centre of particle " + std::to_string(first.first),
+      "no two coincident centres"};
 }
 
 }  // namespace

@@ -78,10 +78,10 @@ class FacetMaker {
     const double distance = norm(specimen_.centre[b] - specimen_.centre[a]);
     const double least = smallest_distance * std::min(specimen_.radius[a], specimen_.radius[b]);
     if (distance > least) return;
-    throw InputError(
-        specimen_.source, specimen_.line_of(b),
-        fmt::format("distance in metres of the centres of particles {} and {}, which nearly coincide", a, b),
-        fmt::format("{}", distance), fmt::format("more than {} of the smaller radius", smallest_distance));
+    throw InputError(specimen_.source, specimen_.line_of(b),
+                     fmt::format("distance between the centres of particles {} and {}", a, b),
+                     fmt::format("{} m", distance),
+                     fmt::format("more than {} m, which is {} times the smaller radius", least, smallest_distance));
   }
 
   /// Sets polygon_ to the dual points of the tetrahedra around the edge (a, b), in cyclic order. Returns, as bits, the

@@ -24,7 +24,7 @@ void check_radii(const Specimen& specimen) {
     if (specimen.radius[i] > limit)
       throw InputError(specimen.source, specimen.line_of(static_cast<std::int64_t>(i)),
                        fmt::format("radius in metres of particle {}", i), fmt::format("{}", specimen.radius[i]),
-                       fmt::format("at most {}, {} diagonals of the box", limit, largest_radius));
+                       fmt::format("at most {}, which is {} times the diagonal of the box", limit, largest_radius));
 }
 
 /// Computes cell volumes as sums of signed pyramids over the facets (a centre may lie outside its own cell). Returns

@@ -39,13 +39,13 @@ void require_start(std::size_t particles, const ContactNetwork& network, const F
   require("rotations", start.rotation.size(), particles);
   require("velocities", start.velocity.size(), particles);
   require("spins", start.spin.size(), particles);
-  require("chains' beginnings", start.chain_begin.size(), network.contacts.size());
+  require("number of entries of chain_begin", start.chain_begin.size(), network.contacts.size());
   std::size_t numbers = 0;
   for (std::size_t c = 0; c < network.contacts.size(); ++c) {
-    require("beginning of a contact's chains", start.chain_begin[c], numbers);
+    require("an entry of chain_begin", start.chain_begin[c], numbers);
     numbers += 6 * static_cast<std::size_t>(1 + laws[static_cast<std::size_t>(network.contacts[c].pair)]->units);
   }
-  require("numbers of the chains", start.chain.size(), numbers);
+  require("number of entries of chain", start.chain.size(), numbers);
   for (const WallMotionSpec& wall : options.boundary.wall) {
     for (const WallAxis& axis : wall.axis) {
       if (axis.by == DrivenBy::force)
@@ -68,7 +68,7 @@ void require_boundary(std::size_t particles, const StepperOptions& options) {
       const WallAxis& a = boundary.wall[w].axis[axis];
       const std::string which = std::string("wall ") + wall_names[w] + ", axis " + "xyz"[axis];
       if (a.by == DrivenBy::rest) continue;
-      if (!a.drive) refuse(which, "no drive", "one, as the axis is driven");
+      if (!a.drive) refuse(which, "no drive", "a drive, because the axis is driven");
       if (!(std::abs(a.drive->dt() - options.dt) <= 1e-12 * options.dt)) {
         refuse(which + ": time step of its drive", shown(a.drive->dt()) + " s",
                shown(options.dt) + " s, the stepper's");

@@ -37,8 +37,8 @@ def _scene_and_specimen(scene: SceneLike, specimen: SpecimenLike | None,
                                "section specimen")
     other = [k for k, v in overrides.items() if k.split(".")[0] == "specimen" or k == "seed" and v is not None]
     if made is not None and other:
-        raise _core.InputError(f"{other[0]}: found a value together with a Specimen, expected it with a scene: the particles of "
-                               "a Specimen cannot be changed")
+        raise _core.InputError(f"{other[0]}: found a value together with a Specimen, expected no value, because the "
+                               "particles of a Specimen cannot be changed")
     if isinstance(scene, _core.Specimen):
         return Scene(scene.scene), made
     return scene if isinstance(scene, Scene) else Scene(scene), made

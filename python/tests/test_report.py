@@ -42,7 +42,7 @@ CASES = {
     "creep": ["Creep", "is left at", "a step of stress (right)"],
     "monotonic": ["Constant rate of strain", "compression at", "secant modulus"],
     "stepped_relaxation": ["Relaxation", "the modulus falls from", "Error bars of stepped points", "density scaling 100"],
-    "stepped_creep": ["is left at 6.00 ms", "the error is above 1 %", "until 3.00 ms (dotted)", "or its estimate: at most 47 %"],
+    "stepped_creep": ["is left at 6.00 ms", "the error is above 1 %", "until 3.00 ms (dotted)", "or an estimate of this difference: at most 47 %"],
     "stepped_monotonic": ["Constant rate of strain", "compression at 10,000 µm/m per second", "secant modulus goes from"],
     "broken": ["Strength of ", "the largest stress (cross) is", "The specimen broke between t = ", "Broken contact points: "],
     "confined": ["The sides are held", "confined"],

@@ -134,7 +134,7 @@ def test_a_section_specimen_is_an_override_of_every_test(small_file):
 
 @pytest.mark.parametrize("other", [{"seed": 3}, {"specimen.box": [0.01] * 3}, {"specimen": {"seed": 3}}])
 def test_a_made_specimen_is_not_changed_by_overrides(specimen, other):
-    with pytest.raises(mc.InputError, match=r"^(seed|specimen).*: found a value together with a Specimen, expected it with a scene"):
+    with pytest.raises(mc.InputError, match=r"^(seed|specimen).*: found a value together with a Specimen, expected no value"):
         mc.harmonic(specimen, frequencies=[10], **other)
     with pytest.raises(mc.InputError, match="specimen: found 'a.csv', expected a Specimen, or a dictionary of keys"):
         mc.run(specimen.scene, specimen="a.csv")

@@ -126,7 +126,7 @@ def test_files_come_first_and_keep_the_order_of_the_pairs(folder: Path) -> None:
         ),
         (
             {"grid": {"contacts.0.E": [1e9], "contacts.M-A.E": [2e9]}},
-            "contacts.0.E: set by grid, and contacts.M-A.E, the same entry, by grid",
+            "contacts.0.E and contacts.M-A.E are the same entry of the scene: the first is set by grid, the second by",
         ),
         (
             {"grid": {"specimen": [{"seed": 1}], "specimen.seed": [1]}},
@@ -198,7 +198,7 @@ list = [{{ "{DELTA}" = 2 }}, {{ "{DELTA}" = 3 }}, {{ "{DELTA}" = 2.0 }}]
     )
     assert command.main(["study.toml", "--out", "out"]) == 0
     said = capsys.readouterr()
-    same = f"{DELTA} = 2, binder = same: the same scene as {DELTA} = 2, binder = plain; computed once"
+    same = f"{DELTA} = 2, binder = same: this point has the same scene as {DELTA} = 2, binder = plain; the scene is computed once"
     assert same in said.err
     assert "binder = plain: this point occurs more than once in the study; it has one row" in said.err
     assert sorted(lines(log, "begin")) == [2.0, 3.0]

@@ -198,8 +198,8 @@ INSTANTIATE_TEST_SUITE_P(
          19,
          "with [specimen.recipe]",
          "one of the two"},
-        {"PorosityBeside", {{19, "porosity = 0.05"}}, 19, "with [specimen.recipe]", "air voids are the porosity"},
-        {"CountBeside", {{19, "count = 5"}}, 19, "with [specimen.recipe]", "the recipe alone"},
+        {"PorosityBeside", {{19, "porosity = 0.05"}}, 19, "with [specimen.recipe]", "the recipe give the porosity"},
+        {"CountBeside", {{19, "count = 5"}}, 19, "with [specimen.recipe]", "no such key"},
         {"NoMastic", {{17, ""}, {18, ""}}, 3, "without [specimen.mastic]", "with its radius"},
         {"LargerThanTheBox",
          {{2, "box = [0.03, 0.01, 0.03]"}},
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(SceneRecipe, NoneBesideAFile) {
   write(folder_ / "some.csv", "id,x,y,z,radius,phase,body\n");
-  EXPECT_HAS(refused({{2, "box = [0.03, 0.03, 0.03]\nfile = \"some.csv\""}}), "this key of the generator with file");
+  EXPECT_HAS(refused({{2, "box = [0.03, 0.03, 0.03]\nfile = \"some.csv\""}}), "together with the key file");
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ TEST_F(Temperature, WhatMeansNothingIsRefused) {
   EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 0]\nlog10_a_T = [1, 0]\n", "", ""), "ascending temperatures");
   EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 1]\nlog10_a_T = [1]\n", "", ""), "1 numbers for 2");
   EXPECT_HAS(said("shift = \"wlf\"\nC1 = 14\nreference_temperature = 1\n", "", ""), "C2: found nothing");
-  EXPECT_HAS(said("C1 = 14\n", "", ""), "this key only together with shift");
+  EXPECT_HAS(said("C1 = 14\n", "", ""), "expected the key shift as well");
   EXPECT_HAS(said(std::string(wlf) + "activation_energy = 1e5\n", "", ""),
              "C1, C2, reference_temperature, the keys of shift");
   EXPECT_HAS(said("shift = \"WLF\"\n", "", ""), "one of \"wlf\"");

@@ -46,7 +46,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"NoLoading", {{29, ""}, {30, ""}, {31, ""}, {32, ""}, {33, ""}, {34, ""}}, 0, "nothing", "section, which is req"},
     {"NoFrequencies", {{31, ""}}, 29, "nothing", "required"},
     {"NoKind", {{30, ""}}, 29, "nothing", "required"},
-    {"NoLaw", {{24, ""}}, 22, "nothing", "elastic or generalised_kelvin"},
+    {"NoLaw", {{24, ""}}, 22, "nothing", "\"elastic\" or \"generalised_kelvin\""},
     {"NoPair", {{15, ""}}, 14, "nothing", "required"},
     {"NoModulus", {{25, ""}}, 22, "nothing", "required"},
     {"NoSieve", {{5, ""}}, 4, "nothing", "required"},
@@ -59,7 +59,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"SectionIsANumber", {{41, ""}, {42, ""}, {1, "output = 5\n[specimen]"}}, 1, "5", "a section [output]"},
     {"ContactsInSingleBrackets", {{14, "[contacts]"}, {22, ""}, {23, ""}, {24, ""}, {25, ""}, {26, ""}, {43, ""}, {44, ""}, {45, ""}, {46, ""}, {47, ""}, {48, ""}, {49, ""}, {50, ""}},
      14, "a table", "[[contacts]]"},
-    {"MasticInDoubleBrackets", {{7, "[[specimen.mastic]]"}}, 7, "an array of 1", "[specimen.mastic]"},
+    {"MasticInDoubleBrackets", {{7, "[[specimen.mastic]]"}}, 7, "an array of length 1", "[specimen.mastic]"},
     {"TextForANumber", {{32, "strain_amplitude = \"small\""}}, 32, "\"small\"", "without unit"},
     {"TrueForANumber", {{11, "density = true"}}, 11, "true", "kg/m3"},
     {"DateForANumber", {{11, "density = 2024-01-01"}}, 11, "date", "kg/m3"},
@@ -151,11 +151,11 @@ const std::vector<Wrong> wrong_scenes = {
     {"AggregatesLeaveNoMastic", {{6, "count = 200"}, {9, "porosity = 0.9"}},
      4, "a total volume of aggregates of at least", "solid volume"},
     {"SpheresOfDust", {{8, "radius = [1e-9, 1e-9]"}}, 7, "particles", "at most 100000000"},
-    {"MasticFillsTheBoxTwice", {{9, "count = 90000"}}, 7, "spheres with a volume of at least", "twice the volume of the box"},
-    {"NothingToGenerate", {{4, ""}, {5, ""}, {6, ""}, {7, ""}, {8, ""}, {9, ""}}, 1, "neither a file", "one of"},
+    {"MasticFillsTheBoxTwice", {{9, "count = 90000"}}, 7, "spheres with a total volume of at least", "twice the volume of the box"},
+    {"NothingToGenerate", {{4, ""}, {5, ""}, {6, ""}, {7, ""}, {8, ""}, {9, ""}}, 1, "neither a specimen file", "one of"},
     {"FrequencyTwice", {{31, "frequencies = [5, 2, \"5000 mHz\"]"}}, 31, "5 Hz twice", "once"},
     {"FrequenciesEmpty", {{31, "frequencies = []"}, {37, ""}}, 31, "none", "at least one"},
-    {"ScalingForTooFew", {{37, "density_scaling = [100]"}}, 37, "1 entries", "an array of 2"},
+    {"ScalingForTooFew", {{37, "density_scaling = [100]"}}, 37, "1 entries", "an array of length 2"},
     {"RampAsLongAsTheRun", {{34, "ramp_cycles = 4.5"}}, 34, "4.5", "at most 3, because the last 2 of 5 cycles are fitted"},
     {"NoLawForAPairThatIsGenerated", {{48, "pair = \"inner\""}}, 14, "no law for M-W", "pair = \"M-W\""},
     {"NoLawOfMasticToAggregate", {{44, "pair = \"inner\""}}, 14, "no law for M-A", "pair = \"M-A\""},
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Scene, WrongScene, ::testing::ValuesIn(wrong_scenes),
 TEST_F(SceneFile, AFileBesideARecipeIsRefused) {
   std::ofstream(folder_ / "particles.csv") << "id\n";
   const std::string what = message(text_of({{3, "file = \"particles.csv\""}}));
-  EXPECT_NE(what.find(":4: [specimen] aggregate: found this key of the generator with file"), std::string::npos)
+  EXPECT_NE(what.find(":4: [specimen] aggregate: found this key of the generator together with the key file"), std::string::npos)
       << what;
 }
 

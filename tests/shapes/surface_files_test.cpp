@@ -171,7 +171,7 @@ TEST_F(SurfaceFiles, BrokenOnesAreInputErrorsWithTheCulprit) {
   header_alone[80] = 1, header_alone[81] = header_alone[82] = header_alone[83] = 0;
   std::vector<Case> cases{
       {"header.stl", header_alone,
-       "surface: found 84 bytes, expected 134 of a binary file whose header counts 1 facet"},
+       "surface: found 84 bytes, expected 134 bytes, because the header of a binary file counts 1 facet"},
       {"nan.stl", nan_stl, "facet 2: found coordinate nan"},
       {"nan.stl", replaced(ascii_stl(tetrahedron(std::sqrt(8.0))), "vertex 1", "vertex nan"),
        ":4: facet 0: found \"nan\""},
@@ -206,7 +206,7 @@ TEST_F(SurfaceFiles, BrokenOnesAreInputErrorsWithTheCulprit) {
       {"huge.ply", replaced(tetrahedron_ply, "3 1 3 2", "3 1 3 222222222"), ":17: facet 3: found point 222222222"},
       {"minus.ply", replaced(tetrahedron_ply, "3 1 3 2", "3 1 -3 2"), ":17: facet 3: found point -3"},
       {"line.off", replaced(tetrahedron_off, "3 0 3 1", "2 0 3"), ":8: facet 1: found 2 points, expected 3 or more"},
-      {"short.off", replaced(tetrahedron_off, "3 0 3 1", "4 0 3 1"), ":8: facet 1: found 4 points, expected no more"},
+      {"short.off", replaced(tetrahedron_off, "3 0 3 1", "4 0 3 1"), ":8: facet 1: found 4 points, expected at most 3"},
       {"two.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 4"), ":9: facet 3: found 2 points"},
       {"word.obj", replaced(tetrahedron_obj, "f 2 4 3", "face 2 4 3"), ":9: keyword: found \"face\""},
       {"none.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no facet"},

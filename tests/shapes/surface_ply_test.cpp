@@ -216,7 +216,7 @@ TEST_F(SurfacePly, ATextMayEndWithItsLastNumber) {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   EXPECT_HAS(message_for(header + "0 1 2"), "facet");
-  EXPECT_HAS(message_for(header + "0 1 "), "no more than the 4 bytes after the header can hold");
+  EXPECT_HAS(message_for(header + "0 1 "), "fewer items, because only 4 bytes follow the header");
 }
 
 TEST_F(SurfacePly, NumbersBeyondTheirTypesAreRefused) {

@@ -267,7 +267,7 @@ TEST(Validate, NamesSourceAndParticle) {
       {[&](Specimen& s) { s.phase[0] = static_cast<Phase>(9); }, "here: particle 0: phase: found 9"},
       {[&](Specimen& s) { s.body[0] = -1; }, "here: particle 0: body of an aggregate particle: found -1"},
       {[&](Specimen& s) { s.body[1] = 0; }, "here: particle 1: body of a mastic particle: found 0"},
-      {[&](Specimen& s) { s.centre[1] = s.centre[0]; }, "that of particle 0"},
+      {[&](Specimen& s) { s.centre[1] = s.centre[0]; }, "the centre of particle 0"},
       {[&](Specimen& s) { s.box.size.y = 0; }, "here: box: found (0.05, 0, 0.08)"},
       {[&](Specimen& s) { s.box.size.x = inf; }, "here: box: found (inf"},
       {[&](Specimen& s) { s.radius.pop_back(); }, "here: length of array radius: found 1, expected 2"},

@@ -403,7 +403,7 @@ TEST(ContactNetwork, MessagesNameFileAndLine) {
   Specimen s = cubic(3, 0.01);
   s.source = "stones.csv", s.first_line = 2;
   s.centre[4].z = 0;
-  EXPECT_EQ(message(s).rfind("stones.csv:6: distance in metres of particle 4's centre to the -z wall", 0), 0U)
+  EXPECT_EQ(message(s).rfind("stones.csv:6: distance between the centre of particle 4 and the -z wall", 0), 0U)
       << message(s);
   s = cubic(3, 0.01);
   s.source = "stones.csv", s.first_line = 2;

@@ -149,8 +149,8 @@ TEST(Tessellation, NearlyCoincidentCentresAreNamedWithTheirDistance) {
       ADD_FAILURE() << "accepted " << distance;
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what())
-                    .rfind("stones.csv:119: distance in metres of the centres of particles 40 and "
-                           "117, which nearly coincide: found ",
+                    .rfind("stones.csv:119: distance between the centres of particles 40 and "
+                           "117: found ",
                            0),
                 0U)
           << error.what();

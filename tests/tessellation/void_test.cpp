@@ -152,7 +152,7 @@ TEST_F(VoidFiles, AreRefusedWhereTheyCannotBe) {
   EXPECT_HAS(refused(mastic + "1,0.008,0.005,0.005,0.001,void,3\n"), "s.csv:3: column body of a void: found \"3\"");
   EXPECT_HAS(refused(mastic + "1,0.008,0.005,0.005,0,void,-1\n"), "s.csv:3: void 1: radius: found 0");
   EXPECT_HAS(refused(mastic + "1,0.018,0.005,0.005,0.001,void,-1\n"), "s.csv:3: void 1: centre");
-  EXPECT_HAS(refused(mastic + "1,0.002,0.005,0.005,0.001,void,-1\n"), "that of particle 0");
+  EXPECT_HAS(refused(mastic + "1,0.002,0.005,0.005,0.001,void,-1\n"), "the centre of particle 0");
   EXPECT_HAS(refused(mastic + "1,0.008,0.005,0.005,0.001,air,-1\n"), "expected aggregate, mastic or void");
   EXPECT_HAS(refused("1,0.008,0.005,0.005,0.001,void,-1\n"), "particles");  // only voids, no particles
   Specimen s = lattice();

@@ -184,7 +184,7 @@ TEST_F(CalibrateCommand, WrongTargetsEndWithAMessageAndLeaveNothing) {
   EXPECT_HAS(refused(free), "between which no law of the scene changes");
   target(std::string(header) + "20,1.1e10,7\n");
   EXPECT_HAS(refused("--free M-A.dleta"), "M-A.delta (the nearest");
-  EXPECT_HAS(refused("--free M-A.delta --bounds M-M.delta=1:2"), "of a parameter that --free names");
+  EXPECT_HAS(refused("--free M-A.delta --bounds M-M.delta=1:2"), "NAME is one of the parameters in --free");
   EXPECT_HAS(refused("--free M-A.delta --bounds M-A.delta=1"), "NAME=LOW:HIGH");
   EXPECT_HAS(refused("--free M-A.delta --prior M-A.delta=x:1"), "NAME=VALUE:DEVIATION");
   EXPECT_HAS(refused("--free M-A.delta,M-M.delta,A-A.E"), "2 numbers, priors included, for 3");

@@ -267,7 +267,7 @@ TEST(Calibration, ReadingsThatDifferByTenthsAreOneIsotherm) {
 TEST(Calibration, ASceneWithoutAFileIsRefusedBeforeFilesAreWritten) {
   const fs::path out = fs::path(testing::TempDir()) / fmt::format("no_scene_file_{}", getpid());
   fs::create_directories(out);
-  EXPECT_SAYS([&] { calibrate_into(out, t8_scene(), {}, {}); }, "found one that was not read from a file");
+  EXPECT_SAYS([&] { calibrate_into(out, t8_scene(), {}, {}); }, "found a scene that was not read from a file");
   EXPECT_TRUE(fs::is_empty(out));
   fs::remove_all(out);
 }
@@ -472,7 +472,7 @@ TEST(Calibration, TargetsInAnotherUnitAreSuspected) {
   for (const double factor : {1e6, 1e-6}) {
     ModulusData data = measured(t8_scene(), {2, 20});
     for (ModulusPoint& p : data.points) p.e_star_pa *= factor;
-    EXPECT_SAYS([&] { calibrate(t8_scene(), data, freeing({"M-A.delta"})); }, "is it in Pa?");
+    EXPECT_SAYS([&] { calibrate(t8_scene(), data, freeing({"M-A.delta"})); }, "is the measured modulus in Pa?");
   }
 }
 

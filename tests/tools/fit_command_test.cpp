@@ -219,17 +219,17 @@ TEST_F(FitCommand, FaultyDataAreNamedByLineAndColumn) {
   EXPECT_HAS(refused(header + "1,inf,10\n"), "data.csv:2: column e_star_pa: found \"inf\"");
   EXPECT_HAS(refused(header + "0,1e9,10\n"), "data.csv:2: column frequency_hz: found \"0\"");
   EXPECT_HAS(refused(header + "1,1e9\n"), "columns: found 2 in \"1,1e9\", expected 3");
-  EXPECT_HAS(refused(header), "a header alone");
+  EXPECT_HAS(refused(header), "only a header");
   EXPECT_HAS(refused(""), "an empty file");
   EXPECT_HAS(refused("frequency,e_star_pa,phase_deg\n1,1,1\n"),
              "found \"frequency\", expected frequency_hz (the nearest");
-  EXPECT_HAS(refused("frequency_hz;e_star_pa;phase_deg\n"), "a header alone");
+  EXPECT_HAS(refused("frequency_hz;e_star_pa;phase_deg\n"), "only a header");
   EXPECT_HAS(refused("frequency_hz,e_star_pa,e_star_pa,phase_deg\n"), "twice");
   EXPECT_HAS(refused("e_star_pa,phase_deg\n"), "a column frequency_hz");
   EXPECT_HAS(refused("frequency_hz,phase_deg\n"), "e_star_pa or g_star_pa with phase_deg, or e_prime_pa");
   EXPECT_HAS(refused("frequency_hz,e_star_pa,phase_deg,phase_std\n"), "of both modulus and phase");
   EXPECT_HAS(refused("frequency_hz,g_star_pa,phase_deg\n1,1,1\n"), "--poisson");
-  EXPECT_HAS(refused(header + "1,1e9,10\n", "--poisson 0.3"), "expected none: the columns have |E*| already");
+  EXPECT_HAS(refused(header + "1,1e9,10\n", "--poisson 0.3"), "expected none, because the columns have |E*| already");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--shift wlf"), "no column temperature_c");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--units -1"), "--units");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--flow --no-flow"), "--no-flow");

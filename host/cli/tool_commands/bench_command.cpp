@@ -163,7 +163,7 @@ void add_list(CLI::App& command, const std::string& name, std::vector<T>& target
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("bench", "time steps and iterations of scenes on this machine");
+  CLI::App& command = *app.add_subcommand("bench", "measure the speed of time steps and iterations on this machine");
   const auto arguments = std::make_shared<BenchArguments>();
   bench::BenchAxes& axes = arguments->axes;
   command
@@ -183,10 +183,11 @@ void add_bench_command(CLI::App& app) {
               {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}});
   add_choices(command, "--geometry", axes.geometries, "fixed,updated",
               {{"fixed", Geometry::fixed}, {"updated", Geometry::updated}});
-  add_list(command, "--blocks", axes.blocks,
-           "number of blocks of steps within the shortest time of the load and the laws; viscoelastic states are "
-           "updated once per block; 4000 is usual",
-           1.0, 1e18);
+  add_list(
+      command, "--blocks", axes.blocks,
+      "number of updates of the viscoelastic states within the shortest time of the load and the laws, in place of "
+      "an update in every step; 4000 is usual",
+      1.0, 1e18);
   add_list(command, "--units", axes.units, "number of Kelvin units that every law gets; -1: as in the scene", -1, 16);
   command.add_flag("--elastic", axes.elastic, "replace every law by its instantaneous spring");
   add_list(command, "--multiprocessors", axes.multiprocessors,

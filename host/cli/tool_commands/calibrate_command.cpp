@@ -47,7 +47,7 @@ Pair pair_of(const std::string& option, const std::string& text, std::vector<Fre
   Pair out{nullptr, 0, 0};
   for (FreeParameter& p : free)
     if (p.name == text.substr(0, equals)) out.parameter = &p;
-  if (!out.parameter) refuse(form + " of a parameter that --free names");
+  if (!out.parameter) refuse(form + ", where NAME is one of the parameters in --free");
   const auto number = [&](std::size_t begin, std::size_t end, double& value) {
     const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + end, value);
     if (error != std::errc{} || stop != text.data() + end) refuse(form);
@@ -62,12 +62,14 @@ void read_parameters(CalibrateArguments& arguments) {
   for (const std::string& name : arguments.free) free.push_back({name, {}, {}, {}, 0});
   for (const std::string& text : arguments.bounds) {
     const Pair p = pair_of("--bounds", text, free, "NAME=LOW:HIGH");
-    if (p.parameter->low) throw InputError("command line", 0, "--bounds", p.parameter->name + " twice", "each once");
+    if (p.parameter->low)
+      throw InputError("command line", 0, "--bounds", p.parameter->name + " twice", "each parameter once");
     p.parameter->low = p.first, p.parameter->high = p.second;
   }
   for (const std::string& text : arguments.priors) {
     const Pair p = pair_of("--prior", text, free, "NAME=VALUE:DEVIATION");
-    if (p.parameter->prior) throw InputError("command line", 0, "--prior", p.parameter->name + " twice", "each once");
+    if (p.parameter->prior)
+      throw InputError("command line", 0, "--prior", p.parameter->name + " twice", "each parameter once");
     p.parameter->prior = p.first, p.parameter->prior_deviation = p.second;
   }
 }
@@ -127,8 +129,10 @@ void add_calibrate_command(CLI::App& app) {
           "(0.1: about 10 %)")
       ->delimiter(',')
       ->type_name("NAME=VALUE:DEVIATION");
-  add_number(command, "--seeds", options.seeds,
-             "number of specimens, with the scene's seed and the seeds after it, whose E* is averaged", 1, 1000);
+  add_number(
+      command, "--seeds", options.seeds,
+      "number of specimens whose E* is averaged; the first has the seed of the scene, each next one the next seed", 1,
+      1000);
   add_choice(command, "--misfit", options.misfit, "the differences that are minimised; parts: E' and E''",
              {{"modulus-and-phase", Misfit::modulus_and_phase},
               {"modulus", Misfit::modulus},

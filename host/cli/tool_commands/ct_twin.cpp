@@ -48,7 +48,8 @@ void twin_command(CtTwinArguments arguments) {
       "holds too little of them), {} void spheres, {} particles\n",
       1e3 * size.x, 1e3 * size.y, 1e3 * size.z, twin.grains, twin.clusters, twin.lost, twin.specimen.voids.size(),
       twin.specimen.size());
-  say("aggregate {:.2f} %, mastic {:.2f} %, voids {:.2f} %; further voids of {:.2f} % are left out\n",
+  say("aggregate {:.2f} %, mastic {:.2f} %, voids {:.2f} %; voids of {:.2f} % are left out because they are too "
+      "small\n",
       100 * twin.aggregate, 100 * twin.mastic, 100 * twin.voids, 100 * twin.voids_left_out);
   say("macadam run {}/scene.toml --out DIR\n", arguments.out);
 }

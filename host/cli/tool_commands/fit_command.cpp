@@ -48,7 +48,7 @@ void require_uses(const CLI::App& command, const FitArguments& arguments) {
     refuse("this option together with --units", "only one of the two options", {"--most-units"});
     if (arguments.flow || arguments.no_flow)
       refuse("this option together with --units and --flow or --no-flow",
-             "a command without this option: nothing is left to choose", {"--criterion"});
+             "a command without this option, because nothing is left to choose", {"--criterion"});
   }
 }
 

@@ -154,7 +154,8 @@ void repair(const ShapesArguments& arguments) {
 }  // namespace
 
 void add_shapes_command(CLI::App& app) {
-  CLI::App& shapes = *app.add_subcommand("shapes", "shapes of aggregates: closed triangulated surfaces");
+  CLI::App& shapes =
+      *app.add_subcommand("shapes", "measure, repair, fill or make shapes of aggregates (closed surfaces)");
   shapes.require_subcommand(1);
   const auto arguments = std::make_shared<ShapesArguments>();
   const auto add_paths = [&](CLI::App& command) {

@@ -142,8 +142,8 @@ class Planner {
     if (local) decide("local damping is not linear, so predicted errors do not contain its effect");
     if (is_strain_large(scene_, plan_.geometry)) {
       decide(
-          "the response is not linear at this strain: the harmonic solution keeps the initial geometry and differs by "
-          "up to {:.1e}",
+          "the response is not linear at this strain: the harmonic solution, which keeps the initial geometry, differs "
+          "from the stepped result by up to {:.1e}",
           nonlinear_);
     }
     start_ = harmonic_ ? cyclic_start(scene_, plan_.geometry) : Start::rest;
@@ -286,7 +286,8 @@ class Planner {
     }
     const double share = f.loading.dt() / (plan_.critical.dt * std::sqrt(f.density_scaling));
     if (share > 1)
-      decide("{} Hz: the given time step is {:.2f} times the largest one that is certainly stable", frequency, share);
+      decide("{} Hz: the given time step is {:.2f} times the largest time step that is certainly stable", frequency,
+             share);
   }
 
   /// Returns a loading with a whole number of samples per period and a whole number of steps per sample.

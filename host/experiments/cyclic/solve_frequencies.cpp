@@ -44,14 +44,16 @@ std::string unused_settings(const Scene& scene) {
 }
 
 /// Describes the method, for the results.
-std::string described(const Scene& scene, double viscous) {
+std::string described(const Scene& scene, double viscous, Backend backend) {
   const SolverSpec& solver = scene.solver;
   std::string out = solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
   if (viscous > 0) out += " and viscous damping";
+  out += std::string(", ") + to_string(backend);
   if (solver.damping_kind != Damping::none && viscous == 0) {
     out += fmt::format("; {} damping is not used", to_string(solver.damping_kind));
   }
-  if (const std::string unused = unused_settings(scene); !unused.empty()) out += "; not used: " + unused;
+  if (const std::string unused = unused_settings(scene); !unused.empty())
+    out += "; settings that this method does not use: " + unused;
   return out;
 }
 
@@ -64,7 +66,7 @@ class PlannedHarmonic : public PlannedExperiment {
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
     // the reference backend implements time steps only; the direct solver runs on the CPU only
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
-    result.solver = described(scene, viscous_) + ", " + to_string(result.backend);
+    result.solver = described(scene, viscous_, result.backend);
     if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
     backend_ = result.backend;
     if (!temperatures_.empty()) set_temperature(temperatures_.front());

@@ -55,8 +55,8 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
   plan.decisions.push_back(
-      fmt::format("viscoelastic states are updated {:.0f} times within the shortest time of load and laws, not in "
-                  "every step: the error is at most {:.1e}",
+      fmt::format("viscoelastic states are not updated in every step but {:.0f} times within the shortest time of the "
+                  "load and the laws; the error of this is at most {:.1e}",
                   std::ceil(blocks), block_error(blocks)));
 }
 

@@ -62,9 +62,10 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     const auto law = facts_of(scene.laws)[pair];
     if (!law || law->linear) continue;
-    plan.decisions.push_back(fmt::format(
-        "errors are estimates, because law {} of {} is not linear, so that the response without time steps is unknown",
-        law->name, to_string(static_cast<PairType>(pair))));
+    plan.decisions.push_back(
+        fmt::format("errors are estimates, because law {} of {} is not linear, and only linear laws have a "
+                    "solution without time steps",
+                    law->name, to_string(static_cast<PairType>(pair))));
     return {};
   }
   SpectrumOptions options;
@@ -76,20 +77,20 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
   options.stop = watcher.stop;
   options.on_progress = [&](int solutions, double error) {
     if (watcher.progress) {
-      watcher.progress(fmt::format("response without time steps: {} solutions, error {:.1e}", solutions, error),
+      watcher.progress(fmt::format("solution without time steps: {} frequencies, error {:.1e}", solutions, error),
                        std::min(1.0, std::log(error) / std::log(spectrum_tolerance)));
     }
   };
   try {
     const Spectrum found = spectrum_of(prepared.specimen, prepared.network, scene.laws, options);
-    plan.decisions.push_back(
-        fmt::format("errors are measured against the response without time steps: {} solutions give E(t) from {:.3g} "
-                    "to {:.3g} s with a relative error of {:.1e}",
-                    found.solutions, options.shortest, options.longest, std::max(found.error, found.checked)));
+    plan.decisions.push_back(fmt::format(
+        "errors are differences from the solution without time steps, which follows from E(t) of the specimen; {} "
+        "solutions give E(t) from {:.3g} to {:.3g} s with a relative error of {:.1e}",
+        found.solutions, options.shortest, options.longest, std::max(found.error, found.checked)));
     return UnsteppedAnswer{found.relaxation, std::max(found.error, found.checked)};
   } catch (const InterruptedError&) { throw; } catch (const Error& error) {
     plan.decisions.push_back(fmt::format(
-        "errors are estimates, because the response without time steps could not be computed: {}", error.what()));
+        "errors are estimates, because the solution without time steps could not be computed: {}", error.what()));
     return {};
   }
 }
@@ -215,7 +216,7 @@ std::string LoadErrors::ramp_words() const {
 std::string LoadErrors::meaning() const {
   const char* of = test_.by_stress ? "strain" : "stress";
   if (!spectrum_) return fmt::format("error: estimated relative error of the {}", of);
-  return fmt::format("error: relative difference of the {} from the response without time steps{}", of,
+  return fmt::format("error: relative difference of the {} from the solution without time steps{}", of,
                      updated_ ? "; an estimate once the strain has exceeded 0.1 %" : "");
 }
 
@@ -227,10 +228,11 @@ std::string LoadErrors::warning(const std::vector<SteppedPoint>& rows) const {
   const std::vector<SteppedPoint> before(rows.begin(), worst);
   const bool known = is_known(*worst, before);
   const std::string size = worst->error > 1 ? "more than 100" : fmt::format("{:.1f}", 100 * worst->error);
-  return fmt::format("the error is above 1 % in {} of {} rows, largest at t = {:.4g} s: {} {} %; {}", count,
-                     rows.size(), worst->time_s,
-                     known ? "the response without time steps differs by" : "it is estimated as", size,
-                     advice(known ? measured(*worst) : estimated(*worst, before)));
+  return fmt::format(
+      "the error is above 1 % in {} of {} rows, largest at t = {:.4g} s: {} {} %; {}", count, rows.size(),
+      worst->time_s,
+      known ? "there the result differs from the solution without time steps by" : "there the error is estimated as",
+      size, advice(known ? measured(*worst) : estimated(*worst, before)));
 }
 
 /// Returns advice for the warning: which part of the error is larger, and what reduces this part.
@@ -239,15 +241,15 @@ std::string LoadErrors::advice(const Parts& parts) const {
       plan_.density_scaling > 1 ? fmt::format(", a smaller density_scaling (now {:g})", plan_.density_scaling) : "";
   if (parts.ramp > parts.remainder) {
     return fmt::format(
-        "most of it comes from the ramp of {:.3g} s in place of an instantaneous load; later times{} or a ramp in "
-        "[loading] reduce it",
+        "most of the error comes from the ramp of {:.3g} s in place of an instantaneous load; later times{} or a ramp "
+        "in [loading] reduce the error",
         plan_.ramp, lighter);
   }
   const std::string weaker = damping_given_ && plan_.damping > 0
                                  ? fmt::format(", a smaller damping (now {:g})", plan_.damping)
                                  : std::string();
   return fmt::format(
-      "most of it comes from inertia and the drag of damping; a longer ramp{}{} or later times reduce it", lighter,
+      "most of the error comes from inertia and damping; a longer ramp{}{} or later times reduce the error", lighter,
       weaker);
 }
 

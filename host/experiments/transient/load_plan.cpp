@@ -44,10 +44,11 @@ class LoadPlanner {
 
   void refuse_others() const {
     if (!scene_.solver.tolerance) return;
-    throw InputError(scene_.file.string(), 0, "tolerance in [solver]",
-                     fmt::format("{:g} with method \"explicit\" of kind \"{}\"", *scene_.solver.tolerance, test_.kind),
-                     "no tolerance, because it does not choose the settings of this test; give density_scaling, or "
-                     "method \"harmonic\"");
+    throw InputError(
+        scene_.file.string(), 0, "tolerance in [solver]",
+        fmt::format("{:g} with method \"explicit\" of kind \"{}\"", *scene_.solver.tolerance, test_.kind),
+        "no tolerance, because a tolerance does not choose the settings of this test; give density_scaling, or "
+        "method \"harmonic\"");
   }
 
   double period_of_slowest_wave() const {
@@ -78,7 +79,8 @@ class LoadPlanner {
     if (!damping_.chosen) return;
     decide("viscous damping of {:.3g} 1/s: {}", plan_.damping,
            damping_.critical
-               ? "it is critical for the slowest wave, but waves have not died out at the first times of the table"
+               ? "this is critical damping of the slowest wave, but waves have not died out at the first times of the "
+                 "table"
                : fmt::format("waves that a change of load causes die out within {:.3g} s", damping_.pause));
   }
 
@@ -111,7 +113,7 @@ class LoadPlanner {
     decide("density scaling {:.4g}: {} time steps of {:.3g} s until t = {:g} s", plan_.density_scaling,
            plan_.step_at(end), plan_.dt, end);
     if (plan_.dt > stable)
-      decide("the given time step is {:.2f} times the largest one that is certainly stable", plan_.dt / stable);
+      decide("the given time step is {:.2f} times the largest time step that is certainly stable", plan_.dt / stable);
   }
 
   const TransientExperiment& test_;

@@ -65,7 +65,7 @@ void require_room(const SurfaceFile& file, const PlyHeader& header) {
     const std::size_t least = least_bytes(element, header.text);
     if (least > 0 && element.items > room / least)
       file.fail(element.line, "element " + element.name, fmt::format("{} items", element.items),
-                fmt::format("no more than the {} bytes after the header can hold", file.bytes.size() - header.end));
+                fmt::format("fewer items, because only {} bytes follow the header", file.bytes.size() - header.end));
     room -= least * element.items;
   }
 }
@@ -82,7 +82,7 @@ std::optional<std::size_t> PlyElement::find(std::string_view property) const {
 PlyHeader read_ply_header(const SurfaceFile& file) {
   PlyHeader header;
   Words words(file);
-  if (words.next("ply") != "ply") words.fail("header", "no `ply`", "a .ply file");
+  if (words.next("ply") != "ply") words.fail("header", "no `ply`", "the word `ply`, with which a .ply file begins");
   bool format = false;
   for (;;) {
     words.skip_line();

@@ -143,7 +143,7 @@ void read_facets(const SurfaceFile& file, const PlyElement& element, PlyNumbers&
       if (length < 3) numbers.fail(what, fmt::format("{} points", length), "3 or more");
       if (length > numbers.most(*corners.type))
         numbers.fail(what, fmt::format("{} points", length),
-                     fmt::format("no more than the rest of the file can hold, {}", numbers.most(*corners.type)));
+                     fmt::format("at most {} points, because the file then ends", numbers.most(*corners.type)));
       for (std::size_t k = 0; k < length; ++k)
         soup.corners.push_back(static_cast<std::int64_t>(numbers.next(*corners.type, what)));
     }

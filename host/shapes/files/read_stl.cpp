@@ -145,9 +145,9 @@ SurfaceSoup read_stl(const SurfaceFile& file) {
   if (!has_zero && begins_as_ascii(file)) return AsciiStl(file).read();
   const std::string ascii = "an ASCII file that begins with `solid`";
   if (size < header_bytes)
-    file.fail(0, "surface", fmt::format("{} bytes", size), "a binary file's 84 or more, or " + ascii);
+    file.fail(0, "surface", fmt::format("{} bytes", size), "84 bytes or more (a binary file), or " + ascii);
   file.fail(0, "surface", fmt::format("{} bytes", size),
-            fmt::format("{} of a binary file whose header counts {} facet{}, or {}", expected, facets,
+            fmt::format("{} bytes, because the header of a binary file counts {} facet{}, or {}", expected, facets,
                         facets == 1 ? "" : "s", ascii));
 }
 

@@ -57,13 +57,14 @@ SurfaceSoup read_off(const SurfaceFile& file) {
   for (const std::string_view extra : {"ST", "C", "N"})
     if (plain.starts_with(extra)) plain.remove_prefix(extra.size());
   if (plain != "OFF")
-    words.fail("header", in_quotes(keyword), "the word OFF: a text file with three coordinates per point");
+    words.fail("header", in_quotes(keyword),
+               "the word OFF, with which a text file of points with three coordinates begins");
   const std::size_t points = words.count(words.next("the number of points"), "number of points");
   const std::size_t facets = words.count(words.next("the number of facets"), "number of facets");
   constexpr std::size_t least = 5;  // bytes of the shortest line: "0 0 0"
   if (points > file.bytes.size() / least || facets > file.bytes.size() / least)
     words.fail("surface", fmt::format("{} points and {} facets", points, facets),
-               fmt::format("no more than {} bytes can hold", file.bytes.size()));
+               fmt::format("fewer, because the file has only {} bytes", file.bytes.size()));
 
   SurfaceSoup soup;
   const auto go_to = [&](const std::string& what, std::size_t of) {
@@ -80,7 +81,7 @@ SurfaceSoup read_off(const SurfaceFile& file) {
     const auto in_line = static_cast<std::int64_t>(words.left_in_line() / 2);  // each number takes a blank and a digit
     if (corners < 3 || corners > in_line)
       words.fail(what, fmt::format("{} points", corners),
-                 corners < 3 ? "3 or more" : fmt::format("no more than its line can hold, {}", in_line));
+                 corners < 3 ? "3 or more" : fmt::format("at most {}, because the line then ends", in_line));
     for (std::int64_t k = 0; k < corners; ++k) soup.corners.push_back(words.integer(words.in_line(), what));
     soup.end_facet();
     for (auto colour = words.in_line(); !colour.empty(); colour = words.in_line()) words.number(colour, what);

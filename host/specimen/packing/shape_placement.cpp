@@ -40,13 +40,15 @@ void check(const std::vector<ShapeTemplate>& shapes, const ShapeComposition& com
   if (!insertion && spec.spacing > 0)
     refuse("spacing", shown(spec.spacing) + " m with packing", "insertion, or a gap in place of the spacing");
   if (!spec.spheres.empty() && (!insertion || spec.spheres.size() != composition.aggregate.size()))
-    refuse("spheres", insertion ? std::to_string(spec.spheres.size()) : "a test by them with packing",
+    refuse("spheres", insertion ? std::to_string(spec.spheres.size()) : "a test by spheres with packing",
            "insertion, and the spheres of each of " + std::to_string(composition.aggregate.size()) + " aggregates");
   for (const AggregateRequest& r : composition.aggregate) {
     if (r.shape < 0 || r.shape >= static_cast<int>(shapes.size()))
-      refuse("shape number", std::to_string(r.shape), "0 to " + std::to_string(shapes.size()) + " - 1");
+      refuse("shape number", std::to_string(r.shape),
+             "0 to " + std::to_string(static_cast<std::int64_t>(shapes.size()) - 1));
     if (r.size_class < 0 || r.size_class >= static_cast<int>(composition.row.size()))
-      refuse("size class", std::to_string(r.size_class), "0 to " + std::to_string(composition.row.size()) + " - 1");
+      refuse("size class", std::to_string(r.size_class),
+             "0 to " + std::to_string(static_cast<std::int64_t>(composition.row.size()) - 1));
     if (!(r.size > 0 && std::isfinite(r.size))) refuse("size", shown(r.size) + " m", "a finite positive length");
   }
 }

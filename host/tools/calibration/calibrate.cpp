@@ -244,7 +244,8 @@ class Calibrator {
       const FreeParameter& asked = options_.free[i];
       const bool lower = p.value * p.value < p.low * p.high;
       if (p.at_bound && !(lower ? asked.low : asked.high))
-        ends.push_back(fmt::format("{} ran to {:.3g}, four decades from the scene's {:.3g}", p.name, p.value, p.start));
+        ends.push_back(fmt::format("{} ran to {:.3g}, four decades from its value in the scene, {:.3g}", p.name,
+                                   p.value, p.start));
     }
     const bool modulus = options_.misfit != Misfit::phase && e.e_star_rms > worst_modulus;
     const bool phase = options_.misfit != Misfit::modulus && e.phase_rms_deg > worst_phase;
@@ -259,10 +260,11 @@ class Calibrator {
                      : "");
     for (const std::string& end : ends) what += "; " + end;
     if (ratio < wrong_unit || ratio > 1 / wrong_unit)
-      what += fmt::format("; the measured modulus is {:.1e} times the prediction: is it in Pa?", ratio);
-    const std::string first = modulus || phase
-                                  ? "the targets are not reached by any values of the free parameters"
-                                  : "the targets do not determine the free parameters, the misfit falls without end";
+      what +=
+          fmt::format("; the measured modulus is {:.1e} times the prediction: is the measured modulus in Pa?", ratio);
+    const std::string first =
+        modulus || phase ? "the targets are not reached by any values of the free parameters"
+                         : "the targets do not determine the free parameters, so the misfit decreases without limit";
     if (!options_.nearest) {
       throw RunError(fmt::format("{}: {}: {}; bounds of a parameter, a prior, or other free parameters may help",
                                  data_.source, first, what));
@@ -291,10 +293,10 @@ class Calibrator {
     const double missed = std::sqrt(out_.misfit / static_cast<double>(out_.points.size()) /
                                     residuals_each(options_.misfit));  // in standard deviations (rms)
     if (missed > worst_miss) {
-      out_.warnings.push_back(
-          fmt::format("the measurements are missed by {:.3g} of their standard deviations (rms): these parameters do "
-                      "not describe them",
-                      missed));
+      out_.warnings.push_back(fmt::format(
+          "the prediction misses the measurements by {:.3g} times their standard deviation (rms): the scene "
+          "with these free parameters does not describe the measurements",
+          missed));
     }
     const auto shifts = [](const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); };
     if (data_.temperatures && std::none_of(scene_.shifts.begin(), scene_.shifts.end(), shifts))

@@ -143,8 +143,8 @@ namespace {
 /// written by a calibration.
 void require_calibration_folder(const Scene& scene, const std::filesystem::path& out) {
   if (scene.text.empty()) {
-    throw InputError("calibrated scene", 0, "scene", "one that was not read from a file",
-                     "a scene file: scene.toml is its text with the calibrated values");
+    throw InputError("calibrated scene", 0, "scene", "a scene that was not read from a file",
+                     "a scene file, because scene.toml is the text of this file with the calibrated values");
   }
   std::error_code error;
   if (std::filesystem::equivalent(scene.file, out / "scene.toml", error)) {
@@ -166,8 +166,9 @@ void write_scene(const Scene& scene, const Calibration& calibration, const std::
     require_calibrated(read_scene(file), calibration);
   } catch (const Error& error) {
     std::filesystem::remove(file);
-    throw RunError(fmt::format("{}: the calibrated values do not go into the text of the scene ({}); they are in {}",
-                               file.string(), error.what(), (folder / "calibration.json").string()));
+    throw RunError(
+        fmt::format("{}: the calibrated values cannot be written into the text of the scene ({}); the values are in {}",
+                    file.string(), error.what(), (folder / "calibration.json").string()));
   }
 }
 

@@ -29,7 +29,8 @@ void require_valid_input(const Scene& scene, const ModulusData& data, const Cali
   const bool counts_modulus = options.misfit != Misfit::phase, counts_phase = options.misfit != Misfit::modulus;
   if ((counts_modulus && !data.moduli) || (counts_phase && !data.phases)) {
     throw InputError(data.source, 0, "measurements", data.moduli ? "no phase angles" : "no moduli",
-                     fmt::format("this column, which the misfit {} needs", to_string(options.misfit)));
+                     fmt::format("{}, which the misfit {} needs", data.moduli ? "phase angles" : "moduli",
+                                 to_string(options.misfit)));
   }
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const ModulusPoint& p = data.points[i];
@@ -48,7 +49,7 @@ void require_valid_input(const Scene& scene, const ModulusData& data, const Cali
   if (options.seeds < 1) refuse("seeds", fmt::format("{}", options.seeds), "at least 1");
   if (options.seeds > 1 && scene.specimen.file) {
     refuse("seeds", fmt::format("{} for a specimen from a file", options.seeds),
-           "1: only generated specimens have seeds");
+           "1, because only generated specimens have seeds");
   }
 }
 
@@ -63,11 +64,11 @@ std::vector<Parameter> free_parameters(const Scene& scene, const CalibrationOpti
     const auto at = std::find(names.begin(), names.end(), asked.name);
     if (at == names.end()) {
       refuse("free parameters", in_quotes(asked.name),
-             names.empty() ? "nothing: the scene has no laws" : expected_one_of(asked.name, names));
+             names.empty() ? "no free parameter, because the scene has no laws" : expected_one_of(asked.name, names));
     }
     const Parameter& p = known[static_cast<std::size_t>(at - names.begin())];
     for (const Parameter& other : free)
-      if (other.name == p.name) refuse("free parameters", p.name + " twice", "each once");
+      if (other.name == p.name) refuse("free parameters", p.name + " twice", "each parameter once");
     const double low = asked.low.value_or(p.value / unbounded), high = asked.high.value_or(p.value * unbounded);
     if (!(low > 0 && high > low && std::isfinite(high))) {
       refuse("bounds of " + p.name, fmt::format("{:g} and {:g}", low, high), "positive numbers, the lower one first");

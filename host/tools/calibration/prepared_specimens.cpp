@@ -108,7 +108,7 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
     if (!shifted && *t != *out.front()) {
       refuse("column temperature_c",
              fmt::format("{} and {} degrees C, between which no law of the scene changes", *out.front(), *t),
-             "one temperature, or a scene with shift = \"wlf\", \"arrhenius\" or \"table\" in a [[contacts]]");
+             "one temperature, or a scene with shift = \"wlf\", \"arrhenius\" or \"table\" in a section [[contacts]]");
     }
     const LawTable laws = laws_at(scene, *t);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {

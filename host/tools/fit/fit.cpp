@@ -230,7 +230,7 @@ Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   warn_of_outliers(problem, fit);
   if (fit.errors.e_star_rms > 0.1) {
     fit.warnings.push_back(
-        fmt::format("the fit misses |E*| by {:.3g} % (rms): too few measurements for more parameters, "
+        fmt::format("the fit misses |E*| by {:.3g} % (rms); possible causes: too few measurements for more parameters, "
                     "temperatures in the wrong rows, or moduli that are not of one linear material",
                     100 * fit.errors.e_star_rms));
   }

@@ -69,7 +69,7 @@ std::vector<double> curve_frequencies(const Fit& fit) {
 
 std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shift, const std::string& origin) {
   std::string out = fmt::format(
-      "# {}\n[[contacts]]\npair = \"M-M\"  # the pair that it stands for\nlaw = \"generalised_kelvin\"\nE_m = {}\n",
+      "# {}\n[[contacts]]\npair = \"M-M\"  # the pair that has this law\nlaw = \"generalised_kelvin\"\nE_m = {}\n",
       origin, real(law.E_m));
   if (std::isfinite(law.C_m)) out += fmt::format("C_m = {}\n", real(law.C_m));
   out += fmt::format("E = {}\nC = {}\nalpha = 0.1  # shear over normal stiffness: not in the data\n", list_of(law.E),
@@ -247,9 +247,9 @@ FitReport report_conversion(const ShiftedAnalogue& model, std::optional<double> 
                             double error) {
   const auto range = chain_range(from, to, {});
   const KelvinConversion conversion = to_kelvin(model.model, range.first, range.second, error);
-  const std::string origin = fmt::format("macadam fit: stands for {} from {} to {} Hz, largest error {:.2g} of |E*|",
-                                         std::isfinite(model.model.beta) ? "2S2P1D" : "Huet-Sayegh", range.first,
-                                         range.second, conversion.largest_error);
+  const std::string origin = fmt::format(
+      "macadam fit: replaces a {} model from {} to {} Hz, largest error {:.2g} of |E*|",
+      std::isfinite(model.model.beta) ? "2S2P1D" : "Huet-Sayegh", range.first, range.second, conversion.largest_error);
   return {{{"law.toml", law_toml(conversion.law, model.shift, origin)}}, conversion_text(conversion, range), ""};
 }
 

@@ -81,9 +81,9 @@ std::string expected_of(const LaboratoryColumn& column, double value) {
       return value > -laws::zero_celsius && value < 1000 ? "" : column.unit;
     case e_double_prime:
     case g_double_prime:
-      return std::isfinite(value) ? "" : "a number of " + column.unit;
+      return std::isfinite(value) ? "" : "a number in " + column.unit;
     default:
-      return value > 0 && std::isfinite(value) ? "" : "a positive number of " + column.unit;
+      return value > 0 && std::isfinite(value) ? "" : "a positive number in " + column.unit;
   }
 }
 

@@ -52,7 +52,7 @@ void check_shift(const ModulusData& data, const FitOptions& options, const std::
   };
   const std::size_t count = isotherms.size();
   if (options.shift == ShiftKind::none && count > 1) {
-    refuse("temperatures", fmt::format("{} of them", count), "one, or a shift law: wlf, arrhenius or free");
+    refuse("temperatures", fmt::format("{} temperatures", count), "one, or a shift law: wlf, arrhenius or free");
   }
   const std::size_t needed = options.shift == ShiftKind::none ? 0 : options.shift == ShiftKind::wlf ? 3 : 2;
   if (count < needed) {

@@ -39,8 +39,7 @@ class DataReader {
     for (std::size_t i = 0; i < table_.names.size(); ++i) understand(i);
     choose();
     const bool is_header_sound = complaints_.empty();
-    if (is_header_sound && table_.rows.empty())
-      complaints_.add(0, "measurements", "a header alone", "lines of numbers");
+    if (is_header_sound && table_.rows.empty()) complaints_.add(0, "measurements", "only a header", "lines of numbers");
     if (table_.rows.size() > most_points) {
       complaints_.add(0, "measurements", fmt::format("{}", table_.rows.size()), fmt::format("at most {}", most_points));
       complaints_.throw_if_any();
@@ -135,10 +134,10 @@ class DataReader {
     choose_deviations();
     if (shear && !poisson_)
       complaints_.add(table_.header_line, "column g_star_pa", "no Poisson's ratio",
-                      "one (--poisson): |E*| = 2 (1 + ratio) |G*|");
+                      "a ratio in --poisson, because |E*| = 2 (1 + ratio) |G*|");
     if (!shear && poisson_) {
       complaints_.add(table_.header_line, "column e_star_pa", "a Poisson's ratio",
-                      "none: the columns have |E*| already");
+                      "none, because the columns have |E*| already");
     } else if (poisson_ && !(*poisson_ > -1 && *poisson_ <= 0.5)) {
       complaints_.add(table_.header_line, "Poisson's ratio", fmt::format("{}", *poisson_),
                       "a number above -1, at most 0.5");

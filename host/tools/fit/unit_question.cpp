@@ -44,12 +44,14 @@ void ask_about_moduli(const ModulusData& data, const ColumnsRead& columns, Compl
   const double phase = data.phases ? stiffest->phase_deg : 44;  // without phases, the limit for solids applies
   const double smallest = smallest_modulus(phase);
   if (!column.ends_with("_pa") || high >= smallest) return;
-  complaints.add(0, "column " + column,
-                 fmt::format("moduli of {:.4g} to {:.4g} Pa{}", low, high,
-                             data.phases ? fmt::format(" with a phase of {:.3g} degrees at the stiffest", phase) : ""),
-                 fmt::format("at least {:.0e} Pa there: is it in Pa? Moduli in MPa, GPa or kPa have a column such as "
-                             "{}_mpa",
-                             smallest, column.substr(0, column.size() - 3)));
+  complaints.add(
+      0, "column " + column,
+      fmt::format("moduli of {:.4g} to {:.4g} Pa{}", low, high,
+                  data.phases ? fmt::format(" with a phase of {:.3g} degrees at the largest modulus", phase) : ""),
+      fmt::format(
+          "a largest modulus of at least {:.0e} Pa: is it in Pa? Moduli in MPa, GPa or kPa have a column such as "
+          "{}_mpa",
+          smallest, column.substr(0, column.size() - 3)));
 }
 
 /// Returns whether the moduli rise too steeply with frequency for the phases. The phase of a material is about 90

@@ -72,7 +72,8 @@ class RankExchange {
   void add(T* array, std::size_t words_an_item, const RankItems& items) {
     const std::size_t bytes = words_an_item * sizeof(T);
     if (bytes % sizeof(uint2) != 0)
-      throw RunError("ranks: found an item of " + std::to_string(bytes) + " bytes, expected a multiple of 8");
+      throw RunError("ranks: found an array with " + std::to_string(bytes) +
+                     " bytes per item, expected a multiple of 8 bytes");
     parts_.push_back({reinterpret_cast<uint2*>(array), static_cast<std::uint32_t>(bytes / sizeof(uint2)), items.sent(),
                       items.received()});
   }
@@ -140,7 +141,8 @@ class RankExchange {
   }
   static std::uint32_t number(std::size_t n) {
     if (n > UINT32_MAX)
-      throw RunError("ranks: found " + std::to_string(n) + " words or items of a message, expected fewer than 2^32");
+      throw RunError("ranks: a message between two ranks has " + std::to_string(n) +
+                     " entries, expected fewer than 2^32");
     return static_cast<std::uint32_t>(n);
   }
   template <bool into_buffer>

@@ -38,8 +38,9 @@ class TileBlocks {
     const auto block = law.block(dt, block_);
     if (!launch_.has_memory() && (block.relax != 0 || block.follow != 0)) {
       throw InputError(std::string("law of ") + to_string(static_cast<PairType>(number)) +
-                       ": found a block with relax " + std::to_string(block.relax) + " and follow " +
-                       std::to_string(block.follow) + ", expected 0 for both, because the law has no memory");
+                       ": its function block() returns relax = " + std::to_string(block.relax) +
+                       " and follow = " + std::to_string(block.follow) +
+                       ", expected 0 for both, because the law says that it has no memory");
     }
     data_.set_law(number, {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
                            static_cast<float>(view.alpha), static_cast<float>(block.follow)});

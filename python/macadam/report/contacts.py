@@ -115,9 +115,9 @@ def _areas(page: Page, folder: Folder) -> None:
                 ]
             )
     page.table(
-        ["contact", "number", "of all facets' area", "mean area (mm²)", "median area (mm²)"],
+        ["contact", "number", "fraction of the area of all facets", "mean area (mm²)", "median area (mm²)"],
         rows,
-        f"{folder.label}: the facets across which the contacts act.",
+        f"{folder.label}: the areas of the facets that act as contacts.",
     )
 
 

@@ -46,7 +46,7 @@ def add_decisions(page: Page, folders: list[Folder]) -> None:
             page.leave_out(
                 f.label,
                 "decisions and skips",
-                "the program decided nothing: the run is not stepped, or the scene gives all its settings",
+                "the program decided nothing, because the run is not stepped or the scene gives all settings",
             )
 
 

@@ -67,8 +67,8 @@ def _error_note(found: list[Folder]) -> str:
         (False, "The relative error of the curves is at most"),
         (
             True,
-            "Error bars of stepped points show the difference from the response without time steps, or its estimate: "
-            "at most",
+            "Error bars of stepped points show the difference from the solution without time steps, or an estimate "
+            "of this difference: at most",
         ),
     ):
         worst = max((_errors(f).max() for f in found if _is_stepped(f) == stepped), default=0)
@@ -244,7 +244,8 @@ def _spectrum(found: list[Folder]) -> Any:
 
 
 def _spectrum_caption(found: list[Folder]) -> str:
-    words = ["Prony series of the specimen, with one line per unit. High lines mark the times at which it relaxes most."]
+    words = ["Prony series of the specimen, with one line per unit. High lines mark the times at "
+             "which the specimen relaxes most."]
     for f in found:
         prony = f.in_time["prony"]
         words.append(

@@ -204,6 +204,6 @@ def _sizes_caption(folders: list[Folder]) -> str:
         for f in folders
     )
     return (
-        "Sizes of the aggregates that are particles, a step for every one, by their volume. Finer grains are part of "
-        f"the mastic. {counts}."
+        "Cumulative volume of the aggregates that are particles, over their size; each step of a curve is one aggregate. "
+        f"Finer grains are part of the mastic. {counts}."
     )

@@ -40,9 +40,9 @@ def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
     for f in runs:
         if not f.by_frequency:
-            why = {"prepared": "the folder holds a specimen, no test"}.get(f.summary["status"], "")
+            why = {"prepared": "the folder holds a specimen but no test"}.get(f.summary["status"], "")
             if f.in_time:
-                why = f"the test is one in time ({f.in_time['kind']}), not over frequencies"
+                why = f"the test gives results over time ({f.in_time['kind']}), not over frequency"
             page.leave_out(f.label, "|E*| and phase angle", why or f"no result in it; status: {f.summary['status']}")
     found = curves(runs)
     if not found:
@@ -170,8 +170,9 @@ def _caption(found: list[Curve]) -> str:
     if np.isfinite(wrong).any():
         words.append(
             f"Error bars: {look.bound(100 * float(np.nanmax(wrong)), ' %')} of |E*| at most; a bar that is not "
-            "visible is smaller than its dot. A stepped result is compared with the harmonic solution, a harmonic one "
-            "at its two walls. They do not include the scatter between specimens of the mix."
+            "visible is smaller than its dot. The error of a stepped result is its difference from the harmonic "
+            "solution, the error of a harmonic result is the difference between the reactions of its two walls. "
+            "Error bars do not include the scatter between specimens of the mix."
         )
     for seeds in scatter(found):
         words.append(

@@ -102,7 +102,7 @@ def _scan(page: Page, f: Folder) -> None:
     )
     for name, words in (
         ("planes.png", "The three middle planes of the scan with the grains in colour."),
-        ("grains.png", "The grains, seen from the front left, above."),
+        ("grains.png", "The grains, seen from above and from the front left."),
     ):
         file = f.path / name
         if file.is_file():

@@ -117,7 +117,10 @@ def _add(design: Design, job: Job, equal: list[Job]) -> None:
         design.notes.append(f"{job.label}: this point occurs more than once in the study; it has one row in the table")
         return
     if equal:
-        design.notes.append(f"{job.label}: the same scene as {equal[0].label}; computed once, and both have a row")
+        design.notes.append(
+            f"{job.label}: this point has the same scene as {equal[0].label}; the scene is computed once, and both points "
+            "have a row in the table"
+        )
         job.key, job.scene = equal[0].key, equal[0].scene
     equal.append(job)
     design.jobs.append(job)

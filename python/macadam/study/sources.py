@@ -37,7 +37,10 @@ class Setting:
         if self.path == other.path:
             verb = "replaced" if self.replaces else "set"
             if self.key != other.key:
-                return f"{self.key}: {verb} by {self.place}, and {other.key}, the same entry, by {other.place}"
+                return (
+                    f"{self.key} and {other.key} are the same entry of the scene: the first is {verb} by {self.place}, "
+                    f"the second by {other.place}; expected one of them"
+                )
             return f"{self.key}: {verb} by {self.place} and by {other.place}, expected one of them"
         low, high = (self, other) if len(self.path) > len(other.path) else (other, self)
         if low.path[: len(high.path)] != high.path:

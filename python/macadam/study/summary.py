@@ -100,11 +100,13 @@ def _strongest_factor_words(q: Quantity) -> str:
     first = found[0]
     name, change = short(first.factor), _change_words(q, first) + _from_to(first)
     if first.within_scatter:
-        most = f"the change with {name}" if len(found) == 1 else f"the largest change, with {name}"
-        return f"; {most}, {change}, is within the scatter of seeds ({_chance(q, first)})"
+        most = "the change" if len(found) == 1 else "the largest change,"
+        return f"; {most} with {name} ({change}) is within the scatter of seeds ({_chance(q, first)})"
     if len(found) == 1:
-        return f"; with {name} it changes by {change}"
-    return f"; it depends most on {name} ({change}), {look.percent(first.share, 2)} of the variance between points"
+        low, high = (_level(first.levels[k]) for k in first.at_ends)
+        return f"; if {name} changes from {low} to {high}, {q.name} changes by {_change_words(q, first)}"
+    share = look.percent(first.share, 2)
+    return f"; it depends most on {name} ({change}), which causes {share} of the variance between points"
 
 
 # Returns the number of points, seeds and experiments in words.
@@ -176,7 +178,7 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
     if any(e.scatter is not None for e in found):
         heads.append("scatter of seeds (95 %)")
         for row, e in zip(rows, found, strict=True):
-            row.append(_chance(q, e) + (": the effect is within it" if e.within_scatter else ""))
+            row.append(_chance(q, e) + (": the effect is within the scatter" if e.within_scatter else ""))
         notes.append(
             "The scatter of seeds is the change between these two values that other seeds alone may cause: half the "
             "95 % interval of seeds that are independent of each other. An F-test over all values of the factor decides "
@@ -186,7 +188,8 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
         heads.append("fraction of the variance")
         for row, e in zip(rows, found, strict=True):
             row.append(look.percent(e.share))
-        notes.append("Shares need not add up to 100 %: the rest is joint effects of factors, and scatter.")
+        notes.append("The fractions need not add up to 100 %, because joint effects of factors and the scatter of seeds also "
+            "cause variance.")
     page.table(heads, rows, f"{q.title}. {' '.join(notes)}", words=2)
 
 

@@ -264,7 +264,7 @@ TEST(CtFaults, APhaseThatIsMissingIsSaid) {
   EXPECT_EQ(said.warnings, "");
   const std::string too_few = outcome(balls(no_voids), ScanRegion::whole, 0.04).error;
   EXPECT_NE(too_few.find("given air voids are 4 %"), std::string::npos) << too_few;
-  EXPECT_NE(too_few.find("give --air-voids 0, and they are taken for mastic"), std::string::npos) << too_few;
+  EXPECT_NE(too_few.find("give --air-voids 0, and the voids are taken for mastic"), std::string::npos) << too_few;
 }
 
 TEST(CtFaults, OneGrainThatIsMostOfTheSpecimenIsDoubted) {

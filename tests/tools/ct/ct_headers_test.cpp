@@ -61,13 +61,13 @@ TEST_F(CtHeaders, OfAMetaImage) {
   refused("a.mha", mha(std::string("a\0 = b", 6)), ":2: header of a MetaImage: found \"a? = b\"");
   refused("a.mha", mha("a line"), ":2: header of a MetaImage: found \"a line\", expected KEY = VALUE");
   refused("a.mha", mha(std::string(255, 'k') + " = 3"),
-          ":2: header of a MetaImage: found a key of 255 bytes, expected 254");
+          ":2: header of a MetaImage: found a key of 255 bytes, expected at most 254 bytes");
   refused("a.mha", mha("a = " + std::string(65536, 'a')),
           ":2: header of a MetaImage: found a line of 65535 bytes or more");
   const std::string text(255, 'c');
   for (const std::string key : {"Comment", "ObjectType", "ObjectSubType", "Name", "AcquisitionDate"})
     refused("a.mha", mha(key + " = " + text),
-            ":2: header of a MetaImage: found " + key + " of 255 bytes, expected 254");
+            ":2: header of a MetaImage: found " + key + " of 255 bytes, expected at most 254 bytes");
   refused("a.mha", mha("Comment =\n\na = " + text), ":4: header of a MetaImage: found a line of 259 bytes behind");
   refused("a.mha", mha("BinaryData = False"), ":2: BinaryData: found \"False\", expected True");
   for (const std::string& files :
@@ -159,7 +159,7 @@ TEST_F(CtHeaders, LengthsOfAnNrrdAreInItsUnits) {
   for (const std::string list : {"\"furlong\" \"furlong\" \"furlong\"", "\"mm\" \"mm\" \"um\""}) {
     write("other.nrrd", nrrd("sizes: 3 2 1", space + "space units: " + list + "\r\n"));
     EXPECT_EQ(read_image_header(folder_ / "other.nrrd").spacing.x, 0) << list;
-    EXPECT_NE(notes("other.nrrd").find("which is not a known unit: they are not used"), std::string::npos) << list;
+    EXPECT_NE(notes("other.nrrd").find("which is not a known unit, so these lengths are not used"), std::string::npos) << list;
   }
 }
 
@@ -232,7 +232,7 @@ TEST_F(CtHeaders, OfATiff) {
   const auto refused_page = [&](const Page& page, const std::string& words) { refused("a.tif", tiff({page}), words); };
   refused_page({{277, Entry{3, 1, 3}}}, "tag 277 of the TIFF file: found 3 values per voxel, expected one grey");
   refused_page({{258, Entry{3, 3, 8}}, {277, Entry{3, 1, 3}}},
-               "tag 258 of the TIFF file: found bits of 3 values per voxel");
+               "tag 258 of the TIFF file: found bits for 3 values per voxel");
   refused_page({{258, {}}}, "tag 258 of the TIFF file: found no bits of a voxel, expected 8 or 16");
   for (const auto& [bits, format] :
        {std::pair{1u, 1u}, {12u, 1u}, {32u, 1u}, {32u, 2u}, {64u, 1u}, {64u, 3u}, {16u, 3u}})
@@ -251,7 +251,7 @@ TEST_F(CtHeaders, OfATiff) {
     refused_page({{tag, Entry{3, 1, 16}}},
                  "tag " + std::to_string(tag) + " of the TIFF file: found tiles, expected rows of voxels");
   refused_page({{306, Entry{3, 1, 16}}}, "tag 306 of the TIFF file: found type 3, expected a text, type 2");
-  refused("a.tif", tiff({{}}, 32), "found byte 32 again, expected a chain that ends");
+  refused("a.tif", tiff({{}}, 32), "found a second reference to the directory at byte 32");
   refused("a.tif", tiff({{}}, 0x7fffffff), "one at byte 2147483647");
 }
 
@@ -315,13 +315,13 @@ TEST_F(CtHeaders, AStackOfImageJWithOneDirectoryHasAllItsSlices) {
   write("b.tif", imagej("images=3\n", {{262, Entry{3, 1, 0}}}, bytes));
   EXPECT_EQ(voxels("b.tif").front(), static_cast<char>(255 - '0'));
   EXPECT_NE(notes("b.tif").find("inverted"), std::string::npos);
-  const std::string found = "slices: found 1 slice, the description says 3, expected ";
+  const std::string found = "slices: found 1 slice, although the description of the file says 3, expected ";
   refused("c.tif", imagej("images=3\n", {}, bytes.substr(1)), found + "a file of");
   refused("c.tif", imagej("images=3\n", {{259, Entry{3, 1, 5}}}, bytes), found + "a directory for each slice");
   refused("c.tif", imagej("images=3\n", {{273, Entry{4, 2, 8}}}, bytes), found + "a directory for each slice");
   refused("c.tif", imagej("images=6\nchannels=2\n", {}, bytes + bytes), "found channels=2, expected one grey value");
   refused("c.tif", imagej("images=6\nframes=2\n", {}, bytes + bytes), "found frames=2, expected one grey value");
-  refused("c.tif", imagej("images=9223372036854775807\n", {}, bytes), "the description says 9223372036854775807");
+  refused("c.tif", imagej("images=9223372036854775807\n", {}, bytes), "the description of the file says 9223372036854775807");
   write("d.tif", imagej("images=1\n", {}, bytes));
   EXPECT_EQ(voxels("d.tif"), "012345");
   write("e.tif", tiff({{}, {}}));

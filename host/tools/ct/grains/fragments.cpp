@@ -91,7 +91,7 @@ std::vector<Face> faces_of(const Image<std::uint32_t>& labels, const Image<float
 }  // namespace
 
 Fragments flood(const Image<float>& distance, const Image<float>& grey, double ratio) {
-  counted<std::uint32_t>(distance.count(), "voxels of the grid on which grains are parted");
+  counted<std::uint32_t>(distance.count(), "voxels of the grid on which grains are separated");
   const double voxel = std::cbrt(distance.voxel_volume());
   const auto [nx, ny, nz] = distance.size;
   Fragments out;

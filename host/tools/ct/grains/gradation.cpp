@@ -51,7 +51,7 @@ std::vector<SievePassing> read_gradation(const std::filesystem::path& path) {
     }
     const std::size_t comma = line.find(',');
     if (comma == std::string::npos || line.find(',', comma + 1) != std::string::npos)
-      throw InputError(file, at, "row", in_quotes(line), "a sieve and what passes it");
+      throw InputError(file, at, "row", in_quotes(line), "two numbers: the size of the sieve and the passing");
     const double sieve = number(line.substr(0, comma), file, at), passing = number(line.substr(comma + 1), file, at);
     if (!(sieve > 0)) throw InputError(file, at, "sieve", fmt::format("{}", sieve), "a size above 0");
     if (!(passing >= 0 && passing <= whole))

@@ -183,7 +183,7 @@ std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds
     const bool paper = options.recipe == SegmentRecipe::paper;
     try {
       const Surface fine = isosurface(field_of(scan, thresholds, static_cast<std::uint32_t>(id), box, edge, paper));
-      if (fine.facets.empty()) throw RunError("its grey values enclose no volume");
+      if (fine.facets.empty()) throw RunError("the grey values around the grain enclose no volume");
       ScannedGrain grain;
       // largest error: half the node spacing of the field from which the surface is made
       Simplified fewer = fit_surface(fine, options, 0.5 * voxel * static_cast<double>(edge));

@@ -231,7 +231,7 @@ Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts) {
     if (cuts[f].a != face.a || cuts[f].b != face.b || norm(cuts[f].place - place) > near) {
       throw InputError(
           "cuts", 0, fmt::format("row {}", f + 1), name(cuts[f].a, cuts[f].b),
-          fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m: these cuts are of another scan or of other options",
+          fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m; the cuts in the file are of another scan or of other options",
                       name(face.a, face.b), place.x, place.y, place.z));
     }
     if (!cuts[f].cut) groups.join(face.a, face.b);
@@ -239,7 +239,7 @@ Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts) {
   for (const GrainCut& cut : cuts) {
     if (cut.cut && groups.root(cut.a) == groups.root(cut.b)) {
       throw InputError("cuts", 0, name(cut.a, cut.b),
-                       "a cut, although other rows join the two through their neighbours",
+                       "a cut between two fragments that other rows join through their neighbours",
                        "cuts in all rows between two grains, or in none");
     }
   }

@@ -26,7 +26,8 @@ std::string_view trimmed(std::string_view text) {
 void HeaderFacts::take_unit(std::string_view name) {
   unit = metres_of_unit(name);
   if (!unit)
-    notes.push_back("the file's lengths are in " + in_quotes(name) + ", which is not a known unit: they are not used");
+    notes.push_back("the file's lengths are in " + in_quotes(name) +
+                    ", which is not a known unit, so these lengths are not used");
 }
 
 HeaderLines::HeaderLines(const std::filesystem::path& file, std::string what)
@@ -41,7 +42,7 @@ std::optional<std::string> HeaderLines::next() {
   std::string line(buffer_.data(), read - (in_.eof() ? 0 : 1));
   if (line.ends_with('\r')) line.pop_back();
   if (line.find_first_of(std::string_view("\0\r", 2)) != std::string::npos)
-    refuse(in_quotes(line), "text without zero bytes, and a carriage return at its end alone");
+    refuse(in_quotes(line), "text without zero bytes and without carriage returns before the end of the line");
   return line;
 }
 

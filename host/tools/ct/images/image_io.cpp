@@ -35,8 +35,9 @@ Image<T> read_image(const std::filesystem::path& path, const std::string& datase
   const auto [nx, ny, nz] = header.size;
   const double bytes = static_cast<double>(sizeof(T)) * static_cast<double>(nx * ny * nz);
   if (const double there = memory_available(); bytes > there) {
-    throw InputError(path.string(), 0, "voxels", fmt::format("{} x {} x {}, {:.3g} GB", nx, ny, nz, 1e-9 * bytes),
-                     fmt::format("at most the {:.3g} GB of memory that are free", 1e-9 * there));
+    throw InputError(path.string(), 0, "voxels",
+                     fmt::format("{} x {} x {}, which need {:.3g} GB", nx, ny, nz, 1e-9 * bytes),
+                     fmt::format("voxels that need at most the free memory, {:.3g} GB", 1e-9 * there));
   }
   Image<T> image(header.size, header.spacing, header.origin);
   const std::int64_t some = std::max<std::int64_t>(1, (std::int64_t{1} << 25) / (nx * ny));  // slices per read

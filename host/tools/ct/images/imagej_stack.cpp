@@ -54,17 +54,17 @@ class ImagejStack : public ImageSlices {
 std::unique_ptr<ImageSlices> open_imagej_stack(const std::filesystem::path& file, const TiffPages& pages) {
   if (pages.described <= pages.pages) return nullptr;
   const auto refuse = [&](const std::string& expected) {
-    throw InputError(
-        file.string(), 0, "slices",
-        fmt::format("{} slice{}, the description says {}", pages.pages, pages.pages == 1 ? "" : "s", pages.described),
-        expected);
+    throw InputError(file.string(), 0, "slices",
+                     fmt::format("{} slice{}, although the description of the file says {}", pages.pages,
+                                 pages.pages == 1 ? "" : "s", pages.described),
+                     expected);
   };
   if (pages.pages != 1 || !pages.raw)
-    refuse("a directory for each slice, or one directory with all slices behind it in one piece, not compressed");
+    refuse("a directory for each slice, or one directory and after it all slices, contiguous and not compressed");
   const double size = static_cast<double>(std::filesystem::file_size(file));
   const double slice = static_cast<double>(pages.width) * static_cast<double>(pages.height) * bytes_of(pages.type);
   const double needed = static_cast<double>(*pages.raw) + slice * static_cast<double>(pages.described);
-  if (!(needed <= size)) refuse(fmt::format("a file of {:.0f} bytes, in place of {:.0f}", needed, size));
+  if (!(needed <= size)) refuse(fmt::format("a file of at least {:.0f} bytes, but the file has {:.0f}", needed, size));
   return std::make_unique<ImagejStack>(file, pages);
 }
 

@@ -83,7 +83,7 @@ void attempt(const std::string& file, const char* what, const std::string& expec
     try {
       read();
     } catch (const itk::ExceptionObject& error) { fault = error.GetDescription(); } catch (const std::bad_alloc&) {
-      fault = "it asks for more memory than there is";
+      fault = "the file needs more memory than there is";
     }
     if (!overheard.text().empty()) fault = overheard.text();
   }
@@ -99,7 +99,8 @@ HeaderFacts check_file(const itk::ImageIOBase& io) {
   if (dynamic_cast<const itk::NrrdImageIO*>(&io)) return check_nrrd_header(file);
   const TiffPages pages = check_tiff_directories(file);
   if (pages.described > pages.pages)
-    throw InputError(file, 0, "slice", fmt::format("1 slice, the description says {}", pages.described),
+    throw InputError(file, 0, "slice",
+                     fmt::format("1 slice, although the description of the file says {}", pages.described),
                      "one slice in each file of a folder");
   HeaderFacts facts;
   facts.voxels = file, facts.white_is_zero = pages.white_is_zero;
@@ -255,7 +256,7 @@ class FolderSlices : public ImageSlices {
       if (own_facts.white_is_zero != facts.white_is_zero)
         throw InputError(slice.string(), 0, "PhotometricInterpretation (tag 262)",
                          own_facts.white_is_zero ? "0 (white is 0)" : "1 (black is 0)",
-                         "that of " + slices_.front().filename().string());
+                         "the same as in " + slices_.front().filename().string());
       if (own.size != header_.size || own.size[2] != 1 || type_of(*io) != type_) {
         throw InputError(slice.string(), 0, "slice",
                          fmt::format("{} x {} x {} voxels of {} bits", own.size[0], own.size[1], own.size[2], own.bits),

@@ -38,15 +38,15 @@ bool is_number(std::string_view text, std::uintmax_t& number) {
 /// voxels written as text.
 void check(const HeaderLines& lines, std::string_view key, std::string_view value) {
   if (key.size() > copied)
-    lines.refuse(fmt::format("a key of {} bytes", key.size()), fmt::format("{} at the most", copied));
+    lines.refuse(fmt::format("a key of {} bytes", key.size()), fmt::format("at most {} bytes", copied));
   if (is_copied(key) && value.size() > copied)
-    lines.refuse(fmt::format("{} of {} bytes", key, value.size()), fmt::format("{} at the most", copied));
+    lines.refuse(fmt::format("{} of {} bytes", key, value.size()), fmt::format("at most {} bytes", copied));
   // compared as text: ITK would accept 3e9 as a number, which is too large for its arrays
   if (key == "NDims" && value != "2" && value != "3") lines.refuse(key, value, "two or three dimensions");
   // If the voxels are written as text and only some slices are read, ITK reads a wrong amount: one number for each byte
   // that binary voxels would have.
   if (key == "BinaryData" && !value.starts_with('T') && !value.starts_with('t') && !value.starts_with('1'))
-    lines.refuse(key, value, "True: voxels that are text are not read");
+    lines.refuse(key, value, "True, because voxels written as text are not read");
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ HeaderFacts check_meta_header(const std::filesystem::path& file) {
     if (sign == text.size()) lines.refuse(in_quotes(text), "KEY = VALUE");
     if (copies_next && text.size() > copied)
       lines.refuse(fmt::format("a line of {} bytes behind a key without a value", text.size()),
-                   fmt::format("{} at the most", copied));
+                   fmt::format("at most {} bytes", copied));
     const std::string_view value = trimmed(text.substr(sign + 1));
     check(lines, key, value);
     copies_next = value.empty() && is_copied(key);

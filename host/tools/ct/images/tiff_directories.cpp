@@ -100,18 +100,19 @@ struct Directory {
     const std::uint64_t bytes = type < std::size(bytes_of_type) ? bytes_of_type[type] : 0;
     if (bytes > 0 && values > size / bytes)
       refuse(tag, fmt::format("{} values of {} bytes", values, bytes),
-             fmt::format("as many as the {} bytes of the file hold", size));
+             fmt::format("no more values than the {} bytes of the file can hold", size));
     if (tag >= tags::first_of_tiles && tag <= tags::last_of_tiles)
       refuse(tag, "tiles", "rows of voxels (strips), as ImageJ and ITK write them");
     // ITK reserves memory for one pointer for tag 336 (DotRange), but libtiff writes both numbers of the tag there
     if (tag == 336) refuse(tag, "a range of dots", "none, as in a scan");
     if (std::ranges::count(of_page, tag) > 0) {
       if (tag == tags::bits && values > 1)
-        refuse(tag, fmt::format("bits of {} values per voxel", values), std::string("of one grey value") + to_grey);
+        refuse(tag, fmt::format("bits for {} values per voxel", values),
+               std::string("bits for one grey value") + to_grey);
       if (values != 1 || !is_whole(type))
         refuse(tag, fmt::format("{} values of type {}", values, type), "one whole number, of type 1, 3 or 4");
       if (!page.numbers.emplace(tag, numbers.at(inside, static_cast<int>(bytes))).second)
-        refuse(tag, "this tag twice", "one");
+        refuse(tag, "this tag twice", "this tag once");
     }
     // a tag of storage with several values gets the value 0, which raw_voxels() treats as not contiguous
     if (std::ranges::count(of_storage, tag) > 0)
@@ -139,7 +140,8 @@ struct Directory {
       refuse(tags::bits, fmt::format("{} bits per voxel, of format {} (tag {})", n, as, tags::format), known);
     if (as == floating && page.at(tags::meaning, 1) == white_is_zero)
       refuse(tags::meaning, "PhotometricInterpretation 0 (white is 0) of floats",
-             "1: floats cannot be inverted, because their largest value (black) is unknown");
+             "PhotometricInterpretation 1 (black is 0), because floats cannot be inverted: their largest value is "
+             "unknown");
   }
 
   [[noreturn]] void refuse(std::uint64_t tag, const std::string& found, const std::string& expected) const {
@@ -147,7 +149,7 @@ struct Directory {
   }
 
  private:
-  static constexpr const char* to_grey = ": colours are not read; save the scan as grey values of 8 or 16 bits";
+  static constexpr const char* to_grey = ", because colours are not read; save the scan as grey values of 8 or 16 bits";
 
   /// Whether a TIFF type is an unsigned whole number.
   bool is_whole(std::uint64_t type) const { return type == 1 || type == 3 || type == 4 || (type == 16 && wide); }
@@ -182,7 +184,7 @@ void check_alike(const Directory& directory, const Page& first, const Page& page
   }
   constexpr std::uint64_t reduced_or_mask = 1 | 4;
   if (page.contains(tags::kind) && (page.at(tags::kind) & reduced_or_mask))
-    directory.refuse(tags::kind, fmt::format("a reduced image or a mask in page {}", number), "slices alone");
+    directory.refuse(tags::kind, fmt::format("a reduced image or a mask in page {}", number), "only slices");
 }
 
 /// Returns the number after `key=` in a description that ImageJ wrote, one key per line; 0 if the key is missing.
@@ -247,13 +249,14 @@ TiffPages check_tiff_directories(const std::filesystem::path& file) {
   std::set<std::uint64_t> seen;
   for (std::uint64_t place = numbers.at(wide ? 8 : 4, place_bytes); numbers.good() && place != 0;) {
     if (!seen.insert(place).second)
-      throw InputError(file.string(), 0, "directories of the TIFF file", "byte " + std::to_string(place) + " again",
-                       "a chain that ends");
+      throw InputError(file.string(), 0, "directories of the TIFF file",
+                       "a second reference to the directory at byte " + std::to_string(place),
+                       "one reference to each directory");
     const std::uint64_t entries = place < size ? numbers.at(place, count_bytes) : 0;
     if (place >= size || !numbers.good() || entries > (size - place) / static_cast<std::uint64_t>(entry_bytes))
       throw InputError(file.string(), 0, "directories of the TIFF file",
                        "one at byte " + std::to_string(place) + " with " + std::to_string(entries) + " entries",
-                       "as many as the " + std::to_string(size) + " bytes of the file hold");
+                       "no more entries than the " + std::to_string(size) + " bytes of the file can hold");
     Page page;
     for (std::uint64_t e = 0; e < entries; ++e)
       directory.check_tag(place + static_cast<std::uint64_t>(count_bytes) + e * static_cast<std::uint64_t>(entry_bytes),

@@ -51,10 +51,13 @@ std::int64_t block_of(const FineScan& scan, const std::string& file, const Segme
     if (bytes_in_blocks(scan, block) <= memory) return block;
   std::string found = fmt::format("{:.3g} GB", gigabytes(memory));
   if (!scan.file.apart())
-    found += ", and a file that cannot be read in parts (raw MetaImage, HDF5 and folders of TIFF files can)";
-  throw InputError(file, 0, "memory", found,
-                   fmt::format("{:.3g} GB for the means of blocks of {} voxels, a tenth of the smallest grain",
-                               gigabytes(bytes_in_blocks(scan, most)), most));
+    found +=
+        ", and a file that must be read as a whole (raw MetaImage, HDF5 and folders of TIFF files are read in parts)";
+  throw InputError(
+      file, 0, "memory", found,
+      fmt::format(
+          "at least {:.3g} GB, with means over blocks of {} voxels along each edge (a tenth of the smallest grain)",
+          gigabytes(bytes_in_blocks(scan, most)), most));
 }
 
 /// Returns the noise of the voxels as a fraction of the contrast, and warns if the scan is clipped.

@@ -50,7 +50,8 @@ Range extent_of(const Image<std::uint8_t>& phases, const fs::path& folder) {
       }
     }
   }
-  if (out.end[0] == 0) throw InputError((folder / "phases.mha").string(), 0, "voxels of a specimen", "none", "some");
+  if (out.end[0] == 0)
+    throw InputError((folder / "phases.mha").string(), 0, "voxels of a specimen", "none", "at least one");
   return out;
 }
 
@@ -217,11 +218,11 @@ Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
   SpecimenSpec how = scene.specimen;
   if (!how.mastic)
     throw InputError(how.source, how.line, "[specimen.mastic]", "none",
-                     "one, which gives the radius of the twin's mastic particles");
+                     "this section, which gives the radius of the mastic particles of the twin");
   if (spec.porosity) how.mastic->porosity = spec.porosity, how.mastic->count.reset();
   if (!how.mastic->porosity)
-    throw InputError(how.source, how.mastic->line, "mastic", "a count",
-                     "a porosity, in [specimen.mastic] or in --porosity");
+    throw InputError(how.source, how.mastic->line, "[specimen.mastic]", "a count",
+                     "a porosity, in this section or in --porosity");
 
   report("reading the scan", 0);
   const Cut cut = cut_out(folder, spec);

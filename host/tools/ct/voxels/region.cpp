@@ -127,10 +127,11 @@ Image<std::uint8_t> take_region(const Image<float>& scan, const GivenRegion& giv
   });
   if (std::find(region.voxels.begin(), region.voxels.end(), 1) == region.voxels.end()) {
     const Vec3d end = scan.centre(scan.size[0] - 1, scan.size[1] - 1, scan.size[2] - 1);
-    throw InputError("the scan", 0, "voxels within the region", "none",
-                     fmt::format("some: the scan reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) mm",
-                                 1e3 * scan.origin.x, 1e3 * scan.origin.y, 1e3 * scan.origin.z, 1e3 * end.x,
-                                 1e3 * end.y, 1e3 * end.z));
+    throw InputError(
+        "the scan", 0, "voxels within the region", "none",
+        fmt::format("at least one; the scan reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) mm",
+                    1e3 * scan.origin.x, 1e3 * scan.origin.y, 1e3 * scan.origin.z, 1e3 * end.x, 1e3 * end.y,
+                    1e3 * end.z));
   }
   return region;
 }

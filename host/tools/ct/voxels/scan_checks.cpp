@@ -92,11 +92,10 @@ void check_rings(const Image<float>& scan, const Image<std::uint8_t>& region) {
   // voxels' width crosses many grains, so the mean grey values of all rings are nearly equal.
   constexpr double most = 0.15;
   if (const double share = ring_share(scan, region); share > most) {
-    throw InputError("the scan", 0, "rings",
-                     fmt::format("{:.0f} % of the variance of its grey values follows from the distance to the axis "
-                                 "alone, from ring to ring",
-                                 100 * share),
-                     fmt::format("at most {:.0f} %, because stronger rings hide the specimen", 100 * most));
+    throw InputError(
+        "the scan", 0, "rings",
+        fmt::format("ring artefacts that cause {:.0f} % of the variance of the grey values", 100 * share),
+        fmt::format("rings that cause at most {:.0f} %, because stronger rings hide the specimen", 100 * most));
   }
 }
 
@@ -106,9 +105,10 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
   if (options.air_voids) {
     throw InputError(
         "the scan", 0, "grey levels", fmt::format("two, {:.5g} and {:.5g}", levels.mastic, levels.aggregate),
-        fmt::format("three, because the given air voids are {:.3g} % of the specimen. If they are too few for a grey "
-                    "level of their own in the histogram, give --air-voids 0, and they are taken for mastic",
-                    100 * *options.air_voids));
+        fmt::format(
+            "three, because the given air voids are {:.3g} % of the specimen. If these voids have no grey level "
+            "of their own in the histogram, give --air-voids 0, and the voids are taken for mastic",
+            100 * *options.air_voids));
   }
   // if the region is given by coordinates, more of the specimen may lie around it
   const std::optional<double> around = options.given ? std::nullopt : level_around(scan, region);
@@ -199,7 +199,7 @@ void measure_unassigned(Segmentation& out, const SegmentOptions& options) {
   const double finest = 4 * std::cbrt(out.phases.voxel_volume());
   out.warnings.push_back(fmt::format(
       "{:.0f} % of the aggregate's volume is in no grain: pieces below half of --smallest, {:.3g} mm, are left "
-      "out, also of gradation.csv. {}",
+      "out of the grains and of gradation.csv. {}",
       100 * out.in_no_grain, 500 * options.smallest,
       options.smallest > 1.01 * finest
           ? fmt::format("These voxels allow a --smallest of {:.3g} mm and more", 1e3 * finest)
