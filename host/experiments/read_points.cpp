@@ -30,14 +30,16 @@ void require_once(const Section& section, const std::string& key, std::vector<do
 std::vector<Key> Points::keys(const std::string& key, const Quantity& quantity, Need need) {
   constexpr std::int64_t most = 1000, most_evenly = 1'000'000;
   const std::string ends = key + ": a list, or the two ends of a range if points_per_decade or points is given";
-  return {{key, need, into(given, quantity, positive), ends, need == Need::required ? "" : "strain"},
-          {"points_per_decade", Need::optional, into(per_decade, 1, most),
-           "smallest number of points per decade of a range; the points are evenly spaced in the logarithm and include "
-           "both ends",
-           "a list"},
-          {"points", Need::optional, into(evenly, 2, most_evenly),
-           "number of points of a range; the points are evenly spaced and include both ends",
-           need == Need::required ? "a list" : "a list; 100 if strain is given"}};
+  return {
+      {key, need, into(given, quantity, positive), ends, need == Need::required ? "" : "given by strain and points"},
+      {"points_per_decade", Need::optional, into(per_decade, 1, most),
+       "smallest number of points per decade of a range; the points are evenly spaced in the logarithm and include "
+       "both ends",
+       "the numbers are a complete list"},
+      {"points", Need::optional, into(evenly, 2, most_evenly),
+       "number of points of a range; the points are evenly spaced and include both ends",
+       need == Need::required ? "the numbers are a complete list"
+                              : "the numbers are a complete list; 100 if strain is given"}};
 }
 
 std::vector<double> Points::all(const Section& section, const std::string& key, const char* unit,

@@ -59,7 +59,7 @@ std::string usual_of(const KnownKey& key) {
 std::string row(const KnownKey& key) {
   std::string text = key.text;
   if (!key.chosen.empty()) text += fmt::format(" ({} {})", key.chooser, fmt::join(key.chosen, ", "));
-  if (!key.words.rule.empty()) text += "; " + key.words.rule;
+  if (!key.words.rule.empty() && key.words.rule != "a number") text += "; " + key.words.rule;
   return fmt::format("| {} | {} | {} | {} |\n", code(key.name), cell(kind_of_value(key)), usual_of(key), cell(text));
 }
 

@@ -51,7 +51,7 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
   section.read({{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max),
                  "smallest and largest diameter (D^I of shapes)"},
                 {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share),
-                 "fraction of the solid volume (aggregates and mastic)", "count"},
+                 "fraction of the solid volume (aggregates and mastic)", "given by count"},
                 {"count", Need::optional, into(out.count, 1, most_particles),
                  "number of aggregates, in place of volume_fraction", "none"}});
   require_one_of(section, "volume_fraction", "count");
@@ -67,7 +67,7 @@ MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
   section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max),
                  "smallest and largest radius of the spheres"},
                 {"porosity", Need::optional, into(out.porosity, ratio, porosity),
-                 "1 - sum of the solid spheres' volumes / (box - voids)", "count, or the recipe"},
+                 "1 - sum of the solid spheres' volumes / (box - voids)", "given by count or by the recipe"},
                 {"count", Need::optional, into(out.count, 1, most_particles), "number of spheres, in place of porosity",
                  "none"}});
   for (const char* key : {"porosity", "count"}) {
@@ -88,7 +88,7 @@ VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
       {{"radius", Need::required, range_into(out.radius_min, out.radius_max),
         "smallest and largest radius of the voids"},
        {"fraction", Need::optional, into(out.fraction, ratio, share), "fraction of the volume of the box",
-        "count, or the recipe's air voids"},
+        "given by count, or the recipe's air voids"},
        {"count", Need::optional, into(out.count, 0, most_particles), "number of voids, in place of fraction", "none"}});
   if (!by_mass || section.has("count")) require_one_of(section, "fraction", "count");
   require_fit_in_box(section, "radius", 2 * out.radius_max, box);

@@ -25,7 +25,7 @@ Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
                poisson_key(out.poisson_ratio),
                {"rate", Need::required, into(out.rate, scene::rate, rule), "rate of the strain; tension is positive"},
                {"strain", Need::optional, into(strain, ratio, any),
-                "strain at which the test ends, in place of times; it has the sign of the rate", "times"}});
+                "strain at which the test ends, in place of times; it has the sign of the rate", "the last of times"}});
   section.read(keys);
   if (!strain) {
     if (!section.has("times")) section.refuse("times", "nothing", "times, or the key strain, at which the test ends");
