@@ -14,6 +14,9 @@ import numpy as np  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
 from PIL import Image  # noqa: E402
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+from specimen_colours import AGGREGATE  # noqa: E402
+
 COLUMNS = 12
 VIEW = np.array([[0.80, -0.60, 0.0], [0.21, 0.28, 0.936], [-0.562, -0.749, 0.351]])  # rows: directions right, up,
                                                                                      # towards the viewer
@@ -35,8 +38,8 @@ def draw(ax, path):
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     seen = np.flatnonzero(normals[:, 2] > 0)
     seen = seen[np.argsort(corners[seen, :, 2].mean(axis=1))]  # the nearest facets are drawn last
-    bright = 0.25 + 0.7 * np.clip(normals[seen] @ LIGHT, 0, 1)
-    colours = bright[:, None] * np.array([1.0, 0.97, 0.90])
+    bright = 0.35 + 0.95 * np.clip(normals[seen] @ LIGHT, 0, 1)
+    colours = np.clip(bright[:, None] * np.array(AGGREGATE), 0, 1)
     ax.add_collection(PolyCollection(corners[seen, :, :2], facecolors=colours, edgecolors=colours, linewidths=0.3))
     reach = np.linalg.norm(x, axis=1).max()
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")

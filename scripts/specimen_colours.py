@@ -1,32 +1,45 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colours of mastic, air, size classes and single spheres, for draw-section and draw-specimen."""
-import colorsys
+"""Colours of mastic, air, size classes and single spheres, for draw-section, draw-specimen and other scripts.
+
+The colours are those of python/macadam/report/phases.py, which is loaded as a file: the scripts run without the
+package."""
 import csv
+import importlib.util
+from pathlib import Path
 
 import numpy as np
 from matplotlib.patches import Patch
 
-MASTIC = (0.40, 0.53, 0.76)
-AIR = (1.0, 1.0, 1.0)
-CLASSES = [(0.33, 0.62, 0.36), (0.62, 0.62, 0.62), (0.90, 0.72, 0.33), (0.80, 0.40, 0.32), (0.60, 0.45, 0.70),
-           (0.35, 0.68, 0.68), (0.85, 0.55, 0.65), (0.55, 0.45, 0.35)]
+_FILE = Path(__file__).resolve().parent.parent / "python" / "macadam" / "report" / "phases.py"
+_SPEC = importlib.util.spec_from_file_location("macadam_phases", _FILE)
+phases = importlib.util.module_from_spec(_SPEC)
+_SPEC.loader.exec_module(phases)
+
+MASTIC, AIR, AGGREGATE = (phases.rgb(colour) for colour in (phases.MASTIC, phases.VOID, phases.AGGREGATE))
 
 
-def size_classes(file):
-    """Returns the size class of each body; empty if the file does not exist."""
+def body_classes(file):
+    """Returns the number and the name of the size class of each body, such as (0, "4.75-9.5 mm"); empty if the file
+    does not exist."""
     if not file.is_file():
         return {}
     rows = csv.DictReader(open(file, encoding="utf-8"))
-    return {int(row["body"]): int(row["size_class"]) for row in rows}
+    return {int(row["body"]): (int(row["size_class"]), row.get("class") or "") for row in rows}
 
 
-def class_names(file):
-    """Returns the name of each size class in the file, such as "4.75-9.5 mm"; empty if the file or the column does not
-    exist."""
-    if not file.is_file():
-        return {}
-    rows = csv.DictReader(open(file, encoding="utf-8"))
-    return dict(sorted({int(row["size_class"]): row["class"] for row in rows if row.get("class")}.items()))
+def class_names(classes):
+    """Returns the name of each size class by its number; classes without a name are left out. classes: from
+    body_classes."""
+    return {number: name for number, name in sorted(set(classes.values())) if name}
+
+
+def class_patches(names):
+    """Returns the entries of a legend for size classes. names: such as "4.75-9.5 mm"."""
+    return [_patch(phases.rgb(phases.of_class(name)), name.replace("-", "–")) for name in names]
+
+
+def _patch(colour, label):
+    return Patch(facecolor=colour, edgecolor="0.3", linewidth=0.4, label=label)
 
 
 def legend(figure, names, mastic):
@@ -34,9 +47,7 @@ def legend(figure, names, mastic):
     names."""
     if not names:
         return
-    entries = [(CLASSES[k % len(CLASSES)], name.replace("-", "–")) for k, name in names.items()]
-    entries += [(MASTIC, "mastic")] * mastic
-    handles = [Patch(facecolor=colour, edgecolor="0.3", linewidth=0.4, label=name) for colour, name in entries]
+    handles = class_patches(names.values()) + [_patch(MASTIC, "mastic")] * mastic
     # one line, or two lines in narrow drawings
     columns = len(handles) if figure.get_figwidth() > 0.9 * len(handles) else -(-len(handles) // 2)
     figure.legend(handles=handles, loc="lower center", ncols=columns, fontsize=7, frameon=False, handlelength=1,
@@ -44,14 +55,10 @@ def legend(figure, names, mastic):
 
 
 def colour(classes, body, particle):
-    """Returns the colour of one sphere of an aggregate: the hue of its class, or of its body if there are no classes,
-    in a shade that differs between bodies and between spheres."""
-    base = CLASSES[classes.get(body, 0) % len(CLASSES)] if classes else CLASSES[body % len(CLASSES)]
-    hue, lightness, saturation = colorsys.rgb_to_hls(*base)
-    of_body = (body * 0.6180339887) % 1 - 0.5  # golden ratio: consecutive numbers get very different shades
-    of_particle = (particle * 0.7548776662) % 1 - 0.5
-    lightness = min(0.92, max(0.12, lightness * (1 + 0.24 * of_body + 0.20 * of_particle)))
-    return colorsys.hls_to_rgb(hue, lightness, saturation)
+    """Returns the colour of one sphere of an aggregate: the colour of its class, or AGGREGATE if its class is not
+    known, in a shade that differs between bodies and between spheres."""
+    _, name = classes.get(body, (0, ""))
+    return phases.shaded(phases.of_class(name), body, particle)
 
 
 def of_phase(phase, classes, body, particle):

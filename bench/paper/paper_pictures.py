@@ -12,11 +12,10 @@ from matplotlib.patches import Patch  # noqa: E402
 from paper_data import mean  # noqa: E402
 from paper_document import deviations  # noqa: E402
 from paper_runs import ROOT, committed, rows  # noqa: E402
-from paper_tables import CLASSES as PAPER_CLASSES  # noqa: E402
 from paper_tables import DEVIATION, FREQUENCIES, PAPER  # noqa: E402
 
 sys.path.insert(0, str(ROOT / "scripts"))
-from specimen_colours import CLASSES  # noqa: E402
+from specimen_colours import class_patches, phases  # noqa: E402
 
 PICTURES = ROOT / "docs" / "pictures"
 STYLE = {"SS": ("black", "-", "o"), "MS-Poly-coarse": ("tab:blue", "--", "s"), "MS-Ico-coarse": ("tab:cyan", "-", "D"),
@@ -46,14 +45,15 @@ def axes(results):
         scene = PAPER[name].scene
         figure = plt.figure(figsize=(4.4, 6), layout="constrained")
         ax = figure.add_subplot(projection="3d", box_aspect=(50, 50, 80))
+        drawn = {}
         for a in rows(results / f"{scene}_sections" / "aggregates.csv"):
             if a["shape"] != "sphere" and int(a["size_class"]) < 3:
                 half = float(a["d_long"]) / 2
                 ends = [[1e3 * (float(a[x]) + s * half * float(a[f"axis_{x}"])) for s in (-1, 1)] for x in "xyz"]
-                ax.plot(*ends, color=CLASSES[int(a["size_class"])], lw=1)
+                ax.plot(*ends, color=phases.of_class(a["class"]), lw=1)
+                drawn[a["class"]] = None  # the keys are the classes in the order of the file
         ax.set(xlabel="x (mm)", ylabel="y (mm)", zlabel="z (mm)", xlim=(0, 50), ylim=(0, 50), zlim=(0, 80), title=name)
-        figure.legend(handles=[Patch(facecolor=CLASSES[k], label=f"{PAPER_CLASSES[k]} mm") for k in range(3)], fontsize=7,
-                      loc="lower center", ncols=3, frameon=False)
+        figure.legend(handles=class_patches(drawn), fontsize=7, loc="lower center", ncols=3, frameon=False)
         figure.savefig(PICTURES / f"{scene}_axes.png", dpi=90)
 
 

@@ -14,6 +14,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+from specimen_colours import AGGREGATE  # noqa: E402
+
 CIRCUMSCRIBED = 6.295  # half of D^I of every shape [mm]
 LIGHT = np.array([-0.45, 0.55, 0.70])
 # numbers of spheres in Figs. 5 and 6 of [1], by radius (mm), and by R_max / R_min at R_min = 0.5 mm
@@ -109,7 +112,7 @@ def picture(spheres, half, pixels=260):
         z = np.sqrt(np.maximum(square, 0))
         front = (square > 0) & (cz + z > depth[i0:i1, j0:j1])
         cosine = (x[None, :] * light[0] + y[:, None] * light[1] + z * light[2]) / radius
-        colour = np.array([0.86, 0.70, 0.45]) * shade * (0.35 + 0.65 * np.maximum(cosine, 0))[..., None]
+        colour = np.array(AGGREGATE) * shade * (0.35 + 0.65 * np.maximum(cosine, 0))[..., None]
         image[i0:i1, j0:j1][front] = colour[front]
         depth[i0:i1, j0:j1][front] = (cz + z)[front]
     return image

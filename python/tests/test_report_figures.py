@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import macadam as mc
-from macadam.report import ReportError, contacts, document, fields, report, specimen
+from macadam.report import ReportError, contacts, document, fields, phases, report, specimen
 from macadam.report.folders import read, read_all
 from report_folders import PROGRAM, make
 
@@ -63,12 +63,10 @@ def test_a_size_class_has_one_colour_in_all_specimens_of_a_report(tmp_path: Path
             _with_classes(tmp_path / "b", ["9.5-12.5 mm", "4.75-9.5 mm", "2-4.75 mm"]),
         ]
     )
-    colours = specimen.class_colours(folders)
-    assert list(colours) == ["4.75–9.5 mm", "2–4.75 mm", "9.5–12.5 mm"] and len(set(colours.values())) == 3
-    shade = 1 + 0.22 * ((np.arange(3) * 0.6180339887) % 1 - 0.5)  # shades of bodies 0, 1, 2
-    first, second = (specimen._colours(f, colours)(np.arange(n)) for f, n in zip(folders, (2, 3)))
-    assert np.allclose(first[0] / shade[0], second[1] / shade[1])  # 4.75-9.5 mm
-    assert np.allclose(first[1] / shade[1], second[2] / shade[2])  # 2-4.75 mm
+    coarse, fine = phases.of_sieves(4.75, 9.5), phases.of_sieves(2, 4.75)
+    first, second = (specimen._colours(f)(np.arange(n)) for f, n in zip(folders, (2, 3)))
+    assert np.allclose(first, [phases.shaded(coarse, 0), phases.shaded(fine, 1)])  # the shade depends on the body
+    assert np.allclose(second[1:], [phases.shaded(coarse, 1), phases.shaded(fine, 2)])
 
 
 def test_mastic_is_taken_away_only_where_there_is_some(tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The look of pictures and numbers: colours, matplotlib's settings, figures as text to embed, numbers with units."""
+"""The look of pictures and numbers: colours of curves, matplotlib's settings, figures as text to embed, numbers with
+units. The colours of specimens are in phases.py."""
 
 from __future__ import annotations
 
@@ -14,9 +15,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 COLOURS = ["#1f5a8a", "#c4532f", "#3c8558", "#80569b", "#b98a1d", "#2f979e", "#a83f70", "#6b6f76"]  # colours of folders
-MASTIC, VOID, INK = "#6687c2", "#ffffff", "#22252b"
-# colours of size classes; mastic and classes have the colours of scripts/specimen_colours.py
-CLASSES = ["#549e5c", "#9e9e9e", "#e6b854", "#cc6652", "#9973b2", "#59adad", "#d98ca6", "#8c7359"]
+INK = "#22252b"
 PAIRS = {"M-M": "#33363d", "M-A": "#1f5a8a", "A-A": "#c4532f", "inner": "#b98a1d", "A-W": "#8f959d", "M-W": "#c3c7cc"}
 _WARMTH = LinearSegmentedColormap.from_list("warmth", ["#1d4f91", "#3f8fb0", "#9a76b0", "#d1673f", "#a31621"])
 WIDE, THIRD = 7.0, 2.27  # [inches] width of the text, and of one of three pictures side by side

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from macadam.report import look
+from macadam.report import look, phases
 from macadam.report.folders import Folder
 from macadam.report.page import Page, facts
 
@@ -137,11 +137,11 @@ def _gradation(folder: Folder) -> Any:
     if envelope:
         size, least, most = np.array(envelope).T
         axes.fill_between(1e3 * size, 100 * least, 100 * most, color="#e9ebee", label="envelope of the specification")
-    axes.axvspan(1e3 * sieve.min() * 0.8, 1e3 * cut, color="#f4f1e8", lw=0, label="in the mastic")
+    axes.axvspan(1e3 * sieve.min() * 0.8, 1e3 * cut, color=phases.MASTIC, alpha=0.15, lw=0, label="in the mastic")
     axes.plot(1e3 * sieve, 100 * asked, "o-", color=look.INK, lw=1, ms=3.5, label="asked for")
     if folder.aggregates is not None and recipe.get("classes"):
         size, passing = _between_sieves(folder, recipe, float(reached[np.argmin(abs(sieve - cut))]))
-        axes.step(1e3 * size, 100 * passing, where="post", color=look.COLOURS[1], lw=1, label="single aggregates")
+        axes.step(1e3 * size, 100 * passing, where="post", color=phases.AGGREGATE, lw=1, label="single aggregates")
     axes.plot(1e3 * sieve, 100 * reached, "x", color=look.COLOURS[0], ms=5, label="reached")
     axes.set_xscale("log")
     ticks: list[float] = []

@@ -9,11 +9,10 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 from matplotlib.transforms import Affine2D
 
-from macadam.report import look
+from macadam.report import look, phases
 from macadam.report.folders import Folder
 from macadam.report.page import Page
 from macadam.report.spheres import frame, outline, spheres
@@ -39,11 +38,10 @@ def add(page: Page, folders: list[Folder]) -> None:
     if not drawn:
         return
     page.section("The specimen")
-    of_class = class_colours(drawn)
     for folder in drawn:
         if len(drawn) > 1:
             page.heading(folder.label)
-        box, paint = _box(folder), _colours(folder, of_class)
+        box, paint = _box(folder), _colours(folder)
         page.figure(
             _block(folder, box, paint),
             f"The specimen, {look.percent(SAWN, 2)} sawn off the front, the right and the top. " + _legend_words(folder),
@@ -51,7 +49,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             third=True,
             raster=True,
         )
-        section, words = _section(folder, box, paint, of_class)
+        section, words = _section(folder, box, paint)
         page.figure(section, words, "a section of the specimen", third=True, raster=True)
         if (folder.specimen["phase"] == "aggregate").any():
             grains, words = spheres(folder.specimen, box, paint, _view(), HEIGHT)
@@ -65,28 +63,19 @@ def _box(folder: Folder) -> np.ndarray:
     return np.array(edges, float) if edges else np.array([(s[a] + s["radius"]).max() for a in "xyz"])
 
 
-def class_colours(folders: list[Folder]) -> dict[str, str]:
-    """Returns the colour of each size class, by the class's name, the same in all specimens of a report."""
-    names = list(dict.fromkeys(name for folder in folders for name in _names(folder).values()))
-    return {name: look.CLASSES[k % len(look.CLASSES)] for k, name in enumerate(names)}
-
-
-def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
+def _colours(folder: Folder) -> Paint:
     """Returns a function from rows of specimen.csv to colours: mastic blue, air white, aggregates by size class, each a
     little lighter or darker."""
     s = folder.specimen
     body = s["body"].to_numpy(int)
-    colour = np.tile(to_rgb(look.MASTIC), (len(s), 1))
-    colour[(s["phase"] == "void").to_numpy()] = to_rgb(look.VOID)
+    colour = np.tile(phases.rgb(phases.MASTIC), (len(s), 1))
+    colour[(s["phase"] == "void").to_numpy()] = phases.rgb(phases.VOID)
     grain = (s["phase"] == "aggregate").to_numpy()
     table = folder.aggregates
-    classes = dict(zip(table["body"], table["size_class"])) if table is not None else {}
-    base = np.array([to_rgb(of_class[n]) for n in _names(folder).values()] or [to_rgb(look.CLASSES[0])])
-    rows = {size_class: row for row, size_class in enumerate(_names(folder))}
-    of = np.array([rows.get(classes.get(b), 0) for b in body[grain]], int)
-    # multiples of the golden ratio give consecutive numbers clearly different shades
-    shade = 1 + 0.22 * ((body[grain] * 0.6180339887) % 1 - 0.5)
-    colour[grain] = np.clip(base[of] * shade[:, None], 0, 1)
+    names = dict(zip(table["body"], table["class"])) if table is not None else {}
+    of_body = {b: phases.shaded(phases.of_class(names.get(b)), b) for b in np.unique(body[grain]).tolist()}
+    if of_body:
+        colour[grain] = [of_body[b] for b in body[grain]]
     return lambda rows: colour[rows]
 
 
@@ -100,7 +89,7 @@ def _names(folder: Folder) -> dict[int, str]:
 
 def _legend_words(folder: Folder) -> str:
     void = " Air voids are white." if (folder.specimen["phase"] == "void").any() else ""
-    classes = "Each aggregate has the colour of its size class" if _names(folder) else "Aggregates are light"
+    classes = "Each aggregate has the colour of its size class" if _names(folder) else "Aggregates are brown"
     return f"{classes}, the mastic is blue.{void}"
 
 
@@ -148,7 +137,7 @@ def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pain
     return picture
 
 
-def _section(folder: Folder, box: np.ndarray, paint: Paint, of_class: dict[str, str]) -> tuple[Any, str]:
+def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
     """Draws the first cross section that the program wrote or, if it wrote none, one through the middle. Returns figure
     and caption."""
     written = sorted(folder.path.glob("section_*.csv"))
@@ -163,7 +152,7 @@ def _section(folder: Folder, box: np.ndarray, paint: Paint, of_class: dict[str, 
         corners = np.concatenate([c for _, c in cells])
         axis = int(np.argmin(np.ptp(corners, axis=0)))
         u, v = [k for k in range(3) if k != axis]
-        void = np.array(to_rgb(look.VOID))
+        void = np.array(phases.rgb(phases.VOID))
         face = [paint(np.array([k]))[0] if k < len(folder.specimen) else void for k, _ in cells]
         axes.add_collection(
             PolyCollection([c[:, [u, v]] for _, c in cells], facecolors=face, edgecolors=(0, 0, 0, 0.5), linewidths=0.2)
@@ -177,8 +166,8 @@ def _section(folder: Folder, box: np.ndarray, paint: Paint, of_class: dict[str, 
     axes.set(xlim=(0, 1e3 * box[u]), ylim=(0, 1e3 * box[v]), xlabel=f"{'xyz'[u]} (mm)", ylabel=f"{'xyz'[v]} (mm)")
     names = _names(folder)
     if names:
-        handles = [Patch(fc=of_class[n], ec="#5a5f68", lw=0.4, label=n) for n in names.values()]
-        handles.append(Patch(fc=look.MASTIC, label="mastic"))
+        handles = [Patch(fc=phases.of_class(n), ec="#5a5f68", lw=0.4, label=n) for n in names.values()]
+        handles.append(Patch(fc=phases.MASTIC, label="mastic"))
         figure.legend(
             handles=handles,
             loc="outside lower center",
