@@ -100,6 +100,15 @@ def test_neighbours_mastic_and_voids_can_be_distinguished() -> None:
     assert all(_difference(c, phases.VOID) > 0.15 for c in (*phases.LADDER, phases.AGGREGATE))
 
 
+def test_pictures_of_scans_have_the_same_colours() -> None:
+    text = (ROOT / "host" / "tools" / "ct" / "segment" / "overlay.cpp").read_text("utf-8")
+    ladder, sieves = (re.search(rf"{name}\[\] = {{(.*?)}};", text, re.S) for name in ("ladder", "sieves"))
+    assert ladder is not None and sieves is not None
+    assert ["#" + c for c in re.findall(r"0x([0-9a-f]{6})", ladder[1])] == list(phases.LADDER)
+    assert [float(s) for s in sieves[1].split(",")] == list(phases.SIEVES)
+    assert f"aggregate_colour = 0x{phases.AGGREGATE[1:]};" in text
+
+
 # Files that draw specimens, sections, aggregates or classes, and so take colours of phases from phases.py.
 DRAWING = [
     "bench/draw_shapes.py",

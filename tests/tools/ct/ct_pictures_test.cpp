@@ -94,20 +94,22 @@ TEST_F(CtPictures, TheNearerGrainHidesWhatIsBehindIt) {
   // The view is from the front left, 30° above the horizontal. From there, balls 1 and 2 lie behind the middle of the
   // scan, and ball 3 appears above the middle.
   const Vec3d eye{-std::sqrt(3.0) / 4, -0.75, 0.5};
-  const auto add_ball = [&](std::uint32_t id, const Vec3d& place, double radius) {
+  const auto add_ball = [&](std::uint32_t id, double sieve, const Vec3d& place, double radius) {
     ScannedGrain grain;
     grain.id = id;
+    grain.sieve = sieve;
     grain.surface = test::mapped(test::icosphere(3), [&](const Vec3d& p) {
       return voxel * (Vec3d{19.5, 19.5, 19.5} + place + radius * p);
     });
     scan.grains.push_back(std::move(grain));
   };
-  add_ball(1, -14.0 * eye, 3), add_ball(2, -20.0 * eye, 5), add_ball(3, {0, 0, 12}, 3);
+  add_ball(1, 40e-3, -14.0 * eye, 3), add_ball(2, 2.4e-3, -20.0 * eye, 5), add_ball(3, 3e-3, {0, 0, 12}, 3);
   ct::write_view(file_, scan);
   const test::PngPicture picture = test::read_png(file_);
   ASSERT_EQ(picture.width, picture.height);
   const double middle = static_cast<double>(picture.width) / 2;
-  // The colours of balls 1, 2 and 3 are bluish, greenish and reddish. In full shade they cannot be distinguished.
+  // The colours of the size classes of balls 1, 2 and 3 are bluish, greenish and reddish. In full shade they cannot be
+  // distinguished.
   enum { red, green, blue, white, dark };
   struct Pixel {
     double from_middle;
