@@ -136,22 +136,20 @@ def contacts(runs, cells):
 
 
 def orientation(runs):
-    rows, least = [], 1
+    least, clusters = 1, []
     for name in CLUSTERS:
         cosines = [a for run in runs[name] for a in run.axes]
         tests = [kolmogorov_smirnov([c[k] for c in cosines]) for k in range(3)]
         least = min(least, *[p for _, p in tests])
-        rows.append([name, f"{len(cosines):,}", *[f"{d:.3f}, p = {p:.2f}" for d, p in tests]])
+        clusters.append(f"{len(cosines):,}")
     n = 3 * len(CLUSTERS)
     return ["## Orientation (Fig. 9)", "",
-            *wrapped("""The table compares the directions of D^L (the longest dimension) of the clusters of all
-            seeds with an isotropic distribution, in which every component of the direction is uniformly distributed.
-            Each cell has the Kolmogorov–Smirnov distance of one component, and the probability p of a larger
-            distance by chance."""), "",
-            *table(["", "clusters", "x", "y", "z"], rows),
-            *wrapped(f"""The smallest of these {n} probabilities is {least:.3f}. Among {n} independent
-                probabilities, at least one is this small by chance in {100 * (1 - (1 - least) ** n):.0f} % of all
-            cases. These numbers therefore do not contradict isotropic directions."""), "",
+            *wrapped(f"""In an isotropic distribution every component of the direction of D^L (the longest dimension) is
+            uniformly distributed. We compared the three components in the four specimens of clusters
+            ({data.listed(clusters)} clusters of all seeds) with this distribution by Kolmogorov–Smirnov tests. The
+            smallest of the {n} probabilities p of a larger distance by chance is {least:.3f}. Among {n} independent
+            probabilities, at least one is this small in {100 * (1 - (1 - least) ** n):.0f} % of all cases. The
+            directions therefore do not contradict an isotropic distribution."""), "",
             "![Cumulative distribution of the components of the direction of D^L, four specimens; all lie on the diagonal"
             " of the isotropic distribution](pictures/orientation.png)", "",
             *wrapped("""In Figs. 9a and b of the paper a line shows the direction of D^L of each cluster above 4.75 mm,

@@ -18,25 +18,24 @@ def correlation(x, y):
 
 
 def numbers_of_spheres():
-    """Returns the table for Fig. 6c: number of spheres of 0.5 mm in shapes with the same D^I, beside the shapes'
-    indices."""
+    """Returns the table for Fig. 6c: correlation of the shapes' indices with the number of spheres of 0.5 mm in shapes
+    with the same D^I."""
     found = where(rows("fill-study.csv"), radius_min_mm=0.5, radius_max_mm=0.5, seed=1.0)
-    lines = [[r["shape"], thousands(r["spheres"]), *[f"{r[key]:.2f}" for key in INDEXES]]
-             for r in sorted(found, key=lambda r: r["spheres"])]
+    
     n = [r["spheres"] for r in found]
     r = {label: correlation(n, [row[key] for row in found]) for key, label in INDEXES.items()}
     stones = [row for row in found if row["shape"] != "icosahedron"]
     alone = {label: correlation([s["spheres"] for s in stones], [s[key] for s in stones])
              for key, label in INDEXES.items()}
-    lines.append(["correlation with the number", "", *[minus(f"{v:+.2f}") for v in r.values()]])
-    lines.append(["… without the icosahedron", "", *[minus(f"{v:+.2f}") for v in alone.values()]])
+    lines = [[f"all {len(found)} shapes", *[minus(f"{v:+.2f}") for v in r.values()]],
+             ["without the icosahedron", *[minus(f"{v:+.2f}") for v in alone.values()]]]
     return ["## Spheres against shape (Fig. 6c)", "",
-            *wrapped(f"""The table has the number of spheres of 0.5 mm radius that fill
-        each of {len(found)} shapes with D^I = 12.59 mm, and the correlation of this number with the shape indices (Eqs.
-        18–23). The paper states that no index is strongly correlated with the number, but gives no coefficients. A
+            *wrapped(f"""The table has the correlation of the shape indices (Eqs. 18–23)
+        with the number of spheres of 0.5 mm radius that fill a shape with D^I = 12.59 mm, for {len(found)} shapes with
+        {span((r["spheres"] for r in found), thousands, " to ")} spheres. The paper states that no index is strongly correlated with the number, but gives no coefficients. A
         coefficient is significant (5 %, two-sided) if its size is at least 0.75 for {len(found)} shapes, or 0.81 for
         {len(found) - 1} ([fill-study.csv](../bench/results/fill-study.csv); [filling.md](filling.md)):"""), "",
-            *table(["", "spheres", *INDEXES.values()], lines)]
+            *table(["correlation", *INDEXES.values()], lines)]
 
 
 def gradation():

@@ -6,10 +6,10 @@ import math
 import re
 import tomllib
 
-from paper_data import between, half_range, mean, minus, rows, upto_percent
+from paper_data import half_range, mean, minus, rows
 from paper_document import table, wrapped
 from paper_runs import ROOT
-from paper_tables import DELTA_MM, FREQUENCIES, INNER_GPA, ROCK
+from paper_tables import DELTA_MM, FREQUENCIES, ROCK
 
 MIXES = {"AM1": "ac14_ss_am1", "AM2": "ac14_ss_am2"}
 
@@ -115,25 +115,7 @@ def springs():
 
 
 def inner():
-    cubes = rows("aggregate-cube.csv")
-    lines = []
-    for size, theirs in INNER_GPA.items():
-        found = [r for r in cubes if r["spheres"] == size and r["porosity"] == 0 and r["edge_mm"] == 20
-                 and r["wall_gpa"] == 115.1 and r["sides"] == "free"]
-        ours = [between([mean(r[key] for r in found if r["filling"] == f) for f in ("shape", "recipe")], "{:.1f}")
-                for key in ("contact_for_gauge_gpa", "contact_for_walls_gpa")]
-        lines.append([size, f"{theirs:.1f}", *ours, f"{ROCK['E'] / uniform_strain(0.05):.1f}"])
-    return ["### Inner moduli", "",
-            *wrapped("""The table gives the modulus of the inner contacts with which a cube of 20 mm has
-            the modulus of the rock, 60 GPa, if the strain is measured by a gauge on the middle of the cube or between
-            the walls, which are stiffer than the rock. Ranges are over two ways to fill a
-            [cube](aggregate-cube.md):"""), "",
-            *table(["GPa", "paper", "ours, gauge", "ours, walls", "uniform strain"], lines),
-            *wrapped(f"""The inner moduli of the paper are within {upto_percent(abs(e / ROCK['E'] *
-                uniform_strain(0.05) - 1)
-                for e in INNER_GPA.values())} of the values for uniform strain, and near our values by the gauge. The
-                paper does not state how its cubes were loaded; between walls as stiff as the walls of its specimens,
-                a lower inner modulus would be needed."""), ""]
+    return ["### Inner moduli", "", "[The cube of aggregate](aggregate-cube.md) compares the moduli of the inner contacts.", ""]
 
 
 def section():
