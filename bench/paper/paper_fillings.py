@@ -24,8 +24,7 @@ def reasons(facts, letters):
         f"""With rising frequency, our deviation in |E\\*| falls (Ico-fine {at['e_star'][0]:+.0f} % at
             {FREQUENCIES[0]} Hz, {at['e_star'][1]:+.0f} % at {FREQUENCIES[-1]} Hz), and the deviation in φ grows in size
             ({at['phase'][0]:+.0f} to {at['phase'][1]:+.0f} %). The paper states both that the deviation in |E\\*|
-            grows with the frequency and that it is largest at the lowest frequency. Only the second statement agrees
-            with a lower φ at all frequencies, because φ is roughly 90° times the slope of ln |E\\*| over ln f."""), ""]
+            grows with the frequency and that it is largest at the lowest frequency."""), ""]
 
 
 def implied_voids(facts):
