@@ -69,8 +69,3 @@ def span(values, form, join=" … "):
 
 def between(values, form="{:.0f}"):
     return span(values, form, " to ")
-
-
-def memory(gigabytes):
-    """Returns the largest memory of some runs, rounded up."""
-    return f"{upto(max(gigabytes)):g} GB"

@@ -65,8 +65,11 @@ def deviations(runs, name, base, key):
 
 
 def composition(runs, cells):
-    out = ["## Composition (Table 3)", "", *wrapped("""Numbers of particles and spheres by sieve class (mm), mean size,
-        and share (volume fraction in %) of the volume of all spheres, ΣV_s."""), ""]
+    out = ["## Composition (Table 3)", "", *wrapped("""The tables give the numbers of particles
+        and spheres by sieve class (mm), the mean size, and the share (in %) of the volume of all spheres, ΣV_s. The
+        last row is ΣV_s divided by the volume of the box; the paper's value assumes uniform radii of the mastic.
+        The shares in the paper are rounded, so here and in the scenes the share of the mastic is 100 % minus
+        the shares of the aggregate classes."""), ""]
     for name, paper in PAPER.items():
         def row(label, key, ours, theirs, digits=0, total=False):
             values = [mean(ours(run)[k] for run in runs[name]) for k in range(len(ours(runs[name][0])))]
@@ -83,40 +86,33 @@ def composition(runs, cells):
             *([["of these single spheres", *[f"{n:,.0f}" for n in single], "–", f"{sum(single):,.0f}"]]
               if paper.radius else []),
             row("spheres", "spheres", lambda run: run.spheres, paper.spheres, total=True),
-            size, row("share of ΣV_s (%)", "share", lambda run: run.share, paper.share, 1)])]
-        out += [*wrapped(f"""ΣV_s is {mean(run.to_box for run in runs[name]):.3f} times the volume of the box. In the
-        paper ΣV_s is {paper.to_box:.3f} times this volume, if the radii of the paper's mastic are uniformly
-        distributed."""), ""]
-    return out + [*wrapped("""The shares in the paper are rounded. In this table and in the scenes the share of the
-    mastic is therefore 100 % minus the shares of the aggregate classes."""), ""]
+            size, row("share of ΣV_s (%)", "share", lambda run: run.share, paper.share, 1),
+            ["ΣV_s / box", *[""] * len(CLASSES),
+             f"{mean(run.to_box for run in runs[name]):.3f} ({paper.to_box:.3f})"]])]
+    return out
 
 
 def design(runs):
     scene, asked = DESIGN
-    rows = []
+    rows, largest = [], 0
     for k, label in enumerate(CLASSES):
         solid = [sum(run.asked) for run in runs]
         reached = [100 * run.reached[k] / s for run, s in zip(runs, solid)]
-        rows.append([label, f"{asked[k]:.1f}", f"{mean(reached):.2f}",
-                     f"{100 * max(abs(r / asked[k] - 1) for r in reached):.2f}",
-                     f"{mean(run.particles[k] for run in runs):,.0f}",
+        largest = max([largest, *[100 * abs(r / asked[k] - 1) for r in reached]])
+        rows.append([label, f"{mean(reached):.2f}", f"{mean(run.particles[k] for run in runs):,.0f}",
                      f"{mean(run.single[k] for run in runs):,.0f}" if k < 4 else "–",
                      f"{mean(run.spheres[k] for run in runs):,.0f}"])
     contacts = [f"{mean(run.contacts[k] for run in runs):,.0f} {pair}" for k, pair in enumerate(PAIRS)]
-    seconds = sorted(run.seconds for run in runs)
+    
     return ["## Design formulation (Table 3, first column group)", "",
-            *wrapped(f"""The insertion of aggregates in the paper does not reach the volume fractions (shares) of the
-                mix design. `examples/{scene}`
-                (library shapes, coarse filling, all aggregates packed at once) reaches these shares. Shares are in %
-                of the solid volume,
-                which is {mean(solid):.2f} of the box. Values are means of {len(runs)} seeds, and the largest error of a
-                seed:"""), "",
-            *table(["", "required (%)", "reached (%)", "error (% of the class)", "particles", "of these single spheres",
-                    "spheres"], rows),
-            *wrapped(f"""The specimen has the contacts {', '.join(contacts)},
-                {mean(run.coordination for run in runs):.2f} per particle, and
-                {mean(run.inner for run in runs):,.0f} inner contacts. `macadam specimen` took {seconds[0]:.0f} to
-                {seconds[-1]:.0f} s with {runs[0].threads} threads, while other runs used the machine."""), ""]
+            *wrapped(f"""In the paper the insertion of aggregates does not reach the volume fractions (shares) of
+                the mix design. `examples/{scene}` (library shapes, coarse filling, all aggregates packed at once)
+                reaches these shares, which are in % of the solid volume, {mean(solid):.2f} of the box. The error of a
+                share is at most {largest:.2f} % of the share in {len(runs)} seeds; all other values are means over the
+                seeds:"""), "",
+            *table(["", "share (%)", "particles", "of these single spheres", "spheres"], rows),
+            *wrapped(f"""The numbers of contacts are {', '.join(contacts)} ({mean(run.coordination for run in runs):.2f}
+                per particle), and {mean(run.inner for run in runs):,.0f} inner."""), ""]
 
 
 def contacts(runs, cells):
@@ -131,32 +127,35 @@ def contacts(runs, cells):
                      f"{mean(run.inner for run in runs[name]):,.0f}"])
         if name != "SS":
             ss = [*PAPER["SS"].contacts, PAPER["SS"].coordination]
-            of = [over(runs, name, "SS", value) for value in values]
+            of = [over(runs, name, "SS", value) for value in values[:3]]
             ratios.append([name, *[cells.beside(f"ratio/{name}/{heads[k]}", mean(v), theirs[k] / ss[k], 2,
                                                 half_range(v)) for k, v in enumerate(of)]])
     return [*out, *table(["", *heads, "inner"], rows), "Divided by the values of SS with the same seed:", "",
-            *table(["", *heads], ratios)]
+            *table(["", *PAIRS], ratios)]
 
 
 def orientation(runs):
-    rows, least = [], 1
+    least, clusters = 1, []
     for name in CLUSTERS:
         cosines = [a for run in runs[name] for a in run.axes]
         tests = [kolmogorov_smirnov([c[k] for c in cosines]) for k in range(3)]
         least = min(least, *[p for _, p in tests])
-        rows.append([name, f"{len(cosines):,}", *[f"{d:.3f}, p = {p:.2f}" for d, p in tests]])
+        clusters.append(f"{len(cosines):,}")
     n = 3 * len(CLUSTERS)
     return ["## Orientation (Fig. 9)", "",
-            *wrapped("""The table compares the direction of D^L (the longest dimension) of the clusters with an
-            isotropic distribution, in which every component of the direction is uniformly distributed. It gives the
-            Kolmogorov–Smirnov distance of each component, and the probability p of a larger distance by chance (all
-            seeds together)."""), "",
-            *table(["", "clusters", "x", "y", "z"], rows),
-            *wrapped(f"""The smallest of these {n} probabilities is {least:.3f}. Among {n} independent
-                probabilities, at least one is this small by chance in {100 * (1 - (1 - least) ** n):.0f} % of all
-            cases. These numbers therefore do not contradict isotropic directions."""), "",
+            *wrapped(f"""In an isotropic distribution every component of the direction of D^L (the longest dimension) is
+            uniformly distributed. We compared the three components in the four specimens of clusters
+            ({data.listed(clusters)} clusters of all seeds) with this distribution by Kolmogorov–Smirnov tests. The
+            smallest of the {n} probabilities p of a larger distance by chance is {least:.3f}. Among {n} independent
+            probabilities, at least one is this small in {100 * (1 - (1 - least) ** n):.0f} % of all cases. The
+            directions therefore do not contradict an isotropic distribution."""), "",
             "![Cumulative distribution of the components of the direction of D^L, four specimens; all lie on the diagonal"
-            " of the isotropic distribution](pictures/orientation.png)", ""]
+            " of the isotropic distribution](pictures/orientation.png)", "",
+            *wrapped("""In Figs. 9a and b of the paper a line shows the direction of D^L of each cluster above 4.75 mm,
+            without numbers. Our pictures of seed 1 show the same for
+            [MS-Poly-fine](pictures/ac14_ms_poly_fine_axes.png) and
+            [MS-Poly-coarse](pictures/ac14_ms_poly_coarse_axes.png); each line has the colour of its sieve
+            class."""), ""]
 
 
 def stiffness(runs, cells):
@@ -167,8 +166,8 @@ def stiffness(runs, cells):
             series = [[getattr(run, key)[k] for run in of] for k in range(len(hz))]
             rows.append([f"{name}, {label} ({unit})", *[f"{mean(s):.3f} ± {half_range(s):.3f}" for s in series]])
     out = ["## Stiffness (Fig. 11)", "",
-           "The values are solved in the frequency domain, without inertia, for AM1 with the same factors δ in all "
-           "specimens.", "", *table(["", *hz], rows),
+           "The values are solved in the frequency domain, without inertia, for AM1. All specimens have the same "
+           "factors δ.", "", *table(["", *hz], rows),
            "Deviation from SS of the same seed, and its mean over the frequencies (d_m, Eq. 26), with d_m of the paper in "
            "brackets:", ""]
 
@@ -216,42 +215,39 @@ def verdict(runs):
     coarse, fine = ([n for n in CLUSTERS if n.endswith(size)] for size in ("coarse", "fine"))
     fewer = [100 * (1 - mean(run.contacts[0] for run in runs[n]) / PAPER[n].contacts[0]) for n in CLUSTERS]
     entries = ["""**Reproduced:** the compositions of the single spheres (SS) and of most classes of the clusters; the
-            sign and the order of the deviations from single spheres. Clusters are stiffer and less viscous than single spheres, fine clusters more than coarse
-            ones, and the shape matters less than the size of the spheres.""",
+            sign and the order of the deviations from single spheres. Clusters are stiffer than single spheres and
+            have a smaller φ; both deviations are larger for fine clusters than for coarse ones; and the shape matters
+            less than the size of the spheres.""",
                f"""**|E\\*| against SS, not reproduced in size:** coarse clusters {beside(coarse, 'e_star', 0)}, fine
             clusters {beside(fine, 'e_star', 0)}.""",
                f"""**φ against SS, not reproduced in size:** coarse clusters {beside(coarse, 'phase', 1)}, fine clusters
             {beside(fine, 'phase', 1)}.""",
                f"""**Contacts between aggregates:** the clusters have {data.between(fewer, '{:.0f}')} % fewer of these
                contacts than the clusters in the paper.""",
-               """**Most probable cause:** choices that the paper does not state, above all the porosity of the
-               clusters and the test that keeps clusters apart when they are placed
+               """**Most probable cause of the differences:** choices that the paper does not state, above all
+               the porosity of the clusters and the test that keeps clusters apart when they are placed
                ([details](paper-details.md#choices-that-the-paper-does-not-state)).""",
-               """**Not compared:** measurements. The measured moduli are not in the paper."""]
+               """**Not compared:** measured moduli, because they are not in the paper."""]
     return ["# The paper's specimens", "",
-            *wrapped(f"""The specimens of the published study ("the paper", [[1]](model.md#source)) were generated and
-            solved with Macadam. This page compares the results with Table 5 and Figs. 7 to 13 of the paper.
-            [Details](paper-details.md) compares them with Tables 3 and 4 and Figs. 4, 6c and 9 of the paper, and
-            gives the reasons of the differences and the choices that the paper does not state. The comparisons with
-            Tables 1 and 2 and Figs. 5 and 6a, b, d are in [shapes.md](shapes.md) and [filling.md](filling.md)."""),
+            *wrapped(f"""We generated and solved the specimens of the published study ("the paper",
+            [[1]](model.md#source)) with Macadam. This page compares the results with Table 5 and Figs. 7 to 13 of the
+            paper. [Details](paper-details.md) compares them with Tables 3 and 4 and Figs. 4, 6c and 9, and gives the
+            reasons of the differences. [Shapes of aggregates](shapes.md) and [Filling shapes](filling.md) are about
+            Tables 1 and 2 and Figs. 5 and 6a, b, d."""),
             "",
             *[row for e in entries for row in wrapped(e, "- ")], "",
             *wrapped(f"""SS is the specimen of single spheres. MS are specimens of clusters ("multi-spheres") of real
-                shapes (Poly) or icosahedra (Ico),
-                filled with coarse or fine spheres. In the tables the value of Macadam ("ours") is first, and the
-                value of the paper is in brackets. Values
-                are means of {len(runs['SS'])} seeds; ± is half the range over the seeds. If the two values differ by
-                more than 10 %, the cell is bold, and a letter names [the
-                reason](paper-details.md#reasons-of-the-differences).
+                shapes (Poly) or icosahedra (Ico), filled with coarse or fine spheres. In the tables the value of
+                Macadam ("ours") is first, and the value of the paper is in brackets. Our values are means of
+                {len(runs['SS'])} seeds; ± is half the range over the seeds. If the two values differ by more than
+                10 %, the cell is bold, and a letter names [the reason](paper-details.md#reasons-of-the-differences).
                 The scenes are `examples/ac14_ss_am1` and `examples/ac14_ms_*`. `bench/paper/paper` computes the
-                results in
-                [bench/results](../bench/results), and `scripts/documents` writes this page."""), ""]
+                results."""), ""]
 
 
 def details_head():
     return ["# The paper's specimens: details", "",
-            *wrapped("""This page is for reviewers of the [comparison with the paper](paper-specimens.md). It has the tables of
-                composition, the other figures, the origin of the contacts' moduli, the reasons of the differences, and a
-                study of the choices that the paper does not state. The page of the comparison explains the notation
-                and the values in brackets.
-                `scripts/documents` writes this page."""), ""]
+            *wrapped("""This page is for reviewers of the [comparison with the paper](paper-specimens.md), which
+                explains the notation and the values in brackets. It has the tables of composition, the other figures,
+                the origin of the contacts' moduli, the reasons of the differences, and a study of the choices that
+                the paper does not state."""), ""]

@@ -3,10 +3,10 @@
 shapes' figures, the calibrated specimens (Figs. 12 and 13), and specimens stepped in time."""
 import math
 
-from paper_data import RESULTS, between, half_range, listed, mean, minus, rows, span, thousands, upto, where
+from paper_data import RESULTS, between, half_range, mean, minus, rows, span, thousands, upto, where
 from paper_document import table, wrapped
 from paper_runs import committed
-from paper_tables import CALIBRATED, CLASSES, DELTA_MA, DEVIATION, FREQUENCIES, PAPER
+from paper_tables import CALIBRATED, DELTA_MA, DEVIATION, FREQUENCIES, PAPER
 
 INDEXES = {"flatness": "F", "elongation": "E", "sphericity_true": "ψ^w", "sphericity_working": "ψ^A"}
 
@@ -18,55 +18,32 @@ def correlation(x, y):
 
 
 def numbers_of_spheres():
-    """Returns the table for Fig. 6c: number of spheres of 0.5 mm in shapes with the same D^I, beside the shapes'
-    indices."""
+    """Returns the table for Fig. 6c: correlation of the shapes' indices with the number of spheres of 0.5 mm in shapes
+    with the same D^I."""
     found = where(rows("fill-study.csv"), radius_min_mm=0.5, radius_max_mm=0.5, seed=1.0)
-    lines = [[r["shape"], thousands(r["spheres"]), *[f"{r[key]:.2f}" for key in INDEXES]]
-             for r in sorted(found, key=lambda r: r["spheres"])]
+    
     n = [r["spheres"] for r in found]
     r = {label: correlation(n, [row[key] for row in found]) for key, label in INDEXES.items()}
     stones = [row for row in found if row["shape"] != "icosahedron"]
     alone = {label: correlation([s["spheres"] for s in stones], [s[key] for s in stones])
              for key, label in INDEXES.items()}
-    lines.append(["correlation with the number", "", *[minus(f"{v:+.2f}") for v in r.values()]])
-    lines.append(["… without the icosahedron", "", *[minus(f"{v:+.2f}") for v in alone.values()]])
-    return ["## Spheres against shape (Fig. 6c)", "", *wrapped(f"""The table has the number of spheres of 0.5 mm that fill each of
-        seven shapes of the same D^I, 12.59 mm, and the correlation of this number with the indices of shape (Eqs.
-        18–23). The paper draws the number over each index and states that no index is strongly correlated with the
-        number; it does not give coefficients. With {len(found)} shapes a coefficient below 0.75 is not significant (5
-        %, two-sided); with {len(found) - 1} shapes a coefficient below 0.81 is not
-        ([fill-study.csv](../bench/results/fill-study.csv); [filling.md](filling.md)):"""), "",
-            *table(["", "spheres", *INDEXES.values()], lines)]
+    lines = [[f"all {len(found)} shapes", *[minus(f"{v:+.2f}") for v in r.values()]],
+             ["without the icosahedron", *[minus(f"{v:+.2f}") for v in alone.values()]]]
+    return ["## Spheres against shape (Fig. 6c)", "",
+            *wrapped(f"""The table has the correlation of the shape indices (Eqs. 18–23)
+        with the number of spheres of 0.5 mm radius that fill a shape with D^I = 12.59 mm, for {len(found)} shapes with
+        {span((r["spheres"] for r in found), thousands, " to ")} spheres. The paper states that no index is strongly correlated with the number, but gives no coefficients. A
+        coefficient is significant (5 %, two-sided) if its size is at least 0.75 for {len(found)} shapes, or 0.81 for
+        {len(found) - 1} ([fill-study.csv](../bench/results/fill-study.csv); [filling.md](filling.md)):"""), "",
+            *table(["correlation", *INDEXES.values()], lines)]
 
 
 def gradation():
     return ["## Gradation (Fig. 4)", "",
             *wrapped("""Fig. 4 of the paper shows, without numbers, the gradation of the AC 20 whose aggregates were
-                scanned. Our AC 20 is
-                `examples/ac20_recipe`, on a Fuller curve. The paper gives the mix design of the AC 14 by mass, and
-                `examples/ac14_recipe` uses this design ([mix-design.md](mix-design.md)). `scripts/draw-gradation`
-                draws the required and the reached
-                gradation of any specimen of a recipe:"""), "",
-            "| AC 14 | AC 20 |", "|---|---|",
-            "| ![Passing mass over sieve size of AC 14, required and reached](pictures/gradation_ac14.png) "
-            "| ![Passing mass over sieve size of AC 20, required and reached](pictures/gradation_ac20.png) |", ""]
-
-
-def directions(runs):
-    """Returns the section on Figs. 9a and b."""
-    lines = []
-    for name in ("MS-Poly-fine", "MS-Poly-coarse"):
-        clusters = [mean(run.particles[k] - run.single[k] for run in runs[name]) for k in range(3)]
-        lines.append([name, *[f"{c:,.0f} ({PAPER[name].particles[k]})" for k, c in enumerate(clusters)],
-                      f"{sum(clusters):,.0f} ({sum(PAPER[name].particles[:3])})"])
-    return ["### Directions (Figs. 9a, b)", "", *wrapped("""In Figs. 9a and b of the paper a line shows the direction
-        of D^L of each cluster above 4.75 mm, without numbers. The table has our numbers of clusters and, in brackets,
-        the numbers of aggregates in these classes in the paper, which include single spheres. Our pictures (seed 1)
-        are [MS-Poly-fine](pictures/ac14_ms_poly_fine_axes.png),
-        [MS-Poly-coarse](pictures/ac14_ms_poly_coarse_axes.png); in these pictures a line has the colour of its sieve
-            class, as in the pictures of sections."""), "",
-            *table(["clusters", *CLASSES[:3], "together"], lines),
-            ]
+                scanned. The picture shows our AC 20, `examples/ac20_recipe`, on a Fuller curve. The mix design of the
+                AC 14, which the paper gives by mass, is used in [mix-design.md](mix-design.md)."""), "",
+            "![Passing mass over sieve size of AC 20, required and reached](pictures/gradation_ac20.png)", ""]
 
 
 # ---- Figs. 12 and 13
@@ -88,21 +65,22 @@ def of_mix(found, mix, figure):
         for key in ("e_star_pa", "phase_deg"):
             d = [[100 * (r[f"{key}_{hz}"] / r[f"ss_{key}_{hz}"] - 1) for hz in FREQUENCIES] for r in of]
             each = [mean(v) for v in zip(*d)]
-            cells += [minus(f"{mean(map(mean, d)):+.1f} ± {half_range(map(mean, d)):.1f}"),
-                      minus(f"{each[0]:+.0f} … {each[-1]:+.0f}")]
+            if key == "phase_deg":  # the mean deviation of |E*| is zero, because |E*| is fitted
+                cells.append(minus(f"{mean(map(mean, d)):+.1f} ± {half_range(map(mean, d)):.1f}"))
+            cells.append(minus(f"{each[0]:+.0f} … {each[-1]:+.0f}"))
         lines.append(cells)
     e, phi = CALIBRATED[mix]
     return [f"### {mix} (Fig. {figure})", "",
-            *table(["", "δ_MA (paper)", "d_m of \\|E*\\| (%)", "2 … 20 Hz", "d_m of φ (%)", "2 … 20 Hz"], lines),
-            *wrapped(f"""In the paper d_m of |E\\*| is {e} %, and d_m of φ is from {minus(f'{phi[0]:+d}')} to
+            *table(["", "δ_MA (paper)", "\\|E*\\| (%), 2 … 20 Hz", "d_m of φ (%)", "φ (%), 2 … 20 Hz"], lines),
+            *wrapped(f"""Because |E\\*| is fitted, d_m of |E\\*| is 0. In the paper d_m of |E\\*| is {e} %, and
+                d_m of φ is from {minus(f'{phi[0]:+d}')} to
                 {phi[1]:+d} %."""), ""]
 
 
 def calibrated():
     out = ["## Calibrated to the single spheres (Figs. 12 and 13)", "",
-           *wrapped("""For each specimen of clusters, δ_MA is fitted to |E\\*| of the single spheres, by least squares over
-               the four frequencies; φ is not fitted. `bench/paper/paper-deltas` calls `macadam calibrate` for each mixture,
-               specimen and seed."""), "", *am2_single_spheres()]
+           *wrapped("""For each specimen of clusters, δ_MA is fitted to |E\\*| of the single spheres, by least squares
+               over the four frequencies; φ is not fitted (`bench/paper/paper-deltas`)."""), "", *am2_single_spheres()]
     if not (RESULTS / "paper-deltas.csv").is_file():
         return out + ["Run `bench/paper/paper-deltas` to make Figs. 12 and 13.", ""]
     found = rows("paper-deltas.csv")
@@ -123,15 +101,12 @@ def why_less(found):
         delta = mean(r["delta_ma"] for r in where(found, mix="AM1", specimen=name))
         own.append(math.log(stiffer(name)) / math.log(DELTA_MA["AM1"]["SS"] / delta))
         papers.append(math.log(1 + percent / 100) / math.log(DELTA_MA["AM1"]["SS"] / DELTA_MA["AM1"][name]))
-    return wrapped(f"""Our calibrated δ_MA are larger than the values of the paper, although our fine clusters are
-        stiffer than the fine clusters of the paper, so that their calibration must reduce |E\\*| by more. To explain
-        this, assume
-        that |E\\*| is proportional to δ_MA^n. With δ_MA = 3.15 the clusters are stiffer than single spheres (Fig.
-        11), and with the calibrated δ_MA they are not; this gives n = {between(own, "{:.2f}")} here and
-        {between(papers, "{:.2f}")} in the paper (AM1). n is the fraction of
-        the stiffness that M-A contacts carry. In the specimens of the paper, therefore, less force passes through the
-        mastic between aggregates and more from aggregate to aggregate, in agreement with the larger number of A-A
-        contacts in the paper (ᶠ). This explanation is *inferred*.""") + [""]
+    return wrapped(f"""Our calibrated δ_MA are larger than the paper's, although our fine clusters are stiffer, so that
+        their calibration must reduce |E\\*| by more. To explain this, assume that |E\\*| is proportional to δ_MA^n.
+        The stiffness with δ_MA = 3.15 (Fig. 11) and the calibrated δ_MA then give n: {between(own, "{:.2f}")} here and
+        {between(papers, "{:.2f}")} in the paper (AM1). n is the fraction of the stiffness that M-A contacts carry.
+        In the paper's specimens, therefore, less force passes through M-A contacts and more through A-A contacts, in
+        agreement with the larger number of A-A contacts in the paper (ᶠ). This explanation is *inferred*.""") + [""]
 
 
 # ---- stepped in time
@@ -143,26 +118,23 @@ def stepped():
     if not (RESULTS / "paper-stepped.csv").is_file():
         return []
     found = rows("paper-stepped.csv")
-    lines = [[r["specimen"], f"{r['frequency_hz']:g}", f"{r['steps'] / 1e6:.2f}", f"{1e9 * r['dt_s']:.1f}",
-              f"{r['us_per_step']:.1f}", f"{r['stepping_s']:.0f}", f"{r['e_star_pa'] / 1e9:.4f}",
+    lines = [[r["specimen"], f"{r['frequency_hz']:g}", f"{r['steps'] / 1e6:.2f}", f"{r['us_per_step']:.1f}", f"{r['stepping_s']:.0f}", f"{r['e_star_pa'] / 1e9:.4f}",
               minus(f"{1e9 * r['off_e_star']:+.0f}"), f"{r['phase_deg']:.3f}",
               minus(f"{1e9 * r['off_phase_rad']:+.0f}")] for r in found]
     off = upto(max(abs(r[k]) for r in found for k in ("off_e_star", "off_phase_rad")), 2)
-    seconds = [f"{r['stepping_s']:.0f} s at {r['frequency_hz']:g} Hz" for r in found]
+    
     poly = {r["frequency_hz"]: r["stepping_s"] for r in found if r["specimen"] == "MS-Poly-fine"}
     faster = [86400 * days / poly[hz] for hz, days in zip((20.0, 2.0), PAPERS_DAYS) if hz in poly]
     out = ["## Stepped in time, at true mass", "",
-           *wrapped(f"""The table is for one cycle of {listed([f"{hz:g}" for hz in
-               sorted({r['frequency_hz'] for r in found})])} Hz from the steady start, mixed precision, no density
-               scaling.
-               The difference from the frequency domain without inertia, which all other tables use, is at most {off:.1e}
-               ([results](../bench/results/paper-stepped.csv) of `bench/paper/paper-stepped`):"""), "",
-           *table(["", "f (Hz)", "10⁶ steps", "step (ns)", "µs per step", "seconds", "\\|E*\\| (GPa)", "difference (10⁻⁹)",
+           *wrapped(f"""One cycle was stepped from the steady start, in mixed precision and without density scaling. The
+               results differ from the frequency domain without inertia, which all other tables use, by at most
+               {off:.1e} ([results](../bench/results/paper-stepped.csv) of `bench/paper/paper-stepped`):"""), "",
+           *table(["", "f (Hz)", "10⁶ steps", "µs per step", "seconds", "\\|E*\\| (GPa)", "difference (10⁻⁹)",
                    "φ (°)", "difference (10⁻⁹ rad)"], lines)]
-    text = f"""The stepped runs of MS-Poly-fine in the paper took {PAPERS_DAYS[0]} days (20 Hz) to {PAPERS_DAYS[1]} days
-        (2 Hz) on one core of an i9-10900KF; the paper does not state the number of cycles. With Macadam a cycle of
-        the specimens in the table took {listed(seconds)}; the file of the results names the version and the GPU.
-        Since then a time step has become faster ([benchmarks](../bench/README.md))."""
+    text = f"""In the paper the stepped runs of MS-Poly-fine took {PAPERS_DAYS[0]} days (20 Hz) to {PAPERS_DAYS[1]} days
+        (2 Hz) on one core of an i9-10900KF; the paper does not state the number of cycles. The file of the results
+        names Macadam's version and the GPU; a time step has become faster since then
+        ([benchmarks](../bench/README.md))."""
     if faster:
         text += f""" Of MS-Poly-fine it is {span(faster, lambda x: thousands(round(x, -2)), ' to ')} times faster, if the
             paper's were one cycle too, by the machine, the precision and the condensed contacts together."""

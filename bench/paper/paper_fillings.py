@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of docs/paper-details.md: why our values differ, the effect of the fillings, and the
-run times."""
-from paper_data import mean, memory, minus
+"""Sections of docs/paper-details.md: why our values differ, and the effect of the fillings."""
+from paper_data import mean, minus
 from paper_document import deviations, table, wrapped
 from paper_reasons import REASONS, Facts, several
-from paper_tables import CLASSES, CLUSTERS, FREQUENCIES, PAPER
+from paper_tables import CLUSTERS, FREQUENCIES, PAPER
 
 FILLINGS = ("coarse", "fine")
 
@@ -24,21 +23,18 @@ def reasons(facts, letters):
     return out + ["", *wrapped(
         f"""With rising frequency, our deviation in |E\\*| falls (Ico-fine {at['e_star'][0]:+.0f} % at
             {FREQUENCIES[0]} Hz, {at['e_star'][1]:+.0f} % at {FREQUENCIES[-1]} Hz), and the deviation in φ grows in size
-            ({at['phase'][0]:+.0f} to {at['phase'][1]:+.0f} %). The paper states both that the deviation in |E\\*| grows
-            with the frequency and that it is largest at the lowest frequency. Only the second statement is compatible with
-            a lower φ at all frequencies, because φ is roughly 90° times the slope of ln |E\\*| over ln f."""), ""]
+            ({at['phase'][0]:+.0f} to {at['phase'][1]:+.0f} %). The paper states both that the deviation in |E\\*|
+            grows with the frequency and that it is largest at the lowest frequency."""), ""]
 
 
 def implied_voids(facts):
     rows = []
     for name in CLUSTERS:
-        for classes in ([0], [1], [2], [0, 1, 2]):
-            v, together = facts.void(name, classes), len(classes) == 3
-            # if a class has many single spheres, the mean radius of its spheres differs from the mean radius in clusters
-            by_spheres = all(facts.of(name, "single", k) < 0.1 * facts.of(name, "particles", k) for k in classes)
-            rows.append([f"{name[3:]}, {'together' if together else CLASSES[classes[0]]}", two(v.ratio), two(v.size),
-                         two(1 - 1 / v.ratio), two(v.chance), two(v.number),
-                         two(v.spheres) if by_spheres else "–", two(PAPER[name].void_of_mastic) if together else ""])
+        v = facts.void(name, [0, 1, 2])
+        # if a class has many single spheres, the mean radius of its spheres differs from the mean radius in clusters
+        by_spheres = all(facts.of(name, "single", k) < 0.1 * facts.of(name, "particles", k) for k in range(3))
+        rows.append([name[3:], two(v.ratio), two(v.size), two(1 - 1 / v.ratio), two(v.chance), two(v.number),
+                     two(v.spheres) if by_spheres else "–", two(PAPER[name].void_of_mastic)])
     return table(["", "number, paper / ours", "explained by sizes", "void, from the number", "standard deviation",
                   "void, sizes considered", "void, from the spheres", "void, from the mastic"], rows)
 
@@ -52,53 +48,35 @@ def hints(facts):
     spheres = [facts.void("MS-Ico-coarse", [0, 1]).spheres, ico[1].spheres]
     apart = max(abs(v.number - budget[r][1]) for v, r in zip(ico, FILLINGS))
     entries = [
-        f"""*From the mastic.* In SS the mastic takes {ss.volume(4):.3f} and the aggregates take
-            {ss.to_box - ss.volume(4):.3f} of the volume of the box, together {ss.to_box:.3f}. If the paper filled its
-            cluster
-            specimens with mastic
-            to the same sum, the shapes have voids of {several(budget['coarse'])} (Poly and Ico, coarse) and
-            {several(budget['fine'])} (fine). {rest} the assumption of an equal sum, and on mastic radii uniform in
-        0.75–1 mm.""",
+        f"""*From the mastic.* In SS mastic and aggregates together take {ss.to_box:.3f} of the volume of the box. If
+            the paper filled its cluster specimens with mastic to the same sum, the shapes have voids of
+            {several(budget['coarse'])} (Poly and Ico, coarse) and {several(budget['fine'])} (fine). {rest} the equal
+            sum, and on mastic radii uniform in 0.75–1 mm.""",
         f"""*From the number of aggregates* at the same share: the clusters of Ico have voids of
-            {several(v.number for v in ico)} (coarse and fine) if the sizes of the aggregates are considered; if
-            not, these voids are {several(1 - 1 / v.ratio for v in ico)} (coarse and fine). The table has the
-            standard deviation that follows from the small number of sizes. {rest} shapes like ours. The estimate is
-            therefore useful for Ico, whose shape is known. It is not useful for Poly, for which it gives voids of
-            {several(v.number for v in poly)}. A negative void means that the paper's shapes have more volume than
-            our shapes at the same D^I.""",
+            {several(v.number for v in ico)} (coarse and fine) if the sizes of the aggregates are considered, otherwise
+            {several(1 - 1 / v.ratio for v in ico)}. The standard deviation in the table follows from the small number
+            of sizes. {rest} shapes like ours. It is therefore useful for Ico, whose shape is known, but not for Poly,
+            for which it gives voids of {several(v.number for v in poly)}. A negative void means that the paper's
+            shapes have more volume than our shapes at the same D^I.""",
         f"""*From the spheres of an aggregate*: the clusters of Ico have voids of {several(spheres)} (coarse and fine;
             coarse without the class with many single spheres), which is near zero
             ([filling.md](filling.md#spheres-against-radius)). {rest} uniform radii, and the
             coarse radii are not uniform (ᶜ)."""]
     return [row for e in entries for row in wrapped(e, "- ")] + ["", *wrapped(
-        f"""The three estimates disagree. The estimates from the mastic and from the number of aggregates have only
-        ΣV_s in common. Both give voids in Ico, more in the coarse specimen than in the fine one, and differ by
-        {apart:.2f} at most. The estimate from the spheres gives voids near zero. In our scenes the clusters have no
-        voids: the spheres of a cluster have the same volume in sum as its shape."""), ""]
+        f"""The estimates from the mastic and from the number of aggregates are nearly independent, because they have
+        only ΣV_s in common. For Ico they differ by {apart:.2f} at most. The estimate from the spheres disagrees with
+        both."""), ""]
 
 
 def fillings(facts):
     return ["## Porosity of the clusters", "",
             *wrapped("""The porosity (void) of a cluster is 1 − (sum of the volumes of its spheres) / (volume of its
-                shape). Our clusters have the porosity 0. They do not cover their shapes completely, because overlaps
-                count twice in the sum
-                ([covered fraction](filling.md#porosity-0)). The paper does not state its porosity, but it can be estimated
-                in three ways:"""), "",
+                shape). Our clusters have [porosity 0](filling.md#porosity-0). The paper does not state the porosity
+                of its clusters, but it can be estimated in three ways:"""), "",
             *hints(facts), *implied_voids(facts)]
 
 
-def making(runs, times):
-    wall, used = [r.wall for r in runs if r.wall], [r.memory for r in runs if r.memory]
-    return ["## Time to generate the specimens", "", *wrapped("""The table has times of `macadam specimen SCENE` with
-        seed 1
-        ([paper-specimens-time.csv](../bench/results/paper-specimens-time.csv)):"""), "",
-            *table(["", "seconds", "cores", "measured"], [list(t.values()) for t in times]),
-            *wrapped(f"""Most of this time is needed to insert the last shapes. The generation of one of the specimens and
-                its solution at four frequencies took {min(wall):.0f} to {max(wall):.0f} s and up to
-                {memory(used)} with {runs[0].threads} threads, while other runs used the machine."""), ""]
-
-
-def prose(runs, table_of_variants, times):
+def prose(runs, table_of_variants):
     facts = Facts(runs, table_of_variants)
-    every = [run for of in runs.values() for run in of]
-    return lambda letters: reasons(facts, letters) + fillings(facts) + making(every, times)
+    
+    return lambda letters: reasons(facts, letters) + fillings(facts)

@@ -6,10 +6,10 @@ import math
 import re
 import tomllib
 
-from paper_data import between, half_range, mean, minus, rows, upto_percent
+from paper_data import half_range, mean, minus, rows
 from paper_document import table, wrapped
 from paper_runs import ROOT
-from paper_tables import DELTA_MM, FREQUENCIES, INNER_GPA, ROCK
+from paper_tables import DELTA_MM, FREQUENCIES, ROCK
 
 MIXES = {"AM1": "ac14_ss_am1", "AM2": "ac14_ss_am2"}
 
@@ -74,70 +74,48 @@ def mastic():
                       f"{mean(over_all):.2f} ({DELTA_MM[mix]:.2f})", minus(f"{mean(map(mean, phase)):+.2f}")])
         said.append(mean(over_all))
     alpha = laws("AM1")["M-M"]["alpha"]
-    return ["### δ_MM", "", *wrapped(f"""The modulus of a specimen of mastic spheres is lower than the modulus in the
-        law of its contacts. The factor δ_MM corrects this difference: it is
-        |E\\*| of the law of the contacts divided by |E\\*| of the specimen. Our specimens consist of mastic alone, in
-        the mixture's box, with
-        the law and walls of Table 4, radii uniform in 0.75–1 mm and porosity 0.05; the paper does not state the size of its
-        specimen. If all spheres moved with the mean strain (uniform strain, an upper bound of the stiffness of a
-        large body), δ_MM would be 1/{uniform_strain(alpha):.3f} =
-        {1 / uniform_strain(alpha):.2f} at α = {alpha}. Local relaxation raises δ_MM above this value, and the stiff walls
-        reduce it."""), "",
+    return ["### δ_MM", "",
+            *wrapped(f"""A specimen of mastic spheres has a lower |E\\*| than the law of its contacts. δ_MM
+        is |E\\*| of this law divided by |E\\*| of the specimen. Our specimens consist of mastic alone, in the
+        mixture's box, with the law and walls of Table 4, radii uniform in 0.75–1 mm and porosity 0.05; the paper does
+        not state the size of its specimen. If all spheres moved with the mean strain (uniform strain, an upper bound
+        of the stiffness of a large body), δ_MM would be 1/{uniform_strain(alpha):.3f} =
+        {1 / uniform_strain(alpha):.2f} at α = {alpha}. Motions that differ from the mean strain raise δ_MM, and stiff
+        walls reduce it."""), "",
             *table(["δ_MM", *[f"{hz} Hz" for hz in FREQUENCIES], "mean (paper)", "φ minus φ of the law (°)"], lines),
-            *wrapped(f"""The values of the paper, {DELTA_MM['AM1']:.2f} (AM1) and {DELTA_MM['AM2']:.2f} (AM2), differ
-                from ours by {100 * (DELTA_MM['AM1'] / said[0] - 1):+.0f} and
-                {100 * (DELTA_MM['AM2'] / said[1] - 1):+.0f} %. The paper found its factors by trial against a
-                measured mastic, so these factors also correct the misfit of its law. Our factor is exact for a
-                law that has the moduli of the mastic. The measured moduli are not in the paper. The fit of
-                [laws-from-data.md](laws-from-data.md) recovers the laws of Table 4 from the curves of these
-                laws."""), ""]
+            *wrapped(f"""
+                The paper's factors differ from ours by {100 * (DELTA_MM['AM1'] / said[0] - 1):+.0f} % (AM1) and
+                {100 * (DELTA_MM['AM2'] / said[1] - 1):+.0f} % (AM2). The paper found its factors by trial against a
+                measured mastic, whose moduli it does not give, so these factors also correct the
+                misfit of its law."""), ""]
 
 
 def ratios():
     values = {mix: laws(mix)["M-A"]["E_m"] / laws(mix)["M-M"]["E_m"] for mix in MIXES}
     aa = laws("AM1")["A-A"]["E"]
     halves = {mix: 2 / (1 / aa + 1 / laws(mix)["M-M"]["E_m"]) / laws(mix)["M-M"]["E_m"] for mix in MIXES}
-    return ["### δ_MA", "", *wrapped(f"""The row M-A of Table 4 is the row M-M times {values['AM1']:.2f} (AM1) and
-        {values['AM2']:.2f} (AM2), which are the stated values of δ_MA; the row M-M includes δ_MM. The paper assumes that
-        an M-A contact is the elastic A-A contact and the viscoelastic M-M contact in series. Two half
-        contacts in series, each with half of the distance and therefore twice the stiffness, would
-        multiply E_m by {halves['AM1']:.2f} (AM1) and {halves['AM2']:.2f} (AM2), and they would not
-        multiply all constants of the row M-M by one number. The row M-A is therefore a fit of the
-        paper's authors. Our scenes use this row without a change."""), ""]
+    return ["### δ_MA", "",
+            *wrapped(f"""The row M-A of Table 4 is the row M-M, which includes δ_MM, times the stated δ_MA of
+        {values['AM1']:.2f} (AM1) and {values['AM2']:.2f} (AM2). The paper assumes that an M-A contact is the elastic
+        A-A contact and the viscoelastic M-M contact in series. Two half contacts in series, each with half of the
+        distance and therefore twice the stiffness, would multiply E_m by {halves['AM1']:.2f} (AM1) and
+        {halves['AM2']:.2f} (AM2), and the other constants by other numbers. The row M-A is therefore a fit of the
+        paper's authors. Our scenes use it without a change."""), ""]
 
 
 def springs():
     e, nu, aa = ROCK["E"], ROCK["nu"], laws("AM1")["A-A"]["E"] / 1e9
     confined = e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
-    return ["### 115.1 GPa of A-A", "", *wrapped(f"""The paper estimates this modulus with two springs in series, from a rock of
-        {e:.0f} GPa and ν = {nu}, without a formula. Two springs of the rock, each from a centre to the contact, are
-        {e:.1f} GPa in series (Eq. 11 divides by the whole distance); with the constrained modulus (no lateral
-        strain), E·(1 − ν)/((1 + ν)(1 − 2ν)), they are {confined:.1f} GPa. The modulus in the paper is {aa / e:.3f}
-        times the modulus of the rock, and {aa / confined:.3f} times the constrained modulus; 1.5 times the
-        constrained modulus is {1.5 * confined:.1f} GPa. *Inferred* from these
-        numbers alone: the paper multiplied the constrained modulus by 1.5. The paper does *not explain* this factor. Uniform strain at α = 0.05 gives
-        {e / uniform_strain(0.05):.1f} GPa, near the inner moduli below."""), ""]
+    return ["### 115.1 GPa of A-A", "",
+            *wrapped(f"""The paper estimates this modulus, {aa:.1f} GPa, with two springs in series, from a
+        rock of {e:.0f} GPa and ν = {nu}, without a formula. The constrained modulus of the rock (no lateral strain),
+        E·(1 − ν)/((1 + ν)(1 − 2ν)), is {confined:.1f} GPa. The paper's modulus is {aa / e:.3f} times the modulus of
+        the rock and {aa / confined:.3f} times the constrained modulus. *Inferred* from these numbers alone: the paper
+        multiplied the constrained modulus by 1.5, a factor that it does *not explain*."""), ""]
 
 
 def inner():
-    cubes = rows("aggregate-cube.csv")
-    lines = []
-    for size, theirs in INNER_GPA.items():
-        found = [r for r in cubes if r["spheres"] == size and r["porosity"] == 0 and r["edge_mm"] == 20
-                 and r["wall_gpa"] == 115.1 and r["sides"] == "free"]
-        ours = [between([mean(r[key] for r in found if r["filling"] == f) for f in ("shape", "recipe")], "{:.1f}")
-                for key in ("contact_for_gauge_gpa", "contact_for_walls_gpa")]
-        lines.append([size, f"{theirs:.1f}", *ours, f"{ROCK['E'] / uniform_strain(0.05):.1f}"])
-    return ["### Inner moduli", "", *wrapped("""The table gives the modulus E of the inner contacts with which a cube
-            of 20 mm has the modulus of the rock, 60 GPa. The modulus of the cube is measured either by a gauge on its
-            middle part, or between the walls, which are stiffer than the rock. A range is over two ways to fill a
-            cube ([aggregate-cube.md](aggregate-cube.md)):"""), "",
-            *table(["GPa", "paper", "ours, gauge", "ours, walls", "uniform strain"], lines),
-            *wrapped(f"""The inner moduli of the paper are within {upto_percent(abs(e / ROCK['E'] *
-                uniform_strain(0.05) - 1)
-                for e in INNER_GPA.values())} of the values for uniform strain, and near our values by the gauge. The
-                paper does not state how its cubes were loaded; between walls as stiff as the walls of its specimens,
-                a lower inner modulus would be needed."""), ""]
+    return ["### Inner moduli", "", "[The cube of aggregate](aggregate-cube.md) compares the moduli of the inner contacts.", ""]
 
 
 def section():

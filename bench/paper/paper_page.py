@@ -21,10 +21,10 @@ def pages(runs):
     cells = Cells(REASONS)
     main = [*verdict(runs), *stiffness(runs, cells), *contacts(runs, cells), *paper_figures.calibrated(), *pictures()]
     details = [*details_head(), *composition(runs, cells), *design(committed(DESIGN[0])), *paper_figures.gradation(),
-               *paper_figures.numbers_of_spheres(), *orientation(runs), *paper_figures.directions(runs),
+               *paper_figures.numbers_of_spheres(), *orientation(runs),
                *paper_laws.section(), *paper_figures.stepped()]
     cells.check()
-    after = prose(runs, rows(RESULTS / "paper-study.csv"), rows(RESULTS / "paper-specimens-time.csv"))
+    after = prose(runs, rows(RESULTS / "paper-study.csv"))
     details += [*after(cells.used), *paper_open.section()]
     return ("\n".join(lines).rstrip() + "\n" for lines in (main, details))
 

@@ -5,7 +5,7 @@ import math
 from collections import namedtuple
 
 from paper_data import between, listed, mean, minus
-from paper_document import deviations
+
 from paper_study import OURS, Choice, choice_of, merits
 from paper_tables import BOX, CLASSES, CLUSTERS, COARSE, DEVIATION, ICO_OVER_POLY, PAPER, mean_sphere
 
@@ -79,14 +79,14 @@ def number(f):
     voids = [(n, k, f.void(n, [k])) for n in CLUSTERS for k in range(3)]
     by_size = [f"{n[3:]} {CLASSES[k]} (number × {v.ratio:.2f}, of which sizes explain × {v.size:.2f})" for n, k, v in voids
                if v.ratio > 1.1 and v.size - 1 > 0.5 * (v.ratio - 1)]
-    return f"""*Fewer aggregates in the three large classes.* Shares refer to the volumes of spheres. The same share
-        therefore needs more clusters if the clusters have voids or are smaller. In the following cells the mean L^I
-        of the paper is smaller than ours, which explains most or all of the larger number of aggregates:
-        {', '.join(by_size)}. Why the size is smaller in the paper is *not explained*; in the largest class it may be
-        chance. In the other cells the sizes are nearly equal, and voids may be
-        the cause (*inferred*). With voids of 0.24 (coarse) and 0.12 (fine), Ico has {made['MS-Ico-coarse, voids']} and
-        {made['MS-Ico-fine, voids']} aggregates; the paper has {paper['coarse']} and {paper['fine']}, and without voids
-        Ico has {made['MS-Ico-coarse']} and {made['MS-Ico-fine']}."""
+    return f"""*Fewer aggregates in the three large classes.* A share is a fraction of the volume of spheres. The
+        same share therefore needs more clusters if the clusters have voids or are smaller. In the following cells the
+        paper's smaller mean L^I explains most or all of its larger number of aggregates: {', '.join(by_size)}. Why
+        the size is smaller in the paper is *not explained*; in the largest class it may be chance. In the other cells
+        the sizes are nearly equal, and voids may be the cause (*inferred*): the three large classes of Ico-coarse
+        have {made['MS-Ico-coarse']} aggregates without voids, {made['MS-Ico-coarse, voids']} with voids of 0.24, and
+        {paper['coarse']} in the paper; the classes of Ico-fine have {made['MS-Ico-fine']} without voids,
+        {made['MS-Ico-fine, voids']} with voids of 0.12, and {paper['fine']} in the paper."""
 
 
 def small_class(f):
@@ -96,20 +96,18 @@ def small_class(f):
     ball = [math.pi / 6 * p.size[3] ** 3 for p in (poly, ico)]
     mine = [1e9 * f.of(n, "volume", 3) * BOX / f.of(n, "particles", 3) for n in names]
     weighted = [f.weighted_size(n, 3) for n in names]
-    larger = ", ".join(f"{f.weighted_size('MS-Ico-fine', k):.1f} ({ico.size[k]:.1f})" for k in range(3))
+    
     return f"""*2.0–4.75 mm of the fine specimens.* The paper's mean L^I of {poly.size[3]} and {ico.size[3]} mm (Poly
-        and Ico; 3.1 to 3.3 in its three other specimens) does not agree with the volumes in the paper. There the
-        spheres of an aggregate have {several(volume, '{:.1f}')} mm³, and a ball with this L^I as diameter has
-        {several(ball, '{:.0f}')} mm³. Our aggregates
-        have a mean L^I of {f.of(names[0], 'size', 3):.1f} mm and {several(mine, '{:.1f}')} mm³. If each of our
-        aggregates is weighted by its number of spheres, the mean L^I is {several(weighted)} mm, near the values of
-        the paper. In the larger classes of Ico, however, this weighted mean is {larger} mm (paper in brackets), so
-        the other values of the paper are not weighted in this way. *Not explained.* The numbers of aggregates follow
+        and Ico; 3.1 to 3.3 in its three other specimens) does not agree with its volumes: the spheres of an aggregate
+        have {several(volume, '{:.1f}')} mm³, but a ball with this L^I as diameter has {several(ball, '{:.0f}')} mm³.
+        Our aggregates have a mean L^I of {f.of(names[0], 'size', 3):.1f} mm and {several(mine, '{:.1f}')} mm³.
+        Weighted by the number of spheres, our mean L^I is {several(weighted)} mm, near the paper's; but the paper's
+        values of the larger classes are not weighted in this way. *Not explained.* The numbers of aggregates follow
         from these volumes. Voids of 0.12 change the number of spheres of Ico from
         {f.count('MS-Ico-fine', 'spheres_3'):,} to {f.count('MS-Ico-fine, voids', 'spheres_3'):,} (paper
-        {ico.spheres[3]:,}), because a cluster of eight spheres is then larger, and the number of spheres of Poly from
-        {f.count('MS-Poly-fine', 'spheres_3'):,} to {f.count('MS-Poly-fine, voids', 'spheres_3'):,} (paper
-        {poly.spheres[3]:,}). *Inferred:* voids are the main cause."""
+        {ico.spheres[3]:,}) and of Poly from {f.count('MS-Poly-fine', 'spheres_3'):,} to
+        {f.count('MS-Poly-fine, voids', 'spheres_3'):,} (paper {poly.spheres[3]:,}). *Inferred:* voids are the main
+        cause."""
 
 
 def coarse_spheres(f):
@@ -118,23 +116,20 @@ def coarse_spheres(f):
         return f"{min(of):.2f} to {max(of):.2f}"
 
     least = 4 / 3 * math.pi * 1.45e-3**3 / mean_sphere(COARSE)
-    return f"""*Fewer spheres in the large coarse classes.* Our radii are uniform in 1–2 mm. The mean volume of a
-        sphere in the paper (share of ΣV_s divided by the number of spheres) is {ratios('coarse', (0, 1))} times the
-        mean volume of our spheres (fine specimens:
-        {ratios('fine', range(3))}), so the same volume needs more spheres. *Inferred:* the coarse radii of the paper
-        have a narrower distribution than ours. The mean radius of 1.5 mm in the paper was at least 1.45 mm before
-        rounding, and equal spheres of
-        1.45 mm already have {least:.2f} of our mean volume. The paper does not state the distribution."""
+    return f"""*Fewer spheres in the large coarse classes.* The mean volume of a sphere in the paper (share of ΣV_s
+        divided by the number of spheres) is {ratios('coarse', (0, 1))} times ours (fine specimens:
+        {ratios('fine', range(3))}), so the same volume needs more spheres. The paper does not state the distribution
+        of radii; ours is uniform in 1–2 mm. *Inferred:* the paper's distribution is narrower. Its mean radius of
+        1.5 mm was at least 1.45 mm before rounding, and equal spheres of 1.45 mm have {least:.2f} of our mean
+        volume."""
 
 
 def spheres_follow(f):
     name, k = "MS-Poly-coarse", 2
-    paper, single = PAPER[name], 100 * f.of(name, "single_volume", k) / f.of(name, "volume", k)
-    return f"""*Fewer spheres of 4.75–9.5 mm in Poly-coarse,* because the number of aggregates is smaller (ᵃ). An
-        aggregate has {f.of(name, 'spheres', k) / f.of(name, 'particles', k):.1f} spheres, in the paper
-        {paper.spheres[k] / paper.particles[k]:.1f}. {f.of(name, 'single', k):.0f} of our aggregates are single
-        spheres, with {single:.0f} % of the volume of the class; the paper does not state how many of its aggregates
-        are single spheres."""
+    paper = PAPER[name]
+    return f"""*Fewer spheres of 4.75–9.5 mm in Poly-coarse,* because the number of aggregates is smaller (ᵃ). The
+        mean number of spheres of an aggregate is {f.of(name, 'spheres', k) / f.of(name, 'particles', k):.1f}, in the
+        paper {paper.spheres[k] / paper.particles[k]:.1f}."""
 
 
 def smaller_size(f):
@@ -151,12 +146,11 @@ def aggregate_contacts(f):
                                       for c in (OURS, Choice(voids=1), Choice(test="spheres"), both))
     off = [100 * (n / PAPER[name].contacts[0] - 1) for n, name in zip(f.counts(both, "A-A"), CLUSTERS)]
     return f"""*Fewer A-A contacts.* In SS the numbers of A-A contacts agree within {ss:.0f} %; in the specimens of
-        clusters they differ. Our clusters are kept
-        apart by an exact test of their surfaces, and mastic lies between most of them. The paper fills an aggregate before it
-        places it, and does not state how it tests that aggregates do not overlap. If only the spheres are tested,
-        clusters interlock. In the order of the table, our numbers are {ours}; {voids} with voids; {spheres} if only
-        the spheres are tested; and {together} with voids and this test, which differs from the paper by
-        {between(off, '{:+.0f}')} %. *Inferred:* voids, this test, and
+        clusters they differ. An exact test of their surfaces keeps our clusters apart, and mastic lies between most of
+        them. The paper does not state how it tests that aggregates do not overlap. If only the spheres are tested,
+        clusters interlock. In the order of the table, our numbers of A-A contacts are {ours}; {voids} with voids;
+        {spheres} if only the spheres are tested; and {together} with voids and this test, which differs from the paper
+        by {between(off, '{:+.0f}')} %. *Inferred:* voids, this test, and
         [further choices](#choices-that-the-paper-does-not-state)."""
 
 
@@ -171,30 +165,24 @@ def other_contacts(f):
 
 
 def deviation(f):
-    coarse, fine = ([mean(d[-1] for d in deviations(f.runs, f"MS-{s}-{r}", "SS", "e_star")) for s in ("Poly", "Ico")]
-                    for r in ("coarse", "fine"))
+    
     _, best, of = merits(f.variants.values())[0]
-    e, phi = (listed([f"{of[n].deviations[k]:+.0f} ({DEVIATION[n][k]:+d})" for n in CLUSTERS]) for k in (0, 1))
-    return f"""*|E\\*| and φ against SS.* The coarse clusters are stiffer by {several(coarse, '{:.0f}')} % (Poly and
-        Ico), the fine clusters by {several(fine, '{:.0f}')} %. φ falls by less than in the paper in all four specimens.
-        Among the [choices that were varied](#choices-that-the-paper-does-not-state) the best set ({best.label}) changes
-        |E\\*| by {e} % and φ by {phi} %, in the order of the table, with the paper's values in brackets."""
+    e, phi = (max(abs(of[n].deviations[k] - DEVIATION[n][k]) for n in CLUSTERS) for k in (0, 1))
+    return f"""*|E\\*| and φ against SS.* [Other choices](#choices-that-the-paper-does-not-state) reproduce the paper
+        more closely. With the best set ({best.label}) |E\\*| differs from the paper's by at most {e:.0f} points, and φ
+        by at most {phi:.0f} points."""
 
 
 def shape(f):
     e, same, phi = ([f.between(f"MS-Ico-{r}", f"MS-Poly-{r}{given}", key) for r in ("coarse", "fine")] for given, key in
                     (("", "e_star_pa"), (", composition of Ico", "e_star_pa"), (", composition of Ico", "phase_deg")))
-    poly, ico = (PAPER[f"MS-{s}-coarse"] for s in ("Poly", "Ico"))
-    box = [f"{sum(p.volume(k) for k in range(4)):.3f} and {p.volume(4):.3f}" for p in (ico, poly)]
+    
     return f"""*Ico against Poly.* Table 3, and therefore our scenes, give Ico more aggregate and less mastic than
-        Poly: in the coarse specimens {box[0]} of the box for Ico, and {box[1]} for Poly. If Poly has the composition
-        of Ico (seed 1, mean of 2 and 20 Hz),
-        |E\\*| of Ico differs from Poly's by {several(same, '{:+.1f}')} % (coarse and fine) instead of
-        {several(e, '{:+.1f}')} %, and φ by {several(phi, '{:+.1f}')} %. The difference in composition therefore
-        explains our difference in |E\\*| between Ico and Poly; for fine filling its effect is even larger than this
-        difference. At equal composition φ of Ico-fine is higher by the
-        same amount as in the paper ({ICO_OVER_POLY['fine'][1]:+} %). The compositions in the paper are not equal. Why
-        its specimens differ as if they had equal compositions is *not explained*."""
+        Poly. If Poly has the composition of Ico (seed 1, mean of 2 and 20 Hz), |E\\*| of Ico differs from Poly's by
+        {several(same, '{:+.1f}')} % (coarse and fine) instead of {several(e, '{:+.1f}')} %, and φ by
+        {several(phi, '{:+.1f}')} % (paper {ICO_OVER_POLY['fine'][1]:+} % for fine). The difference in composition
+        therefore explains our difference in |E\\*| between Ico and Poly. Why the paper's specimens differ as if they
+        had equal compositions is *not explained*."""
 
 
 REASONS = [

@@ -79,10 +79,9 @@ CLUSTERS = list(PAPER)[1:]
 # Fig. 11, numbers from the paper's text: mean deviation from SS over the frequencies, of |E*| and of phi in %
 DEVIATION = {"MS-Poly-coarse": (19, -18), "MS-Poly-fine": (33, -31),
              "MS-Ico-coarse": (19, -18), "MS-Ico-fine": (34, -29)}
-# Section 4.4: delta of M-M contacts, the rock, and moduli of contacts inside aggregates
+# Section 4.4: delta of M-M contacts, and the rock
 DELTA_MM = {"AM1": 1.88, "AM2": 1.90}
 ROCK = {"E": 60.0, "nu": 0.28}  # GPa
-INNER_GPA = {"fine": 112.5, "coarse": 111.6}
 # Figs. 12 and 13: delta_MA with which each specimen has the |E*| of SS, by mix
 DELTA_MA = {"AM1": {"SS": 3.15, "MS-Poly-coarse": 1.68, "MS-Ico-coarse": 1.68, "MS-Poly-fine": 1.00,
                     "MS-Ico-fine": 1.00},
