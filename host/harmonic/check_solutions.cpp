@@ -215,9 +215,14 @@ class Check {
                     moment(&AreaMoments::st) * turned, moment(&AreaMoments::tt) * over_d};
     const Factor<at_once> k = single ? stiffness_of(g) : k_[g.pair[0]];
     const L alpha = of_contact([&](int f) { return alpha_[g.pair[f]]; });
+    Factor<at_once> normal = k, shear = k;
+    if (g.in_series) {
+      const L series = of_contact([&](int f) { return at(f).series; });
+      normal = in_series(k, series), shear = in_series(k, alpha * series);
+    }
     L u[6], density[6];
     kernels::relative_rates(frame, own, other, u);
-    for (std::size_t c = 0; c < 6; ++c) density[c] = k(u[c]);
+    for (std::size_t c = 0; c < 6; ++c) density[c] = c < 3 ? normal(u[c]) : shear(u[c]);
     const kernels::FacetLoad<L> load = kernels::condensed_load(density, alpha, m);
     const auto on = kernels::to_centres(frame, load);
     out.sum.linear += on.force_a, out.sum.angular += on.moment_a;
@@ -228,7 +233,7 @@ class Check {
         pairs[g.pair[i]].add(load, u, of_contact([&](int f) { return f == i ? share(g.far[f]) : 0.0; }));
       }
     }
-    if (rounding_ > 0) add_largest(g, k, own, other, out);
+    if (rounding_ > 0) add_largest(g, normal, own, other, out);
   }
 
   /// Returns the fraction of a contact's product that is added when the contact is visited from one particle: 1/2 for a
