@@ -48,8 +48,8 @@ struct ContactGroup {
   double own_arm[N], far_arm[N];  ///< lever arms of this particle and of the other end [m]
   std::int32_t far[N];            ///< the other end: a particle, or a wall (negative)
   std::size_t pair[N];
-  int count;          ///< number of valid contacts, at most N
-  bool alike = true;  ///< whether all contacts are of the same pair type
+  int count;               ///< number of valid contacts, at most N
+  bool alike = true;       ///< whether all contacts are of the same pair type
   bool in_series = false;  ///< whether a contact has rock in series with its law
 
   /// Reads the contacts at the entries `at`, `at` + 1, … of ContactNetwork::rows, at most N of them, and none at `end`

@@ -35,7 +35,7 @@ struct LinearSystem {
   std::vector<std::size_t> row_begin;  ///< body → first of its ends; bodies + 1 entries
   RawVector<ContactEnd> ends;
   std::vector<double> series;  ///< [end] Contact::series [1/Pa]; empty if it is zero everywhere
-  std::vector<double> mass;  ///< [body][2]: mass [kg], moment of inertia [kg·m²]
+  std::vector<double> mass;    ///< [body][2]: mass [kg], moment of inertia [kg·m²]
   RealStiffness typical;
   std::vector<Lever> lever;            ///< [body]
   std::vector<std::int32_t> box_body;  ///< box → first body; boxes + 1 entries

@@ -25,8 +25,8 @@ MACADAM_HD void add_block(const ContactEnd& e, double k, double alpha, double se
     double unit[6] = {0, 0, 0, 0, 0, 0}, load[6];
     unit[c] = 1;
     to_array(end_load(
-                 e, to_twist(unit), Twist<double>{}, [=](double u, bool in_shear) { return (in_shear ? shear : normal) * u; },
-                 alpha),
+                 e, to_twist(unit), Twist<double>{},
+                 [=](double u, bool in_shear) { return (in_shear ? shear : normal) * u; }, alpha),
              load);
     for (int r = 0; r < 6; ++r) block[6 * c + r] -= load[r];
   }

@@ -248,8 +248,8 @@ std::vector<double> invert_particle_blocks(const LinearSystem& system, const ker
     double block[36] = {};
     for (std::size_t at = system.row_begin[i]; at < system.row_begin[i + 1]; ++at) {
       const auto pair = static_cast<std::size_t>(system.ends[at].pair);
-      kernels::add_block(system.ends[at], system.typical.k[pair], system.typical.alpha[pair],
-                         system.series_of(at), block);
+      kernels::add_block(system.ends[at], system.typical.k[pair], system.typical.alpha[pair], system.series_of(at),
+                         block);
     }
     if (kernels::invert_block(block) > system.own_motions[i]) loose = std::min(loose, static_cast<std::int64_t>(i));
     std::copy(std::begin(block), std::end(block), &out[36 * i]);

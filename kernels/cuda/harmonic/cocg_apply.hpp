@@ -107,8 +107,8 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     return to_twist(six);
   };
   // Adds the load that end number `slice` of `count` puts on the body. `first`: index of the first of these ends.
-  const auto add_load = [&](const StagedEnds<slices>& ends, std::size_t first, unsigned count,
-                            const Twist<double>& own, Twist<double>& sum) {
+  const auto add_load = [&](const StagedEnds<slices>& ends, std::size_t first, unsigned count, const Twist<double>& own,
+                            Twist<double>& sum) {
     const unsigned mine = slice < count ? slice : 0;
     const ContactEnd& e = ends[mine];
     LaneFactor normal{own_k[e.pair][lane], cross_k[e.pair][lane]}, shear = normal;

@@ -24,7 +24,7 @@ struct SystemMemory {
   DeviceArray<std::int32_t> particle;
   DeviceArray<std::size_t> row_begin;
   DeviceArray<ContactEnd> ends;
-  DeviceArray<double> series;  ///< LinearSystem::series
+  DeviceArray<double> series;                 ///< LinearSystem::series
   DeviceArray<double> mass, motion, inverse;  ///< inverse: packed blocks, filled in by invert_blocks
   DeviceArray<Lever> lever;
   /// Arrays of which each member of the team has its own.

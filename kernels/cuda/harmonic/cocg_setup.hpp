@@ -12,9 +12,9 @@ namespace macadam::kernels {
 
 /// Computes K_ii⁻¹ of every body, packed. `singular_body` receives the first body whose own stiffness is singular for
 /// more motions than `own_motions` says.
-static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends, const double* series,
-                                     RealStiffness typical, const std::uint8_t* own_motions, double* inverse,
-                                     unsigned long long* singular_body) {
+static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
+                                     const double* series, RealStiffness typical, const std::uint8_t* own_motions,
+                                     double* inverse, unsigned long long* singular_body) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
   if (i >= bodies) return;
   double block[36] = {};
