@@ -88,6 +88,41 @@ TEST(SeriesContacts, AgreeWithADenseSolution) {
   }
 }
 
+// On a network with α = 1 and one law everywhere a uniform strain without lateral strain is the solution, so ν = 0.
+// The tolerance is the residual of the solution times its condition number.
+TEST(PoissonRatio, IsZeroIfNormalAndShearStiffnessAreEqual) {
+  Laws laws;
+  laws.fill(laws::Elastic{2e10, 1.0});
+  const Specimen specimen = random_specimen(4);
+  const Tessellation cells = tessellate(specimen);
+  const ContactNetwork network = build_network(specimen, cells);
+  const Inertia inertia = make_inertia(specimen, 1, 1);
+  const HarmonicResult found = Harmonic(specimen, network, laws, inertia, {}, 1).solve(1);
+  EXPECT_NEAR(found.top.e_star_pa, 2e10, 2e10 * 1e-10);
+  const auto ratio = poisson_ratio(specimen, cells, found.motion);
+  ASSERT_TRUE(ratio);
+  EXPECT_NEAR(std::abs(*ratio), 0, 1e-8);
+}
+
+// With a smaller shear stiffness the sides move inwards: 0 < ν < (1 − α)/(4 + α), the value of a uniform strain, or a
+// little above it because the spheres move non-uniformly.
+TEST(PoissonRatio, GrowsAsTheShearStiffnessFalls) {
+  const Specimen specimen = random_specimen(4);
+  const Tessellation cells = tessellate(specimen);
+  const ContactNetwork network = build_network(specimen, cells);
+  const Inertia inertia = make_inertia(specimen, 1, 1);
+  double before = 0;
+  for (const double alpha : {0.6, 0.3, 0.1}) {
+    Laws laws;
+    laws.fill(laws::Elastic{2e10, alpha});
+    const HarmonicResult found = Harmonic(specimen, network, laws, inertia, {}, 1).solve(1);
+    const double ratio = poisson_ratio(specimen, cells, found.motion)->real();
+    EXPECT_GT(ratio, before) << "alpha " << alpha;
+    EXPECT_NEAR(ratio, (1 - alpha) / (4 + alpha), 0.3 * (1 - alpha) / (4 + alpha)) << "alpha " << alpha;
+    before = ratio;
+  }
+}
+
 // With α = 1 an elastic law and rock in series are one spring of another length.
 TEST(SeriesContacts, AreLongerContactsIfAllIsElastic) {
   Laws laws;
