@@ -31,15 +31,15 @@ Complex component(const Contact& c, const Complex& n, const Complex& s, const Co
   return n * (c.n.*axis) + s * (c.s.*axis) + t * (c.t.*axis);
 }
 
-/// Returns, for each pair type, the stretch x_l of each Kelvin unit l per unit of relative displacement: f = k*·x, x_l
-/// = f/(k_l + iω·η_l).
+/// Returns, for each pair type, the stretch x_l of each Kelvin unit l per unit of the force density f: x_l = f/(k_l +
+/// iω·η_l).
 std::array<std::vector<Complex>, pair_types> stretches(const std::array<std::optional<Law>, pair_types>& laws,
                                                        Complex s) {
   std::array<std::vector<Complex>, pair_types> out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;
     with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [&](const auto& law) {
-      for (int l = 0; l < law.units(); ++l) out[pair].push_back(law.stiffness(s) * law.unit_compliance(l, s));
+      for (int l = 0; l < law.units(); ++l) out[pair].push_back(law.unit_compliance(l, s));
     });
   }
   return out;
@@ -98,7 +98,10 @@ std::vector<FieldArray> contact_arrays(const ContactNetwork& network,
   std::size_t most = 0;
   for (std::size_t c = 0; c < contacts; ++c) most = std::max(most, of_pair(c).size());
   for (std::size_t l = 0; l < most; ++l) {
-    const auto stretch = [&](std::size_t c, int k) { return l < of_pair(c).size() ? of_pair(c)[l] * six(c, k) : 0.0; };
+    const auto stretch = [&](std::size_t c, int k) -> Complex {
+      if (l >= of_pair(c).size()) return 0;
+      return contact_stiffness(network.contacts[c], stiffness)[k / 3] * of_pair(c)[l] * six(c, k);
+    };
     add_parts("stretch_" + std::to_string(l + 1), relative_unit, contacts, 6, stretch, out);
   }
   return out;

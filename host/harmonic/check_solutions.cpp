@@ -36,6 +36,8 @@ struct Sums {
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       parts.normal[pair] += o.parts.normal[pair];
       parts.shear[pair] += o.parts.shear[pair];
+      parts.normal_rock[pair] += o.parts.normal_rock[pair];
+      parts.shear_rock[pair] += o.parts.shear_rock[pair];
     }
   }
 };
@@ -81,7 +83,16 @@ class Check {
   /// Sums of load times relative displacement over the contacts of one pair type. `share` is the fraction of a contact
   /// that is added (see share()).
   struct PairProducts {
-    Products<at_once> normal, shear;
+    Products<at_once> normal, shear, normal_rock, shear_rock;
+    /// Adds the parts of these products that the rock in series causes: the fraction series·k of a contact with the
+    /// stiffness k, of which α is a factor in shear.
+    void add_rock(const kernels::FacetLoad<L>& load, const L (&u)[6], L share, const Factor<at_once>& in_normal,
+                  const Factor<at_once>& in_shear) {
+      normal_rock.add(in_normal(load.n * share), u[0]), normal_rock.add(in_normal(-load.moment_t * share), u[1]);
+      normal_rock.add(in_normal(load.moment_s * share), u[2]);
+      shear_rock.add(in_shear(load.s * share), u[3]), shear_rock.add(in_shear(load.t * share), u[4]);
+      shear_rock.add(in_shear(load.moment_n * share), u[5]);
+    }
     void add(const kernels::FacetLoad<L>& load, const L (&u)[6], L share) {
       normal.add(load.n * share, u[0]), normal.add(-load.moment_t * share, u[1]);
       normal.add(load.moment_s * share, u[2]);
@@ -138,6 +149,8 @@ class Check {
         ModulusParts& parts = out[single ? 0 : static_cast<std::size_t>(f)].parts;
         parts.normal[pair] += pairs[pair].normal.plain(f);
         parts.shear[pair] += pairs[pair].shear.plain(f);
+        parts.normal_rock[pair] += pairs[pair].normal_rock.plain(f);
+        parts.shear_rock[pair] += pairs[pair].shear_rock.plain(f);
       }
     }
     return out;
@@ -219,20 +232,29 @@ class Check {
                     moment(&AreaMoments::st) * turned, moment(&AreaMoments::tt) * over_d};
     const Factor<at_once> k = single ? stiffness_of(g) : k_[g.pair[0]];
     const L alpha = of_contact([&](int f) { return alpha_[g.pair[f]]; });
+    Factor<at_once> normal = k, shear = k;
+    const L series = g.in_series ? of_contact([&](int f) { return at(f).series; }) : L();
+    if (g.in_series) normal = in_series(k, series), shear = in_series(k, alpha * series);
     L u[6], density[6];
     kernels::relative_rates(frame, own, other, u);
-    for (std::size_t c = 0; c < 6; ++c) density[c] = k(u[c]);
+    for (std::size_t c = 0; c < 6; ++c) density[c] = c < 3 ? normal(u[c]) : shear(u[c]);
     const kernels::FacetLoad<L> load = kernels::condensed_load(density, alpha, m);
     const auto on = kernels::to_centres(frame, load);
     out.sum.linear += on.force_a, out.sum.angular += on.moment_a;
+    const auto add_products = [&](std::size_t pair, L of_share) {
+      pairs[pair].add(load, u, of_share);
+      if (!g.in_series) return;
+      const L in_shear = alpha * series;
+      pairs[pair].add_rock(load, u, of_share, {series * normal.real, series * normal.imaginary},
+                           {in_shear * shear.real, in_shear * shear.imaginary});
+    };
     if (g.alike) {
-      pairs[g.pair[0]].add(load, u, of_contact([&](int f) { return share(g.far[f]); }));
+      add_products(g.pair[0], of_contact([&](int f) { return share(g.far[f]); }));
     } else {
-      for (int i = 0; i < g.count; ++i) {
-        pairs[g.pair[i]].add(load, u, of_contact([&](int f) { return f == i ? share(g.far[f]) : 0.0; }));
-      }
+      for (int i = 0; i < g.count; ++i)
+        add_products(g.pair[i], of_contact([&](int f) { return f == i ? share(g.far[f]) : 0.0; }));
     }
-    if (rounding_ > 0) add_largest(g, k, own, other, out);
+    if (rounding_ > 0) add_largest(g, normal, own, other, out);
   }
 
   /// Returns the fraction of a contact's product that is added when the contact is visited from one particle: 1/2 for a

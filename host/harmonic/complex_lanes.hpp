@@ -80,6 +80,15 @@ struct Factor {
   Lanes<F> operator()(Lanes<F> x) const { return real * x + imaginary * x.swapped(); }
 };
 
+/// Returns the stiffnesses k in series with springs of compliance `series`, 1/(1/k + series), for each solution. Both
+/// lanes of a number of `series` hold the same real number.
+template <int F>
+Factor<F> in_series(const Factor<F>& k, Lanes<F> series) {
+  const auto re = k.real.v, im = k.imaginary.v, r = series.v, one = 1 + r * re, turn = r * im;
+  const auto square = one * one + turn * turn;  // |1 + series·k|²
+  return {(re + r * (re * re + im * im)) / square, im / square};
+}
+
 /// The sums Σ x·y without conjugates and Re Σ conj(x)·y, for each solution.
 template <int F>
 struct Products {

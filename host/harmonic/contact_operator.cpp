@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "host/harmonic/law_stiffness.hpp"
+#include "kernels/harmonic/contact_end.hpp"
 #include "kernels/base/parallel.hpp"
 
 namespace macadam::harmonic {
@@ -30,9 +31,9 @@ namespace {
 
 Placement<double> placement_of(const Contact& c) { return {c.n, c.s, c.t, c.arm_a, c.arm_b}; }
 
-std::array<double, 6> moments_over_distance(const Contact& c) {
-  return {c.moments.a / c.distance,  c.moments.s / c.distance,  c.moments.t / c.distance,
-          c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
+std::array<double, 6> moments_over_length(const Contact& c) {
+  return {c.moments.a / c.length,  c.moments.s / c.length,  c.moments.t / c.length,
+          c.moments.ss / c.length, c.moments.st / c.length, c.moments.tt / c.length};
 }
 
 /// Returns the six relative displacements of a contact. `a` and `b` are the motions of its two ends (six numbers each),
@@ -55,6 +56,12 @@ std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const
 
 }  // namespace
 
+std::array<Complex, 2> contact_stiffness(const Contact& c, const PairStiffness& stiffness) {
+  const auto pair = static_cast<std::size_t>(c.pair);
+  const Complex k = stiffness.k[pair];
+  return {kernels::in_series(k, c.series), kernels::in_series(k, stiffness.alpha[pair] * c.series)};
+}
+
 double length(const Vector& x) {
   return std::sqrt(sum_in_parallel<double>(x.size(), [&](std::size_t i) { return std::norm(x[i]); }));
 }
@@ -76,8 +83,9 @@ kernels::FacetLoad<Complex> facet_load(const Contact& c, const PairStiffness& st
                                        const std::array<Complex, 6>& u) {
   const auto pair = static_cast<std::size_t>(c.pair);
   Complex density[6];
-  for (std::size_t k = 0; k < 6; ++k) density[k] = stiffness.k[pair] * u[k];
-  const std::array<double, 6> real = moments_over_distance(c);
+  const auto k = contact_stiffness(c, stiffness);
+  for (std::size_t i = 0; i < 6; ++i) density[i] = k[i / 3] * u[i];
+  const std::array<double, 6> real = moments_over_length(c);
   const Complex alpha = stiffness.alpha[pair], m[6] = {real[0], real[1], real[2], real[3], real[4], real[5]};
   return kernels::condensed_load(density, alpha, m);
 }
@@ -85,15 +93,15 @@ kernels::FacetLoad<Complex> facet_load(const Contact& c, const PairStiffness& st
 ContactOperator::Load ContactOperator::contact_load(const Contact& c, const PairStiffness& stiffness,
                                                     const std::array<Complex, 6>& u) {
   const Placement<double> placement = placement_of(c);
-  const std::array<double, 6> moments = moments_over_distance(c);
+  const std::array<double, 6> moments = moments_over_length(c);
   double m[6];
   std::copy(moments.begin(), moments.end(), m);
   const auto pair = static_cast<std::size_t>(c.pair);
-  const Complex k = stiffness.k[pair];
+  const auto k = contact_stiffness(c, stiffness);
   Load load;
   const auto part = [&](auto&& part_of, auto&& set) {
     double f[6];
-    for (std::size_t i = 0; i < 6; ++i) f[i] = part_of(k * u[i]);
+    for (std::size_t i = 0; i < 6; ++i) f[i] = part_of(k[i / 3] * u[i]);
     const auto at = kernels::to_centres(placement, kernels::condensed_load(f, stiffness.alpha[pair], m));
     const double on_a[6] = {at.force_a.x, at.force_a.y, at.force_a.z, at.moment_a.x, at.moment_a.y, at.moment_a.z};
     const double on_b[6] = {-at.force_a.x, -at.force_a.y, -at.force_a.z, at.moment_b.x, at.moment_b.y, at.moment_b.z};

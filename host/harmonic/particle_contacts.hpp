@@ -44,12 +44,13 @@ template <int N>
 struct ContactGroup {
   const Contact* contact[N];
   double sign[N];                 ///< 1 at the contact's first end; −1 at its second end, where n and t are reversed
-  double over_d[N];               ///< 1/distance [1/m]
+  double over_d[N];               ///< 1/length of the law's material [1/m]
   double own_arm[N], far_arm[N];  ///< lever arms of this particle and of the other end [m]
   std::int32_t far[N];            ///< the other end: a particle, or a wall (negative)
   std::size_t pair[N];
-  int count;          ///< number of valid contacts, at most N
-  bool alike = true;  ///< whether all contacts are of the same pair type
+  int count;               ///< number of valid contacts, at most N
+  bool alike = true;       ///< whether all contacts are of the same pair type
+  bool in_series = false;  ///< whether a contact has rock in series with its law
 
   /// Reads the contacts at the entries `at`, `at` + 1, … of ContactNetwork::rows, at most N of them, and none at `end`
   /// or beyond.
@@ -62,7 +63,8 @@ struct ContactGroup {
       const bool first = static_cast<std::size_t>(c.a) == particle;
       contact[f] = &c;
       sign[f] = first ? 1 : -1;
-      over_d[f] = 1 / c.distance;
+      over_d[f] = 1 / c.length;
+      in_series = in_series || c.series != 0;
       own_arm[f] = first ? c.arm_a : c.arm_b;
       far_arm[f] = first ? c.arm_b : c.arm_a;
       far[f] = first ? c.b : c.a;

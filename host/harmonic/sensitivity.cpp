@@ -25,16 +25,20 @@ std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable
     out.push_back(
         {std::move(parameter), std::abs(modulus) * relative.real(), relative.imag() * 180 / std::numbers::pi});
   };
+  Complex all_rock = 0;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
-    const Complex whole = parts.normal[pair] + parts.shear[pair];
+    const Complex rock = parts.normal_rock[pair] + parts.shear_rock[pair],
+                  whole = parts.normal[pair] + parts.shear[pair] - rock;
+    all_rock += rock;
     if (!laws[pair] || whole == 0.0) continue;
     const std::string prefix = std::string(to_string(static_cast<PairType>(pair))) + ".";
     with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [&](const auto& law) {
       law.each_parameter(s, [&](const std::string& name, Complex change) { add(prefix + name, whole * change); });
-      if (law.alpha != 0) add(prefix + "alpha", parts.shear[pair]);
+      if (law.alpha != 0) add(prefix + "alpha", parts.shear[pair] - parts.shear_rock[pair]);
     });
     add(prefix + "delta", whole);
   }
+  if (all_rock != 0.0) add("rock.E", all_rock);
   if (parts.inertia != 0.0) add("density_scaling", parts.inertia);
   return out;
 }

@@ -31,33 +31,30 @@ StartState steady_start(const ContactNetwork& network, const LawTable& laws,
     out.velocity.push_back(vector(rate, m));
     out.spin.push_back(vector(rate, m + 3));
   }
-  struct Response {  // complex response of a law at ω
-    Complex stiffness;
-    std::vector<Complex> unit_compliance;
-  };
-  std::array<Response, pair_types> response;
+  const PairStiffness of_pairs = pair_stiffness(laws, s);
+  std::array<std::vector<Complex>, pair_types> unit_compliance;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;
     with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [&](const auto& law) {
-      response[pair].stiffness = before * law.stiffness(s);
-      for (int l = 0; l < law.units(); ++l) response[pair].unit_compliance.push_back(law.unit_compliance(l, s));
+      for (int l = 0; l < law.units(); ++l) unit_compliance[pair].push_back(law.unit_compliance(l, s));
     });
   }
   std::size_t numbers = 0;
   for (const Contact& c : network.contacts) {
     out.chain_begin.push_back(numbers);
-    numbers += 6 * (1 + response[static_cast<std::size_t>(c.pair)].unit_compliance.size());
+    numbers += 6 * (1 + unit_compliance[static_cast<std::size_t>(c.pair)].size());
   }
   out.chain.resize(numbers);
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < network.contacts.size(); ++i) {
     const Contact& c = network.contacts[i];
-    const Response& of = response[static_cast<std::size_t>(c.pair)];
     double* chain = &out.chain[out.chain_begin[i]];
-    for (const Complex& x : relative_motion(c, motion, 1.0)) {
-      const Complex f = of.stiffness * x;
+    const auto stiffness = contact_stiffness(c, of_pairs);
+    const auto motions = relative_motion(c, motion, 1.0);
+    for (std::size_t component = 0; component < motions.size(); ++component) {
+      const Complex f = before * stiffness[component / 3] * motions[component];
       *chain++ = f.imag();
-      for (const Complex& unit : of.unit_compliance) *chain++ = (f * unit).imag();
+      for (const Complex& unit : unit_compliance[static_cast<std::size_t>(c.pair)]) *chain++ = (f * unit).imag();
     }
   }
   return out;

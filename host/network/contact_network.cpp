@@ -91,11 +91,11 @@ Contact geometry(const Specimen& specimen, const Facet& f) {
   c.n = f.normal;
   canonical_frame(c.n, c.s, c.t);
   if (f.b < 0) {
-    c.arm_a = c.distance = distance_to_wall(specimen, f);
+    c.arm_a = c.length = c.distance = distance_to_wall(specimen, f);
     return c;
   }
   const double ra = specimen.radius[f.a], rb = specimen.radius[f.b];
-  c.distance = norm(specimen.centre[f.b] - specimen.centre[f.a]);
+  c.length = c.distance = norm(specimen.centre[f.b] - specimen.centre[f.a]);
   c.arm_a = 0.5 * (c.distance + (ra - rb) * ((ra + rb) / c.distance));
   c.arm_b = c.distance - c.arm_a;
   return c;

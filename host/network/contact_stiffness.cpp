@@ -32,7 +32,11 @@ Matrix6 contact_block(const Contact& c, double k, double alpha, int i, int j) {
   d.topLeftCorner<3, 3>() << m.a, m.s, m.t, m.s, m.ss, m.st, m.t, m.st, m.tt;
   d.bottomRightCorner<3, 3>() << m.a, 0, -m.t, 0, m.a, m.s, -m.t, m.s, m.ss + m.tt;
   d.bottomRightCorner<3, 3>() *= alpha;
-  return generalised(c, i).transpose() * (k / c.distance * d) * generalised(c, j);
+  if (c.series != 0) {
+    d.topLeftCorner<3, 3>() /= 1 + c.series * k;
+    d.bottomRightCorner<3, 3>() /= 1 + c.series * alpha * k;
+  }
+  return generalised(c, i).transpose() * (k / c.length * d) * generalised(c, j);
 }
 
 }  // namespace macadam

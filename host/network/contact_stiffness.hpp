@@ -14,7 +14,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// Returns the stiffness block (i, j) of a contact: load on end i (force [N], moment [N·m]) per motion of end j
 /// (displacement [m], rotation [rad]). Diagonal blocks are positive semidefinite; the contact exerts the negative of
 /// this load. End 0 is A, end 1 is B. `k` [Pa] is the stiffness of the law: a facet of area A between centres at
-/// distance d has the normal stiffness k·A/d. `alpha` is the ratio of shear to normal stiffness.
+/// distance d has the normal stiffness k·A/d. `alpha` is the ratio of shear to normal stiffness. The length and the
+/// rock in series of the contact are taken into account.
 Matrix6 contact_block(const Contact& contact, double k, double alpha, int i, int j);
 
 }  // namespace macadam

@@ -52,7 +52,13 @@ struct AreaMoments {
 struct Contact {
   std::int32_t a = 0, b = 0;  ///< particle numbers in specimen order; b may be a Wall
   PairType pair = PairType::mm;
-  double distance = 0;          ///< d: distance between the centres, or from the centre to the wall [m]
+  double distance = 0;  ///< d: distance between the centres, or from the centre to the wall [m]
+  /// Length of the law's material [m]: a contact whose law has the stiffness k resists an opening with k·area/length.
+  /// It equals `distance` unless the network has the rule "series" (docs/model/contacts.md).
+  double length = 0;
+  /// Compliance of the rock in series with the law [1/Pa]: the stiffness of the contact is k/(1 + series·k) in place of
+  /// k, in shear α·k/(1 + series·α·k). Zero unless the network has the rule "series".
+  double series = 0;
   double area = 0;              ///< [m²]
   Vec3d n{}, s{}, t{};          ///< unit frame, n from a to b, s × t = n (canonical_frame of n)
   double arm_a = 0, arm_b = 0;  ///< [m]; arm_b = 0 at a wall

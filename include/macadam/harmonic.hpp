@@ -103,6 +103,13 @@ class Harmonic {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Returns the complex Poisson's ratio of a specimen with free sides: minus the mean of the two lateral strains over the
+/// axial strain. A lateral strain is the change of the mean distance of two opposite sides over their distance; the mean
+/// is over the area of the cells' facets at the sides. `motion` is HarmonicResult::motion. Returns nothing if no cell
+/// touches one of the four sides.
+std::optional<std::complex<double>> poisson_ratio(const Specimen& specimen, const Tessellation& cells,
+                                                  const std::vector<std::complex<double>>& motion);
+
 /// Returns the state from which a run by time steps is periodic at once, under a cyclic loading without a ramp.
 /// `motion`: HarmonicResult::motion, solved with the inertia and damping of the run. The states of a chain follow from
 /// f = k*(ω)·x and x_l = f/(k_l + iω·η_l).

@@ -21,7 +21,10 @@ namespace macadam {
 struct ModulusParts {
   std::array<std::complex<double>, pair_types> normal{};  ///< by PairType: opening and bending
   std::array<std::complex<double>, pair_types> shear{};   ///< slip and twist, α included
-  std::complex<double> inertia = 0;                       ///< (s² + s·β)·density scaling · uᵀ·M·u
+  /// The part of `normal` and of `shear` by which E* follows the rock in series with the laws (Contact::series): a
+  /// change of the rock's modulus by one per cent changes E* by a hundredth of it. Zero without such rock.
+  std::array<std::complex<double>, pair_types> normal_rock{}, shear_rock{};
+  std::complex<double> inertia = 0;  ///< (s² + s·β)·density scaling · uᵀ·M·u
 
   std::complex<double> modulus() const;
 };
@@ -29,13 +32,14 @@ struct ModulusParts {
 /// Change of |E*| and φ per unit of a parameter's natural logarithm. A change of the parameter by one per cent changes
 /// |E*| and φ by a hundredth of these values.
 struct Sensitivity {
-  std::string parameter;  ///< "M-A.E_m", "M-A.delta", "M-A.alpha", "density_scaling"
+  std::string parameter;  ///< "M-A.E_m", "M-A.delta", "M-A.alpha", "rock.E", "density_scaling"
   double d_e_star_pa = 0, d_phase_deg = 0;
 };
 
 /// Returns the derivatives of |E*| and φ for motions e^(s·t). They are taken with respect to every parameter of every
-/// pair that is present, to δ and α of these pairs (α only if it is not 0), and to the density scaling if there is
-/// inertia. δ multiplies all moduli and viscosities of a pair.
+/// pair that is present, to δ and α of these pairs (α only if it is not 0), to the modulus of rock in series with the
+/// laws if there is such rock, and to the density scaling if there is inertia. δ multiplies all moduli and viscosities
+/// of a pair.
 std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
 std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
                                        double) = delete;  // deleted, so that ω cannot be passed instead of s = iω

@@ -23,8 +23,15 @@ struct alignas(16) ContactEnd {
 };
 inline constexpr std::int32_t wall_at_rest = -1;
 
+/// Returns the stiffness of a law in series with a spring of compliance `series`: 1/(1/k + series). K is a real or a
+/// complex number.
+template <class K>
+MACADAM_HD K in_series(const K& k, double series) {
+  return series == 0 ? k : k / (1.0 + series * k);
+}
+
 /// Returns force and moment on this end if the two ends move by `own` and `other`. T holds one or several real numbers
-/// per component; `times(u)` multiplies them by k*(s) of the pair.
+/// per component; `times(u, shear)` multiplies them by k*(s) of the contact, in shear (slip and twist) without α.
 template <class T, class Times>
 MACADAM_HD Twist<T> end_load(const ContactEnd& e, const Twist<T>& own, const Twist<T>& other, Times&& times, T alpha) {
   const Vec3<double> n{e.n[0], e.n[1], e.n[2]}, s{e.s[0], e.s[1], e.s[2]}, t = cross(n, s);
@@ -33,7 +40,7 @@ MACADAM_HD Twist<T> end_load(const ContactEnd& e, const Twist<T>& own, const Twi
   T u[6], m[6];
   relative_rates(frame, own, other, u);
   for (int c = 0; c < 6; ++c) {
-    u[c] = times(u[c]);
+    u[c] = times(u[c], c >= 3);
     m[c] = T(e.moments[c]);
   }
   const ContactLoad<T> load = to_centres(frame, condensed_load(u, alpha, m));

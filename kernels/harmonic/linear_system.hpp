@@ -34,7 +34,8 @@ struct LinearSystem {
   std::vector<std::int32_t> particle;  ///< body → particle of the specimen
   std::vector<std::size_t> row_begin;  ///< body → first of its ends; bodies + 1 entries
   RawVector<ContactEnd> ends;
-  std::vector<double> mass;  ///< [body][2]: mass [kg], moment of inertia [kg·m²]
+  std::vector<double> series;  ///< [end] Contact::series [1/Pa]; empty if it is zero everywhere
+  std::vector<double> mass;    ///< [body][2]: mass [kg], moment of inertia [kg·m²]
   RealStiffness typical;
   std::vector<Lever> lever;            ///< [body]
   std::vector<std::int32_t> box_body;  ///< box → first body; boxes + 1 entries
@@ -44,6 +45,7 @@ struct LinearSystem {
   std::vector<std::uint8_t> own_motions;  ///< [body] number of the free motions that move this body alone
   std::vector<double> weight;             ///< [free][6·boxes]: Rᵀ·M·motion
 
+  double series_of(std::size_t end) const { return series.empty() ? 0 : series[end]; }
   std::size_t bodies() const { return row_begin.size() - 1; }
   std::size_t boxes() const { return box_body.size() - 1; }
 };

@@ -18,13 +18,15 @@ MACADAM_HD Twist<T> to_twist(const T* v) {
 }
 
 /// Adds one contact to the block: block[6·c + r] += component r of the load that is needed for a unit motion c of the
-/// particle. `k` (real) and `alpha` belong to the contact's pair.
-MACADAM_HD void add_block(const ContactEnd& e, double k, double alpha, double (&block)[36]) {
+/// particle. `k` (real) and `alpha` belong to the contact's pair; `series` is Contact::series.
+MACADAM_HD void add_block(const ContactEnd& e, double k, double alpha, double series, double (&block)[36]) {
+  const double normal = in_series(k, series), shear = in_series(k, alpha * series);
   for (int c = 0; c < 6; ++c) {
     double unit[6] = {0, 0, 0, 0, 0, 0}, load[6];
     unit[c] = 1;
     to_array(end_load(
-                 e, to_twist(unit), Twist<double>{}, [k](double u) { return k * u; }, alpha),
+                 e, to_twist(unit), Twist<double>{},
+                 [=](double u, bool in_shear) { return (in_shear ? shear : normal) * u; }, alpha),
              load);
     for (int r = 0; r < 6; ++r) block[6 * c + r] -= load[r];
   }

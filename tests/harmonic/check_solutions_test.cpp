@@ -114,7 +114,7 @@ TEST(CheckSolutions, TheSameBitsForAnyNumberOfThreads) {
 TEST(CheckSolutions, RoundingIsAShareOfLoadsThatDoNotCancel) {
   HandMade made = two_sphere_network();
   Contact& c = made.network.contacts.front();
-  c.distance = 1, c.arm_a = 0.75, c.arm_b = 0.25;
+  c.length = c.distance = 1, c.arm_a = 0.75, c.arm_b = 0.25;
   c.moments = {1, 0, 0, 0.75, 0, 0.25};
   LinearTask task;
   task.stiffness.k.fill({3, 4});

@@ -221,7 +221,7 @@ TEST(ContactOperator, EveryWallContactCountsOnceInALargeNetwork) {
     c.pair = PairType::mw;
     c.n = {0, 0, top ? 1.0 : -1.0};
     canonical_frame(c.n, c.s, c.t);
-    c.distance = c.arm_a = 0.5;
+    c.length = c.distance = c.arm_a = 0.5;
     c.area = c.moments.a = 1 + i % 3;
     area[top] += c.area;
     network.contacts.push_back(c);

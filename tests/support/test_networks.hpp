@@ -59,7 +59,7 @@ inline void add_square_contact(ContactNetwork& network, std::int32_t a, std::int
   contact.a = a;
   contact.b = b;
   contact.pair = pair;
-  contact.distance = arm_a + arm_b;
+  contact.length = contact.distance = arm_a + arm_b;
   contact.area = side * side;
   contact.n = n;
   canonical_frame(n, contact.s, contact.t);

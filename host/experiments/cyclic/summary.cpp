@@ -80,6 +80,10 @@ Json frequency_json(const HarmonicFrequency& f, const Scene& scene) {
   Json out = begun(f, "harmonic", f.residual, scene);
   out["e_star_bottom_pa"] = f.bottom.e_star_pa;
   out["phase_bottom_deg"] = f.bottom.phase_deg;
+  if (f.poisson_ratio) {
+    out["poisson_ratio"] = std::abs(*f.poisson_ratio);
+    out["poisson_phase_deg"] = std::arg(*f.poisson_ratio) * 180 / std::numbers::pi;
+  }
   out["iterations"] = f.iterations;
   out["linear"] = to_string(f.linear);
   if (scene.output.sensitivities) {

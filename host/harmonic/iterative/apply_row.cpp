@@ -19,9 +19,16 @@ void apply_row(const kernels::LinearSystem& system, const BlockStiffness<F>& sti
   for (std::size_t i = system.row_begin[body]; i < system.row_begin[body + 1]; ++i) {
     const ContactEnd& e = system.ends[i];
     const auto pair = static_cast<std::size_t>(e.pair);
-    const Twist<T> load = kernels::end_load(
-        e, own, e.other >= 0 ? kernels::to_twist(&x[6 * static_cast<std::size_t>(e.other)]) : Twist<T>{},
-        [&](T u) { return stiffness.k[pair](u); }, T(stiffness.alpha[pair]));
+    const double alpha = stiffness.alpha[pair];
+    const auto load_by = [&](const Factor<F>& normal, const Factor<F>& shear) {
+      return kernels::end_load(
+          e, own, e.other >= 0 ? kernels::to_twist(&x[6 * static_cast<std::size_t>(e.other)]) : Twist<T>{},
+          [&](T u, bool in_shear) { return in_shear ? shear(u) : normal(u); }, T(alpha));
+    };
+    const Factor<F>& k = stiffness.k[pair];
+    const double series = system.series_of(i);
+    const Twist<T> load =
+        series == 0 ? load_by(k, k) : load_by(in_series(k, T(series)), in_series(k, T(alpha * series)));
     sum.linear += load.linear;
     sum.angular += load.angular;
   }

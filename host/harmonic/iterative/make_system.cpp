@@ -27,7 +27,7 @@ namespace {
 
 /// Returns the data of a contact for its first particle, with the normal pointing away from this particle.
 ContactEnd seen_from_a(const Contact& c, const kernels::Layout& layout) {
-  const double d = c.distance;
+  const double d = c.length;
   const AreaMoments& m = c.moments;
   return {{c.n.x, c.n.y, c.n.z},
           {c.s.x, c.s.y, c.s.z},
@@ -69,6 +69,14 @@ void make_rows(const ContactNetwork& network, const kernels::Layout& layout, Lin
       const Contact& c = network.contacts[number];
       *to++ = c.a == particle ? seen_from_a(c, layout) : seen_from_b(c, layout);
     }
+  }
+  const auto& contacts = network.contacts;
+  if (std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.series == 0; })) return;
+  out.series.resize(out.ends.size());
+  for (std::size_t body = 0; body < n; ++body) {
+    std::size_t to = out.row_begin[body];
+    for (const std::uint32_t number : network.row(static_cast<std::size_t>(layout.particle[body])))
+      out.series[to++] = contacts[number].series;
   }
 }
 
@@ -122,12 +130,15 @@ Eigen::MatrixXd coarse_stiffness(const LinearSystem& system) {
       const auto pair = static_cast<std::size_t>(e.pair);
       const auto other = static_cast<std::size_t>(e.other);
       if (e.other >= 0 && box_of[other] == static_cast<std::int32_t>(box)) continue;
+      const double alpha = system.typical.alpha[pair], series = system.series_of(at),
+                   normal = kernels::in_series(system.typical.k[pair], series),
+                   shear = kernels::in_series(system.typical.k[pair], alpha * series);
       const auto add = [&](Eigen::Index column, const Twist<double>& own, const Twist<double>& far) {
         double y[6] = {};
         kernels::add_to_box(
             system.lever[i],
             kernels::end_load(
-                e, own, far, [&](double u) { return system.typical.k[pair] * u; }, system.typical.alpha[pair]),
+                e, own, far, [&](double u, bool in_shear) { return (in_shear ? shear : normal) * u; }, alpha),
             y);
         for (int c = 0; c < 6; ++c) k(column, row + c) -= y[c];
       };
@@ -237,7 +248,8 @@ std::vector<double> invert_particle_blocks(const LinearSystem& system, const ker
     double block[36] = {};
     for (std::size_t at = system.row_begin[i]; at < system.row_begin[i + 1]; ++at) {
       const auto pair = static_cast<std::size_t>(system.ends[at].pair);
-      kernels::add_block(system.ends[at], system.typical.k[pair], system.typical.alpha[pair], block);
+      kernels::add_block(system.ends[at], system.typical.k[pair], system.typical.alpha[pair], system.series_of(at),
+                         block);
     }
     if (kernels::invert_block(block) > system.own_motions[i]) loose = std::min(loose, static_cast<std::int64_t>(i));
     std::copy(std::begin(block), std::end(block), &out[36 * i]);

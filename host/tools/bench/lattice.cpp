@@ -62,7 +62,7 @@ BenchCase lattice(std::size_t particles, bool walls) {
     c.a = particle, c.b = top ? wall_z_hi : wall_z_lo;
     c.pair = PairType::mw;
     const double z = s.centre[static_cast<std::size_t>(particle)].z;
-    c.distance = c.arm_a = top ? s.box.size.z - z : z;
+    c.length = c.distance = c.arm_a = top ? s.box.size.z - z : z;
     c.n = {0, 0, top ? 1.0 : -1.0};
     canonical_frame(c.n, c.s, c.t);
     c.area = 1e-6;
@@ -83,7 +83,7 @@ BenchCase lattice(std::size_t particles, bool walls) {
           const std::uint32_t draw = static_cast<std::uint32_t>(random()) % 100;
           c.pair = draw < 73 ? PairType::mm : draw < 99 ? PairType::ma : PairType::aa;
           const Vec3d branch = s.centre[static_cast<std::size_t>(c.b)] - s.centre[static_cast<std::size_t>(c.a)];
-          c.distance = norm(branch);
+          c.length = c.distance = norm(branch);
           c.n = (1 / c.distance) * branch;
           canonical_frame(c.n, c.s, c.t);
           c.arm_a = c.arm_b = 0.5 * c.distance;

@@ -3,6 +3,7 @@
 /// the frequency domain.
 #pragma once
 
+#include <complex>
 #include <optional>
 #include <string>
 
@@ -35,6 +36,8 @@ struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
   ModulusParts parts;   ///< parts of E*; |E*| and φ are those of the sum of the parts
   Stiffness bottom;     ///< from the reaction of the bottom wall
+  /// Complex Poisson's ratio (lateral contraction over axial extension); empty if the sides are held.
+  std::optional<std::complex<double>> poisson_ratio;
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
   /// Force of the springs that hold free rigid motions, divided by the wall's reaction; nearly 0 in a correct solution.

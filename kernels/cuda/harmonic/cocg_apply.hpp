@@ -78,8 +78,8 @@ struct WarpBodies {
 };
 
 /// Computes q = K·p. W threads, one per lane, compute one contact; the 32/W slices of a warp divide the contacts of a
-/// body. pᵀq is summed for every box.
-template <int F>
+/// body. pᵀq is summed for every box. `Series`: contacts have rock in series with their laws.
+template <int F, bool Series>
 __global__ void __launch_bounds__(cocg_threads, 2)
     cocg_apply(CocgView<F> d, unsigned first_segment, const double* from) {
   constexpr unsigned W = 2 * F, slices = 32 / W, warps = cocg_threads / 32;
@@ -106,11 +106,21 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     to_lane(of, lane, six);
     return to_twist(six);
   };
-  // Adds the load that end number `slice` of `count` puts on the body.
-  const auto add_load = [&](const StagedEnds<slices>& ends, unsigned count, const Twist<double>& own,
+  // Adds the load that end number `slice` of `count` puts on the body. `first`: index of the first of these ends.
+  const auto add_load = [&](const StagedEnds<slices>& ends, std::size_t first, unsigned count, const Twist<double>& own,
                             Twist<double>& sum) {
-    const ContactEnd& e = ends[slice < count ? slice : 0];
-    const LaneFactor k{own_k[e.pair][lane], cross_k[e.pair][lane]};
+    const unsigned mine = slice < count ? slice : 0;
+    const ContactEnd& e = ends[mine];
+    LaneFactor normal{own_k[e.pair][lane], cross_k[e.pair][lane]}, shear = normal;
+    if constexpr (Series) {
+      const double series = __ldg(&d.series[first + mine]);
+      shear = in_series(normal, alpha[e.pair] * series);
+      normal = in_series(normal, series);
+    }
+    const auto k = [&](double u, bool in_shear) {
+      if constexpr (!Series) return normal(u);
+      return in_shear ? shear(u) : normal(u);
+    };
     const Twist<double> other = twist(three(static_cast<std::size_t>(e.other >= 0 ? e.other : 0)));
     const Twist<double> load = end_load(e, own, e.other >= 0 ? other : Twist<double>{}, k, alpha[e.pair]);
     if (slice < count) {
@@ -151,7 +161,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     else
       __pipeline_wait_prior(1);
     __syncwarp();
-    add_load(staged[warp][turn], now.left, own, sum);
+    add_load(staged[warp][turn], bodies.first_row + now.begin, now.left, own, sum);
     __syncwarp();
     if (ends_body) {
       double held[6];
@@ -189,7 +199,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
           staged[warp][0].send(&d.ends[d.row_begin[body] + i], count - i);
           __pipeline_wait_prior(0);
           __syncwarp();
-          add_load(staged[warp][0], count - i, held_own, part);
+          add_load(staged[warp][0], d.row_begin[body] + i, count - i, held_own, part);
           __syncwarp();
         }
         double held[6];

@@ -32,6 +32,12 @@ __device__ inline double2 over(double2 a, double2 b) {
   return {scale * (a.x * x + a.y * y) / square, scale * (a.y * x - a.x * y) / square};
 }
 
+/// Returns the factor of a stiffness in series with a spring of compliance `series`: of 1/(1/k + series).
+__device__ inline LaneFactor in_series(const LaneFactor& k, double series) {
+  const double one = 1 + series * k.own, turn = series * k.cross, scale = 1 / (one * one + turn * turn);
+  return {scale * (k.own + series * (k.own * k.own + k.cross * k.cross)), scale * k.cross};
+}
+
 /// Three of a body's six components, as complex numbers of the lane's load: components 0, 2 and 4 in an even lane, 1, 3
 /// and 5 in an odd one.
 struct ComplexThree {

@@ -24,6 +24,7 @@ struct SystemMemory {
   DeviceArray<std::int32_t> particle;
   DeviceArray<std::size_t> row_begin;
   DeviceArray<ContactEnd> ends;
+  DeviceArray<double> series;                 ///< LinearSystem::series
   DeviceArray<double> mass, motion, inverse;  ///< inverse: packed blocks, filled in by invert_blocks
   DeviceArray<Lever> lever;
   /// Arrays of which each member of the team has its own.
@@ -57,6 +58,7 @@ struct SystemMemory {
     particle = DeviceArray<std::int32_t>::of(system.particle, by_body);
     row_begin = DeviceArray<std::size_t>::of(system.row_begin, rows);
     ends = DeviceArray<ContactEnd>::of(system.ends, contacts);
+    if (!system.series.empty()) series = DeviceArray<double>::of(system.series, contacts);
     mass = DeviceArray<double>::of(system.mass, by_body);
     motion = DeviceArray<double>::of(system.motion, by_body);
     lever = DeviceArray<Lever>::of(system.lever, by_body);
@@ -130,6 +132,7 @@ struct VectorMemory {
             of_system.box_segment.data(),
             system.row_begin.data(),
             system.ends.data(),
+            system.series.size() > 0 ? system.series.data() : nullptr,
             system.mass.data(),
             system.inverse.data(),
             system.motion.data(),

@@ -13,14 +13,14 @@ namespace macadam::kernels {
 /// Computes K_ii⁻¹ of every body, packed. `singular_body` receives the first body whose own stiffness is singular for
 /// more motions than `own_motions` says.
 static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
-                                     RealStiffness typical, const std::uint8_t* own_motions, double* inverse,
-                                     unsigned long long* singular_body) {
+                                     const double* series, RealStiffness typical, const std::uint8_t* own_motions,
+                                     double* inverse, unsigned long long* singular_body) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
   if (i >= bodies) return;
   double block[36] = {};
   for (std::size_t at = row_begin[i]; at < row_begin[i + 1]; ++at) {
     const auto pair = static_cast<std::size_t>(ends[at].pair);
-    add_block(ends[at], typical.k[pair], typical.alpha[pair], block);
+    add_block(ends[at], typical.k[pair], typical.alpha[pair], series ? series[at] : 0, block);
   }
   if (invert_block(block) > own_motions[i]) atomicMin(singular_body, static_cast<unsigned long long>(i));
   for (int a = 0; a < 6; ++a) {

@@ -72,6 +72,7 @@ struct CocgView {
   const std::int32_t* box_segment;  ///< box → first segment; boxes + 1 entries
   const std::size_t* row_begin;
   const ContactEnd* ends;
+  const double* series;  ///< [end] Contact::series [1/Pa]; null if it is zero everywhere
   const double *mass, *inverse, *motion;
   const Lever* lever;
   const double *coarse, *weight;

@@ -60,7 +60,8 @@ class Solver : public DeviceSolver {
     own_motions.upload(system.own_motions.data());
     launch("particle blocks", invert_blocks, (system_.bodies + short_kernel_threads - 1) / short_kernel_threads,
            short_kernel_threads, 0, team_.stream(), system_.bodies, system_.row_begin.data(), system_.ends.data(),
-           system.typical, own_motions.data(), system_.inverse.data(), singular_body.data());
+           system_.series.size() > 0 ? system_.series.data() : nullptr, system.typical, own_motions.data(),
+           system_.inverse.data(), singular_body.data());
     team_.wait("particle blocks");
     const unsigned long long found = singular_body.download().front();
     return found == none ? -1 : static_cast<std::int64_t>(found);
@@ -178,7 +179,10 @@ class Solver : public DeviceSolver {
   /// `first`: α = 1.
   template <int F>
   void improve(const Vectors<F>& v, const double* from, bool first) {
-    over_segments(v, "apply", cocg_apply<F>, from);
+    if (system_.series.size() > 0)
+      over_segments(v, "apply", cocg_apply<F, true>, from);
+    else
+      over_segments(v, "apply", cocg_apply<F, false>, from);
     team_.join_streams();
     by_each(v, "step", cocg_step<F>, 1u, first);
     over_segments(v, "advance", cocg_advance<F>);
