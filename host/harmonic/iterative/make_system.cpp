@@ -187,7 +187,7 @@ void make_motions(const kernels::Layout& layout, const Inertia& inertia, const F
 }
 
 /// Computes Rᵀ·M·m for every free motion m (a motion that no contact resists). M is the mass matrix. The columns of R
-/// are the six rigid motions of each box, where a box is a group of neighbouring particles.
+/// are the six rigid motions of each box; a box is a group of neighbouring particles.
 void make_weights(LinearSystem& out) {
   const auto motions = static_cast<std::size_t>(out.free);
   out.weight.assign(motions * 6 * out.boxes(), 0);
