@@ -156,8 +156,8 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
   return out;
 }
 
-/// Returns Rᵀ·M·m for the free motion m with number `motion` (see make_weights()), for a free motion in which only some
-/// particles move. The result is not zero if the boxes can move as in this free motion.
+/// Returns Rᵀ·M·m for the free motion m with number `motion` (see make_weights()). It is used for free motions in which
+/// only some of the particles move. The result is not zero if the boxes can move as in the free motion.
 Eigen::VectorXd weights_of_boxes(const LinearSystem& system, int motion) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   return Eigen::Map<const Eigen::VectorXd>(system.weight.data() + motion * size, size);

@@ -99,9 +99,9 @@ inline constexpr unsigned cocg_threads = 256;
 /// values are not recorded.
 inline constexpr unsigned many_contacts = 64;
 /// Segments (ranges of bodies that one thread block works on) per multiprocessor of one device. The number of segments
-/// does not depend on the number of devices, so with two devices each has half as many per multiprocessor: 8, which is
-/// the largest number of blocks of `cocg_threads` threads that a multiprocessor can hold (2048 / 256). Measurements
-/// with other values are not recorded.
+/// does not depend on the number of devices. With two devices there are 8 segments per multiprocessor, which is the
+/// largest number of blocks of `cocg_threads` threads that a multiprocessor can hold (2048 / 256). Measurements with
+/// other values are not recorded.
 inline constexpr std::size_t segments_per_multiprocessor = 16;
 /// Iterations that the host enqueues before it looks at the residuals of the previous batch. Measurements with other
 /// values are not recorded.
