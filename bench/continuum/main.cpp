@@ -33,7 +33,8 @@ Complex mixed(Complex a, Complex b, double fraction_of_b, bool stiff) {
 continuum::Grid<double> grid_of(const continuum::RockFractions& rock, const Material& mastic, const Material& stone,
                                 bool stiff) {
   continuum::Grid<double> out;
-  // Columns are added at the sides until coarser grids fit; they are empty.
+  // Empty columns are added at the sides, so that the numbers of columns along x and y are multiples of 8, as the
+  // coarser grids require.
   const auto rounded = [](int n) { return (n + 7) / 8 * 8; };
   out.size = {rounded(rock.size.x), rounded(rock.size.y), rock.size.z};
   out.lambda.assign(out.size.elements(), {});

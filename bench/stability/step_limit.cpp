@@ -47,7 +47,8 @@ double energy_drift(const Setting& setting, const test::TestScene& scene, const 
   return drift;
 }
 
-/// Returns the logarithm of the factor by which the amplitude grows per step, measured when the motion has grown a lot.
+/// Returns the logarithm of the factor by which the amplitude grows per step. `expected`: the expected value. The
+/// measurement begins after 35 / `expected` steps, when the growing motion is much larger than all other motions.
 double growth(const Setting& setting, const test::TestScene& scene, const StepperOptions& options, double expected) {
   const auto stepper = make(setting, scene, options);
   shake(*stepper, scene, 1e-3);

@@ -33,7 +33,8 @@ std::vector<std::string> known_words(const CLI::App& command, bool options) {
   return known;
 }
 
-/// Describes what is wrong with a command line. CLI11 itself reports a missing word before an unknown one.
+/// Describes what is wrong with a command line. Names an unknown word rather than a missing one, because the missing
+/// word is often the one that was misspelt; CLI11's own message would name the missing one.
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = reached(app);
   const std::vector<std::string> commands = known_words(command, false);

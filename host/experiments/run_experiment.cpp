@@ -57,7 +57,8 @@ double solve_seconds(const RunResult& result) {
       of_found(result.found, 0.0, []<class Result>(const Result& f) { return ResultOf<Result>::seconds(f); });
   const bool stepped = of_found(
       result.found, false, []<class Result>(const Result&) { return std::is_base_of_v<experiments::Stepped, Result>; });
-  // for a stepped run, `seconds` includes the planning and thus the preconditioner
+  // The seconds of a stepped run include the planning of the run, and with it the making of the preconditioner. The
+  // seconds of a frequency-domain solution do not include the preconditioner, so its time is added.
   return found + (stepped ? 0 : result.phases.preconditioner);
 }
 

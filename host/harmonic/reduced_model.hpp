@@ -39,9 +39,10 @@ class ReducedModel {
   /// Returns the motion of the particles, [6·particles], as a start for an iteration (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;
 
-  /// Returns the small matrix vᵢᵀ·(N + α·S)·vⱼ of a pair type, for all pairs of motions, [motions][motions]. For
-  /// coefficients u, uᵀ·(N + α·S)·u is the energy form uᵀ·K·u divided by k*; it is not yet multiplied by height over
-  /// cross-section.
+  /// Returns the matrix F of a pair type, [motions][motions], with entries vᵢᵀ·(N + α·S)·vⱼ. If the motion of the
+  /// particles is the sum of the vⱼ with coefficients cⱼ, then k*·cᵀ·F·c is what this pair type adds to uᵀ·K*·u, where
+  /// u is that motion and k* the complex stiffness of the pair type's law. The caller multiplies this by height /
+  /// cross-section to get the pair type's part of E*.
   Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
 
   /// Number of real motions, including the first, in which the top wall moves.

@@ -57,7 +57,8 @@ std::pair<std::string, std::string> first_difference(const std::string& found, c
   throw InputError(file.string(), 0, "checkpoint of another " + what, found, expected + ", as in this run");
 }
 
-/// Checks that a checkpoint has the texts of a run. \throws InputError naming the first text that differs.
+/// Checks that a checkpoint belongs to this run: each text of identity() must be the same in the checkpoint. \throws
+/// InputError naming the first text that differs.
 void require_same_run(const std::filesystem::path& file, const Checkpoint& checkpoint, const Scene& scene,
                       Backend backend) {
   for (const auto& [what, expected] : identity(scene, backend)) {

@@ -21,7 +21,8 @@ class PlannedExperiment {
   virtual ~PlannedExperiment() = default;
 
   /// Runs the experiment. Results are stored in `result` and saved as soon as they are known. \throws DivergenceError
-  /// naming the particle that first left the plausible range; InterruptedError; RunError as Harmonic does.
+  /// naming the particle that first left the plausible range; InterruptedError; RunError when a frequency-domain
+  /// solution does not reach its tolerance (see Harmonic).
   virtual void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) = 0;
 
   /// Returns whether a checkpoint in the folder belongs to this run.

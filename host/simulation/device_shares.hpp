@@ -22,10 +22,12 @@ class DeviceShares {
   std::optional<int> choose(const DeviceList& may, int most) const;
   /// Records that a scene runs on `device`, and that it may later move to any device of `may`.
   void put(std::size_t scene, int device, DeviceList may);
-  /// Returns the device on which a scene continues with its remaining work `work`. As long as some scenes have had no
-  /// device yet, it is the scene's present device. Afterwards it is the device whose other scenes have the least work
-  /// left, if the gain is worth making a new stepper. So all devices end at about the same time, even if the scenes
-  /// differ or their number is not a multiple of the number of devices.
+  /// Returns the device on which a scene solves its next frequency. `work`: work that remains for the scene. `most`:
+  /// largest number of scenes on one device. The scene stays on its device while there are scenes that have not been
+  /// given a device yet. Afterwards the function chooses the device whose other scenes have the least work left, if the
+  /// move saves enough time; a move costs time because the object that takes the time steps is made again. So all
+  /// devices end at about the same time, even if the scenes differ or their number is not a multiple of the number of
+  /// devices.
   int device_for_next_frequency(std::size_t scene, double work, int most);
   /// Records that a scene is done or has failed, whether or not it had a device.
   void end(std::size_t scene);

@@ -37,11 +37,12 @@ struct Cost {
   double writing = 8e-9, frame = 5e-4;
   // seconds that the program needs to start, without and with a device
   double start = 0.1, start_on_device = 0.8;
-  // A specimen with fewer than `contacts_in_cache` contacts fits into the processor's cache; a step then takes `cached`
-  // times as long.
+  // A specimen with fewer than `contacts_in_cache` contacts fits into the processor's cache, and the time of a step on
+  // the CPU is multiplied by `cached`.
   double cached = 0.5, contacts_in_cache = 30'000;
-  // A step on a device takes at least this time, however small the specimen [s]. With fewer contacts than
-  // `contacts_on_chip`, their data stay in registers and shared memory, and a step takes `on_chip` times as long.
+  // A step on a device takes at least `least_step_on_device` [s], however small the specimen is. If the specimen has
+  // fewer contacts than `contacts_on_chip`, the data of the contacts stay in registers and shared memory, and the time
+  // of a step is multiplied by `on_chip`.
   double least_step_on_device = 3e-6, contacts_on_chip = 420'000, on_chip = 0.4;
   // Bytes on the host: `program` for the program, `a_shape` per shape of the library, `a_contact` per contact of the
   // specimen, and `a_solved_contact` per contact for the solutions. Bytes on the device: `device` without a specimen,

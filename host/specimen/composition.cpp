@@ -44,7 +44,8 @@ void check_count(const Origin& origin, const std::string& name, std::int64_t cou
     refuse(origin, name + ": count", std::to_string(count), "0 to " + std::to_string(most_particles));
 }
 
-/// Checks one class, the mastic or the voids, and returns its request.
+/// Checks an entry of the specimen (here an aggregate class, in the two functions below the mastic and the voids), and
+/// returns the sizes and the amount that it requests.
 ClassRequest request_of(const AggregateClass& c, const SpecimenSpec& spec) {
   const std::string name = millimetres(c.sieve_min) + "-" + millimetres(c.sieve_max) + " mm";
   const Origin origin(spec, c.line);

@@ -29,8 +29,8 @@ class Placement {
   std::vector<std::int32_t> place_aggregates(const std::vector<Population>& classes, double spacing,
                                              const std::function<void(double share)>& progress);
 
-  /// Adds a sphere of aggregate number `body` at a given position. Spheres placed later keep at least `spacing` [m]
-  /// from it, provided that they are not larger.
+  /// Adds a sphere of aggregate number `body` at a given position. Spheres that are placed later, and are not larger
+  /// than this sphere, keep at least the distance `spacing` [m] from this sphere.
   void add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing = 0);
 
   /// Adds voids inside the box, clear of each other and of all spheres placed so far. Voids are stored as aggregates

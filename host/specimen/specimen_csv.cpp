@@ -150,7 +150,7 @@ class CsvReader {
   /// Parses one record and appends the particle or void.
   void record(std::string_view line) {
     if (static_cast<std::int64_t>(specimen_.cells()) == most_particles)
-      fail("particles", "one more", "at most " + std::to_string(most_particles));
+      fail("particles", "more than " + std::to_string(most_particles), "at most " + std::to_string(most_particles));
     std::array<std::string_view, columns> field;
     const std::size_t found = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
     if (found != columns)

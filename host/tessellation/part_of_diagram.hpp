@@ -15,7 +15,8 @@ namespace macadam {
 /// as a corner.
 ///
 /// The particles `own` and those near them are triangulated. A tetrahedron of this triangulation also belongs to the
-/// triangulation of all particles if no other particle has a smaller power at its dual point than its corners have.
+/// triangulation of all particles if, at the tetrahedron's dual point, no other particle has a smaller power than the
+/// tetrahedron's corners have.
 /// `all`, the trees that together hold all particles, are searched for particles that violate this condition. These
 /// particles are inserted. This is repeated until no particle violates it. Neighbours are indices in the result, or −1
 /// if the neighbour is infinite or has no corner in `own`.

@@ -82,10 +82,10 @@ std::vector<FieldArray> particle_arrays(const ParticleState& state);
 /// Returns the mean stress in the Laguerre cell of each particle, model (8.3): xx, yy, zz, xy, yz, xz, tension positive
 /// [Pa]. The initial volumes, lever arms and facets are used.
 FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& network, const ContactState& state);
-/// Returns normal and shear force, force, moment and relative displacement of the contacts; in condensed form also the
-/// stretch of each Kelvin unit; if a law can break also `broken`, the fraction of the contact's points that are broken.
-/// `displacement`: displacements of the particles, from which the current normals follow; if empty, the initial normals
-/// are used.
+/// Returns normal and shear force, force vector, moment and relative displacement of the contacts. In condensed form
+/// the stretch of each Kelvin unit is added. If a law can break, `broken` is added, the fraction of the contact's
+/// points that are broken. `displacement`: displacements of the particles, from which the current normals are computed;
+/// if empty, the initial normals are used.
 std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNetwork& network,
                                        const ContactState& state, const std::vector<Vec3d>& displacement);
 

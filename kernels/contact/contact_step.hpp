@@ -101,7 +101,7 @@ struct ContactForces {
  private:
   MACADAM_HD int units() const { return Units >= 0 && Units != 5 ? Units : view.units; }
   MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + units())); }
-  /// Number of words between two chains of a contact.
+  /// Returns the number of words from the beginning of a contact's chain to the beginning of its next chain.
   template <class Item>
   MACADAM_HD std::size_t chain_stride(const Item& item) const {
     return static_cast<std::size_t>(1 + units()) * item.lanes();

@@ -17,7 +17,7 @@ namespace macadam::kernels {
 template <class L>
 struct Steppable {
   static_assert(laws::SteppableLaw<L>,
-                "this law lacks a part of the contract of macadam/laws/law.hpp: the notes say which one");
+                "this law lacks a part of the contract in macadam/laws/law.hpp; the compiler's notes say which part");
 };
 template <class... L>
 constexpr void require_steppable(std::type_identity<std::variant<L...>>) {

@@ -69,8 +69,9 @@ class CpuBlocks {
     return out;
   }
 
-  /// Initialises the sums first … end − 1 before contacts add to them: with the base loads (the loads at the beginning
-  /// of the block) if steps are taken in blocks, because contacts then add only changes; else with zero.
+  /// Initialises the load sums first … end − 1, to which the contacts then add. If steps are taken in blocks, a contact
+  /// adds only the change of its load since the block began, so the sums begin with the base loads (the loads at the
+  /// beginning of the block). Otherwise the sums begin with zero.
   void begin_sums(std::size_t first, std::size_t end, AlignedVector<R>& sums) const {
     if (on_)
       std::copy(base_.data() + first, base_.data() + end, sums.data() + first);

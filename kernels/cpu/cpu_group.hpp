@@ -77,7 +77,8 @@ struct BlockForces {
   }
 };
 
-/// One contact of a packet: the Item with which a contact is updated between two blocks.
+/// An Item (the access of kernels to memory) for one contact of a packet. Contacts are updated one by one with this
+/// Item between two blocks of steps.
 template <std::size_t width>
 struct OneOfPacket {
   std::size_t lane;

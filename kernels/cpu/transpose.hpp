@@ -17,12 +17,12 @@ struct WordsOf {
 /// A vector of n words of R, in the compiler's own type; n is four or eight.
 template <class R, std::size_t n>
 using Words = typename WordsOf<R, n>::type;
-/// Half of a body's line: v, ω, u or θ, and one unused word.
+/// Half of the line of a body (its data in one array): a vector (v, ω, u or θ) and one unused word.
 template <class R>
 using HalfLine = Words<R, 4>;
 
-/// Returns, in every block of four words, words i, j, k, l, where 0…3 are words of a's block and 4…7 words of b's
-/// block.
+/// Returns, for every block of four words, four of the eight words of a's and b's blocks. The words i, j, k, l are
+/// selected; 0 … 3 are words of a's block, and 4 … 7 are words of b's block.
 template <int i, int j, int k, int l, class V>
 inline __attribute__((always_inline)) V pick(const V& a, const V& b) {
   if constexpr (sizeof(V) == 4 * sizeof(a[0])) {

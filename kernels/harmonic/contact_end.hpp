@@ -12,8 +12,8 @@
 
 namespace macadam::kernels {
 
-/// Data of one contact end: 128 bytes, two cache lines if the array begins at one. The normal points away from this
-/// end.
+/// Data of one contact end. The size is 128 bytes, that is, two cache lines of 64 bytes if the array begins at the
+/// beginning of a cache line. The normal points away from this end.
 struct alignas(16) ContactEnd {
   double n[3], s[3];  ///< t = n × s
   double arm, arm_other;

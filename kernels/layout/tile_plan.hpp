@@ -50,10 +50,11 @@ struct Tile {
   std::uint32_t double_packets;  ///< Number of double packets. They come first; in the other packets every contact is a
                                  ///< couple of its own.
   std::uint32_t inner;           ///< Number of double packets that touch no particle of another tile. They come first.
-  std::uint32_t long_lists;  ///< Number of particles with a long list (see TilePlan::longest_short_list). They have the
-                             ///< lowest ranks, and the cells of each are consecutive. For a particle of higher rank r,
-                             ///< cell e is at diagonal[e] + r.
-  std::uint32_t cells;       ///< Total number of load cells of the tile (six words each, in shared memory).
+  std::uint32_t long_lists;      ///< Number of particles with a long load list (see TilePlan::longest_short_list). They
+                             ///< have the ranks 0 … long_lists − 1. The load cells of such a particle are stored one
+                             ///< after another. The load cells of all other particles are stored as jagged diagonals:
+                             ///< cell e of the particle of rank r has the index diagonal[e] + r.
+  std::uint32_t cells;  ///< Total number of load cells of the tile (six words each, in shared memory).
 };
 
 /// One contact as one tile computes it.

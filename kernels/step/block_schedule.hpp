@@ -43,7 +43,7 @@ class BlockSchedule {
   std::int64_t left() const { return length_ - taken_; }
   void take(std::int64_t steps) { taken_ += static_cast<int>(steps); }
 
-  /// Adds the progress of the current block to the states of a checkpoint.
+  /// Adds to the states of a checkpoint: whether a block has begun, its length, and how many of its steps are taken.
   void add_state(StateList& states) {
     states.add<std::int64_t>(
         "block", "1", 3,

@@ -16,10 +16,10 @@
 namespace macadam::test {
 namespace {
 
-/// Logarithm of the largest allowed factor between the numbers of steps in forecast and plan, if the forecast estimates
-/// the time step. The estimate uses the smallest sphere and the stiffest contact beside it. In t8 the walls cut
-/// spheres, and the estimated step is 2.07 times too small. A bound of 2 would need the areas of the contacts, which a
-/// forecast does not have because it makes no cells.
+/// Logarithm of the largest allowed ratio of the numbers of steps in forecast and plan, if the forecast estimates the
+/// time step. The estimate uses the smallest sphere and its stiffest contact. For the specimen t8, where walls cut
+/// spheres, the ratio is 2.07. A limit of 2 would require a better estimate from the areas of the contacts, which a
+/// forecast does not know because it makes no cells.
 const double estimated_step = std::log(2.5);
 
 class ForecastRules : public TestFolder {

@@ -128,8 +128,8 @@ TEST_P(FreeMotions, TwoBlocksSlideOnOneAnother) {
   expect_by_both(scene, in_series(scene.specimen, 4));
 }
 
-// With one point per facet, on the axis of the column, nothing resists the rotation of a sphere about the axis. Spheres
-// at the ends can also tilt about their point.
+// Each facet has only one contact point, which lies on the axis of the column, so nothing resists the rotation of a
+// sphere about this axis. The spheres at the two ends of the column can also tilt about their only contact point.
 TEST_P(FreeMotions, SpheresOfAColumnTurnByThemselvesAboutSinglePoints) {
   NetworkSpec spec;
   spec.quadrature = Quadrature::one_point;

@@ -94,8 +94,9 @@ TEST(Series, ARampIsTheMeanOfSteps) {
   const CreepSeries creep = creep_series(series);
   for (const double duration : {1e-6, 0.02, 5.0}) {
     for (const double t : {0.3 * duration, duration, 1.7 * duration}) {
-      // The integral uses the midpoint rule. A step is 1/2,000 of the ramp, and at most 1/20 of a relaxation time, so
-      // the error is (1/20)²/24.
+      // The integral is computed by the midpoint rule with a step h of 1/2,000 of the ramp. For the ramp of 5 s, h is a
+      // quarter of the shorter relaxation time τ, and the relative error of this unit is (h/τ)²/24 = 0.0026. The unit
+      // adds at most 3 % to the mean, so the error of the mean is below 1e-4.
       constexpr int steps = 2000;
       double stress = 0, strain = 0;
       for (int i = 0; i < steps; ++i) {

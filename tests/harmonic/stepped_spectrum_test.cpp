@@ -34,8 +34,8 @@ class SteppedSpectrum : public testing::Test {
     return 0.8 * critical_step(scene_.network, scene_.laws, scene_.inertia, options).dt;
   }
 
-  /// Compares stress over strain between two times with the spectrum, after a linear rise of the strain that is then
-  /// held.
+  /// The strain rises linearly for the time `rise` and is then held. Compares the ratio of stress to strain between the
+  /// times `from` and `to` with the spectrum's response to such a ramp. All times in seconds.
   void expect_relaxation(double scaling, double beta, double rise, double from, double to) const {
     StepperOptions given = options(scaling, beta);
     given.dt = rise / std::ceil(rise / step(given));

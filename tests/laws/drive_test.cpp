@@ -327,8 +327,8 @@ TEST(SteppersBytes, CountWeightsAndTheWallsTable) {
   EXPECT_EQ(bytes() - bare, 4 * 8 * particles + 8 * 4 * (kernels::WallTable<double>::most_rows + 1));
 }
 
-// A light platen (a wall that moves under a load) on an elastic contact limits the time step. The eigenvalue is λ =
-// E·A/(d·m), and the step is √(2/λ).
+// A light platen (a wall that moves under a load) on an elastic contact limits the time step. With the contact's
+// stiffness k = E·A/d and the platen's mass m, multiplied by the density scaling, the critical step is √(2·m/k).
 TEST(PlatenStep, IsCriticalWhereThePlatenIsLight) {
   const HandMade made = cubic_lattice_network(1, 1, 2, 2e-3, 2e-5);
   const Laws laws = same_law(laws::Elastic{3e9, 0.2});

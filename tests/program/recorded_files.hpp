@@ -76,7 +76,8 @@ inline void add_table(Contents& to, const std::string& text) {
   }
 }
 
-/// Adds the values of JSON by their paths; an array of numbers is one list.
+/// Adds each value of a JSON document to the entry of its path, for example `solver.steps`. All elements of an array
+/// have the path of the array, so its numbers form one list.
 inline void add_json(Contents& to, const nlohmann::json& json, const std::string& path) {
   if (json.is_object())
     for (const auto& [key, value] : json.items()) add_json(to, value, path.empty() ? key : path + '.' + key);

@@ -165,7 +165,7 @@ TEST(Recipe, MassInIsMassOut) {
     for (const MixClass& c : v.classes) mass += c.mass, volume += c.volume;
     ASSERT_NEAR(mass, 1 - v.binder, tolerance);  // mass of the dry aggregate
     ASSERT_NEAR(volume, v.aggregate_volume, tolerance);
-    // EN 12697-8 with the effective binder: VMA = V_m + B·ρ_b/ρ_B
+    // EN 12697-8: the voids in the mineral aggregate are the air voids and the volume of the effective binder
     const double effective = v.effective_binder * v.bulk_density / d.binder_density;
     ASSERT_NEAR(v.vma, v.air_voids + effective, tolerance);
     ASSERT_NEAR(v.vfb * v.vma, effective, tolerance);

@@ -117,7 +117,8 @@ TEST(Dimensions, OfATriangularPrism) {
 }
 
 TEST(Dimensions, ATunnelDoesNotStopTheCalliper) {
-  // All three chords of the 6 × 4 × 3 box cross the tunnel; the calliper measures between the outer faces.
+  // The longest chord, and the two chords that are measured perpendicular to it, all cross the tunnel of the 6 × 4 × 3
+  // box. The tunnel must not shorten them, because a calliper measures between the outer faces.
   in_all_poses(tunnel(6, 4, 3, 1), [](const ShapeMeasure& m) {
     const double l = std::sqrt(61.0);
     expect_lengths(m, l, 5 * l / 6, 3.75);

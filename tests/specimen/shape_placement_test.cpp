@@ -366,7 +366,8 @@ TEST(ShapePlacement, SurfacesKeepTheSpacing) {
       const PlacedAggregate &a = p.aggregate[i], &b = p.aggregate[j];
       if (i == j || b.sphere) continue;
       const double reach = a.sphere ? a.pose.scale * shapes[a.shape].d_intermediate / 2 : 0;
-      // tolerance: the grid of distances has 40 cells along a shape, and samples are within 0.003 of D^I
+      // Tolerance, about 0.03 of D^I: shapes are compared by sample points, which are within 0.003 of D^I of the
+      // surface, and by a grid of distances, which has 40 cells along the longest side of a shape's bounding box.
       const double rough = a.sphere ? 1e-12 : 0.03 * b.pose.scale * shapes[b.shape].d_intermediate;
       for (const Vec3d& x : a.sphere ? std::vector{a.pose.centre} : placed[i].points)
         EXPECT_GT(test::signed_distance(placed[j], x) - reach, how.spacing - rough) << i << " " << j;

@@ -14,7 +14,8 @@ namespace {
 using kernels::block_steps;
 constexpr Vec3d size{0.05, 0.05, 0.1};
 
-/// Returns options of a load of 10 Hz. Its period of 0.1 s is the shortest time; a period has 1e6 steps.
+/// Returns options with a load of 10 Hz and 1e6 steps per period. With the law lasting() and fixed geometry, the period
+/// of 0.1 s is the shortest time scale.
 StepperOptions options_of_10_hz() {
   StepperOptions out;
   const drives::Cyclic loading(1e-5, 10, 1000000);

@@ -68,10 +68,11 @@ std::vector<Comparison> study() {
   return out;
 }
 
-/// Returns the comparisons of the drift study in accuracy.csv and of the runs with `tolerance`. Each result is compared
-/// with a result in double precision with the same settings. If there is no such result, it is compared with the
-/// harmonic solution with the same inertia. The numbers of layers are taken from the precision study. The inertia is
-/// set to 0, which makes the estimated error smaller and so the test stricter.
+/// Returns the comparisons of two studies in accuracy.csv: `drift`, and `tolerance` (runs with a given tolerance). A
+/// run of the drift study is compared with the run in double precision that has the same settings. If there is no such
+/// run, and in the study `tolerance`, the run is compared with the harmonic solution of the same specimen with the same
+/// inertia. The error estimate of each run needs the number of particle layers, which is taken from the precision
+/// study, and the inertia term, which is set to 0; this makes the estimate smaller and so the test stricter.
 std::vector<Comparison> drift() {
   std::map<std::string, double> layers;
   for (const Comparison& c : study()) layers[c.scene] = c.scale.layers;

@@ -123,8 +123,8 @@ class LatticeSection : public testing::TestWithParam<double> {
   }
 
   static void expect_every_eighth(const Specimen& s, const Tessellation& t) {
-    // If two neighbouring facets are almost parallel to the plane and a centre is shifted by δ, the polygons of their
-    // cells may overlap or leave a gap, in a strip of width δ.
+    // The lattice's centres are shifted by up to δ = GetParam(). Where two neighbouring facets are almost parallel to
+    // the plane, the polygons of their cells may therefore overlap or leave a gap, in a strip about δ wide.
     const double tolerance = rounding + 10 * GetParam();
     for (const char axis : {'x', 'y', 'z'}) {
       const double length = s.box.size.*component(axis);

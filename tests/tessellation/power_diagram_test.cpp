@@ -134,9 +134,10 @@ TEST(PowerDiagram, TetrahedraAreInOrderAndKnowTheirNeighbours) {
   }
 }
 
-/// At a dual point no site has less power than the four corners of the tetrahedron. The tolerance is the rounding error
-/// of squared lengths, times 1e3 for the flattest tetrahedron that is solved in double precision. Lengths reach up to
-/// the bounding sites, so the rounding error is about 100 m² · 1e-16.
+/// At the dual point of a tetrahedron, every site has at least the power of the tetrahedron's four corners. Powers are
+/// computed from squared lengths of up to about 100 m² (distances to the bounding sites), which have a rounding error
+/// of about 100 m² · 1e-16 = 1e-14 m². The tolerance is 1e3 times this error, for the flattest tetrahedron that is
+/// solved in double precision.
 TEST(PowerDiagram, NobodyIsInsideADualSphere) {
   const Specimen s = random_spheres(400, 9);
   const WeightedSites sites(s);

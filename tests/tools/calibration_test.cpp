@@ -121,7 +121,8 @@ TEST_P(Truth, IsRecovered) {
   }
 }
 
-/// Recovers the inner modulus of clusters: in this specimen of 80 spheres, pairs of spheres make up the aggregates.
+/// Recovers the modulus of the contacts inside clusters (aggregates that consist of several spheres). In this specimen
+/// of 80 spheres every aggregate is a pair of spheres.
 TEST_P(Truth, OfClustersIsRecovered) {
   const fs::path file = fs::path(testing::TempDir()) / fmt::format("clusters_{}_{}_{}.csv", std::get<0>(GetParam()),
                                                                    to_string(std::get<1>(GetParam())), getpid());

@@ -19,8 +19,8 @@ using experiments::SteppedFrequency;
 
 namespace {
 
-/// Springs and dashpots give a phase angle of 0 to 90 degrees. Start-up waves can take it beyond this range by up to
-/// this margin.
+/// Springs and dashpots give a phase angle of 0 to 90 degrees. This margin [degrees] is added at both ends, because
+/// start-up waves can change the phase angle a little.
 constexpr double phase_margin_deg = 1;
 /// Largest accepted residual (rms) of the sine that is fitted to the stress, divided by the amplitude of the stress. If
 /// the residual is half of the amplitude, the stress is plainly not a sine. The residual does not measure the accuracy

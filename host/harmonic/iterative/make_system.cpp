@@ -167,8 +167,8 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
   return out;
 }
 
-/// Returns the mass-weighted products of a free motion of some particles with the motions of the boxes. The products
-/// are not all zero if the boxes can move as in the free motion.
+/// Returns Rᵀ·M·m for the free motion m with number `motion` (see make_weights()). It is used for free motions in which
+/// only some of the particles move. The result is not zero if the boxes can move as in the free motion.
 Eigen::VectorXd weights_of_boxes(const LinearSystem& system, int motion) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   return Eigen::Map<const Eigen::VectorXd>(system.weight.data() + motion * size, size);
@@ -197,7 +197,8 @@ void make_motions(const kernels::Layout& layout, const Inertia& inertia, const F
   }
 }
 
-/// Computes Rᵀ·M·motion for all free motions, that is, their mass-weighted products with the motions of the boxes.
+/// Computes Rᵀ·M·m for every free motion m (a motion that no contact resists). M is the mass matrix. The columns of R
+/// are the six rigid motions of each box; a box is a group of neighbouring particles.
 void make_weights(LinearSystem& out) {
   const auto motions = static_cast<std::size_t>(out.free);
   out.weight.assign(motions * 6 * out.boxes(), 0);
@@ -259,7 +260,7 @@ std::vector<double> invert_particle_blocks(const LinearSystem& system, const ker
 }
 
 void refuse_loose_particle(std::int64_t body, const kernels::Layout& layout) {
-  throw NotIterable(fmt::format("harmonic: particle {} can move by itself without force",
+  throw NotIterable(fmt::format("harmonic: no contact resists some motion of particle {} (singular stiffness matrix)",
                                 layout.particle[static_cast<std::size_t>(body)]));
 }
 

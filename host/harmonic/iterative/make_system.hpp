@@ -18,10 +18,11 @@ kernels::LinearSystem make_system(const ContactNetwork& network, const Specimen&
                                   const FreeMotions& free);
 
 /// Returns K_ii⁻¹ of every particle, [body][36]: the fine level of the preconditioner.
-/// \throws NotIterable naming a particle that can move by itself without force.
+/// \throws NotIterable naming a particle that has a motion which no contact resists.
 std::vector<double> invert_particle_blocks(const kernels::LinearSystem& system, const kernels::Layout& layout);
 
-/// Throws NotIterable naming the particle that can move by itself. `body` is the number of this particle in the layout.
+/// Throws NotIterable naming a particle that has a motion which no contact resists. `body` is the number of this
+/// particle in the layout.
 [[noreturn]] void refuse_loose_particle(std::int64_t body, const kernels::Layout& layout);
 
 }  // namespace macadam::harmonic

@@ -16,9 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A combination of parameters counts as undetermined when the standard deviation of its logarithm exceeds this (a
 /// factor of 2).
 constexpr double undetermined_deviation = 0.7;
-/// `smallest_exponent`: exponents below this fraction of the largest are left out of a combination's name.
-/// `smallest_component`: a parameter belongs to an undetermined direction only if its component of the unit vector
-/// exceeds this.
+/// A combination is a product of powers of parameters. Its name leaves out parameters whose exponent is smaller than
+/// `smallest_exponent` times the largest exponent. A parameter belongs to an undetermined direction (a unit vector)
+/// only if its component of this vector exceeds `smallest_component`.
 constexpr double smallest_exponent = 0.02, smallest_component = 1e-3;
 
 /// Returns the rows with only the columns in `kept`. `all`: number of columns.

@@ -9,7 +9,7 @@
 
 namespace macadam::fitting {
 
-/// A measured modulus, in the terms of the misfit (model (24.1)).
+/// A measured modulus, as the quantities that the misfit (model (24.1)) compares: ln |E*| and φ.
 struct Target {
   Place place;
   double log_modulus = 0, phase = 0;                  ///< ln |E*| [|E*| in Pa], φ [rad]

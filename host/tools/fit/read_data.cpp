@@ -188,7 +188,8 @@ class DataReader {
             modulus_factor()};
   }
 
-  /// Returns the value of a quantity in a row [SI]; 0 if there is no such column. Impossible values become complaints.
+  /// Returns the value of a quantity in a row [SI]; 0 if there is no such column. Adds an impossible value to the
+  /// complaints, the list of faults that one error reports together.
   double value(const LaboratoryTable::Row& row, Quantity quantity) {
     const auto found = used_.find(quantity);
     if (found == used_.end()) return 0;

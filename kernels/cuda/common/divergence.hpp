@@ -10,8 +10,9 @@
 
 namespace macadam::kernels {
 
-/// Returns the number (specimen order) of a body that in one step moves more than its radius, turns more than one
-/// radian, or has a velocity that is not finite; UINT32_MAX for any other.
+/// Tests whether a body diverges, that is, moves more than its radius in one step, turns more than one radian in one
+/// step, or has a velocity that is not finite. Returns the number of the body in the specimen if the body diverges,
+/// otherwise UINT32_MAX.
 template <class P>
 struct Divergent {
   const typename P::Particle* velocity;  ///< [body][8]

@@ -51,10 +51,11 @@ class MultiprocessorLease {
     const std::lock_guard lock(leases.mutex_);
     return leases.next_++ + (work == Work::steps ? first_of_steps : 0);
   }
-  /// Waits until `wanted` can be taken: no lower number waits for one of its devices, and all of its multiprocessors
-  /// are free, or will be free when an event happens. In the latter case, calls `queue_behind` with that event. It does
-  /// so while it holds the lock, so that the owner of the event cannot destroy it. `of_device`: number of
-  /// multiprocessors that each device has.
+  /// Takes the multiprocessors `wanted` for the specimen or solution `number` (see next_number()). Waits until no
+  /// specimen or solution with a lower number waits for any of the same devices, and all wanted multiprocessors are
+  /// free or will be free after a known event. In the latter case, calls `queue_behind` with this event. The lock is
+  /// still held during that call, so that the owner of the event cannot destroy the event meanwhile. `of_device`:
+  /// number of multiprocessors that each device has.
   static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
     MultiprocessorLease& leases = instance();
     std::unique_lock lock(leases.mutex_);

@@ -98,8 +98,10 @@ inline constexpr unsigned cocg_threads = 256;
 /// contacts; one warp would need more time for it than all other warps for all other bodies. Measurements with other
 /// values are not recorded.
 inline constexpr unsigned many_contacts = 64;
-/// Segments (ranges of bodies that one thread block works on) per multiprocessor. This number is small enough for one
-/// device and large enough for two. Measurements with other values are not recorded.
+/// Segments (ranges of bodies that one thread block works on) per multiprocessor of one device. The number of segments
+/// does not depend on the number of devices. With two devices there are 8 segments per multiprocessor, which is the
+/// largest number of blocks of `cocg_threads` threads that a multiprocessor can hold (2048 / 256). Measurements with
+/// other values are not recorded.
 inline constexpr std::size_t segments_per_multiprocessor = 16;
 /// Iterations that the host enqueues before it looks at the residuals of the previous batch. Measurements with other
 /// values are not recorded.

@@ -71,9 +71,9 @@ struct SystemMemory {
   }
 
  private:
-  /// Divides the bodies of each box into segments of a multiple of 32 bodies. The number of segments is about the
-  /// number of thread blocks that a device can run at the same time. The number of segments does not depend on the
-  /// number of devices.
+  /// Divides the bodies of each box into segments of a multiple of 32 bodies. There are about
+  /// `segments_per_multiprocessor` segments per multiprocessor of one device. The number of segments does not depend on
+  /// the number of devices.
   void make_segments(const LinearSystem& system, const DeviceTeam& team, std::vector<Segment>& runs,
                      std::vector<std::int32_t>& box_segment) const {
     int multiprocessors = 0;

@@ -7,7 +7,8 @@
 
 namespace macadam::kernels {
 
-/// Sums v over the threads of a block that share a lane, into out[N][W] (global or shared memory).
+/// Sums v over all threads of a block that have the same lane (threadIdx.x modulo W). Writes the sums to out[N][W], in
+/// global or shared memory.
 template <int N, int W>
 __device__ void block_sum(const double (&v)[N], double* out) {
   __shared__ double warps[cocg_threads / 32][N * W];

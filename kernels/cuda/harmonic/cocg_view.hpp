@@ -43,8 +43,8 @@ struct CocgScalars {
 /// Positions of the sums of a box, and how many there are. The sums are, in this order: two parts of rᵀz (straight and
 /// crossed, see plain_product()), rᴴr, the amounts of the free motions in z, and Rᵀr.
 inline constexpr int sums_rr = 2, sums_drop = 3, fine_sums = 3 + most_free_motions, box_sums = fine_sums + 6;
-/// Number of sums of the coarse correction: the straight and the crossed part of its product with Rᵀr, and the amount
-/// of each free motion.
+/// Number of sums of the coarse correction: two parts of its product with Rᵀr (straight and crossed, see
+/// plain_product()), and the amount of each free motion in the coarse correction.
 inline constexpr int coarse_sums = 2 + most_free_motions;
 
 /// Size of a packed K_ii⁻¹ of a body: its lower triangle, by rows, and one unused number.
@@ -96,7 +96,8 @@ struct CocgView {
 __device__ inline double2 plain_product(const double* straight, const double* crossed, int f) {
   return {straight[2 * f] - straight[2 * f + 1], crossed[2 * f] + crossed[2 * f + 1]};
 }
-/// Returns the product aᴴb of load f from the straight sums. The product must be real.
+/// Returns the real part of the product aᴴb of load f. `straight`: as in plain_product(). The callers use only products
+/// whose imaginary part is zero.
 __device__ inline double conjugate_product(const double* straight, int f) {
   return straight[2 * f] + straight[2 * f + 1];
 }

@@ -251,7 +251,7 @@ class TeamCuts {
   Shares slots(const GroupLayout& group) const {
     return of([&](std::size_t m) { return slot(group, m); });
   }
-  /// Shares of the slots of all groups, one group after the other.
+  /// Divides the slots of all groups among the members, one group after the other.
   Shares all_slots() const {
     Shares out;
     for (const auto& group : layout_.groups) {
@@ -260,7 +260,8 @@ class TeamCuts {
     }
     return team_.ranks() ? Shares{out.back()} : out;
   }
-  /// Shares of any items; first(m) is the first item of member m. With several ranks, this device has all items.
+  /// Divides items among the members: member m gets the items first(m) … first(m + 1) − 1. With several ranks, the
+  /// result is one share with the items of all members, because every rank's device has whole arrays.
   template <class First>
   Shares of(First&& first) const {
     if (team_.ranks()) return {{first(team_.size()), team_.device(team_.first())}};

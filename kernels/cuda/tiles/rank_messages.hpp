@@ -95,7 +95,8 @@ class TileMessages {
   void before_settling(const DeviceTeam& team) const { now_.queue(team); }
   /// Sends the load records and the constants of contacts that settle_contacts has written.
   void after_settling(const DeviceTeam& team) const { settled_.queue(team); }
-  /// Sends the displacements at the beginning of the new block.
+  /// Sends the displacements at the beginning of the new block of steps, for bodies whose contacts another rank
+  /// updates.
   void after_base(const DeviceTeam& team) const { before_.queue(team); }
   /// Sends the loads on the walls and their base loads to all ranks.
   void wall_loads(const DeviceTeam& team) const { walls_.queue(team); }

@@ -21,8 +21,8 @@
 
 namespace macadam::kernels {
 
-/// If no step has been taken yet, this value is passed instead of the number of steps of the block that ends. The
-/// constants then get their values for the undeformed contact.
+/// Value of the argument `steps` (number of steps of the block that ends) before the first step of a run, when there is
+/// no such block. The constants then get their values for the undeformed contact.
 inline constexpr int settling_starts = -1;
 
 /// Settles the contacts of one group; one thread per contact.

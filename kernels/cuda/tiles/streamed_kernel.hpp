@@ -14,7 +14,8 @@
 
 namespace macadam::kernels {
 
-/// Returns the velocities of all bodies at step k, by place; the walls follow the last place.
+/// Returns the array of the velocities of all bodies at step k. The index of a particle is its place (see
+/// tile_plan.hpp); the walls come after the last place.
 template <class P>
 __device__ __forceinline__ float4* velocities_of(const TileArrays<P>& s, std::uint32_t k) {
   return reinterpret_cast<float4*>(s.exchange(k));

@@ -10,7 +10,8 @@
 namespace macadam::kernels {
 
 /// Moves the bodies first … end − 1. `has_external_loads`: as in ParticleMotion::word(). The first `long_lists` thread
-/// blocks handle one body each, from `long_body`. The walls' table holds only the row of this step.
+/// blocks handle one body each, the bodies in `long_body`, which have long load lists. The walls' table holds only the
+/// row of this step.
 template <class P, bool has_external_loads>
 __global__ void __launch_bounds__(body_threads, body_blocks)
     step_bodies(const __grid_constant__ ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records,

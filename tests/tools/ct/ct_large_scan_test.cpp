@@ -34,8 +34,8 @@ class CtLargeScan : public CtFolder {
     return "segmented";
   }
 
-  /// Returns the surfaces of grains that are labelled on blocks and refined with the voxels of the scan. `number` gives
-  /// the grain number of a block, 0 for none.
+  /// Labels the scan coarsely, with one grain number per block of `block`³ voxels, then refines the surfaces of the
+  /// grains with the single voxels, and returns the grains. `number` gives the grain number of a block, 0 for none.
   std::vector<ScannedGrain> refined(const Image<float>& scan, std::int64_t block,
                                     const std::function<std::uint32_t(const std::array<std::int64_t, 3>&)>& number,
                                     double noise, Denoising denoising) {

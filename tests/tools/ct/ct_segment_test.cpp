@@ -182,7 +182,7 @@ TEST(CtSegment, SharesOfThePhasesAreRightAndThoseOfTheLaboratoryAreKept) {
   EXPECT_NEAR(free.air_voids, true_air, 0.003);  // tolerance of 0.3 percentage points
   double confidence = 0;
   for (const std::uint8_t c : free.confidence.voxels) confidence += c / 255.0;
-  // the whole scan is specimen
+  // every voxel of the scan belongs to the specimen, so the mean is over all voxels
   EXPECT_NEAR(free.confidence_mean, confidence / static_cast<double>(clean.count()), 1e-12);
   options.aggregate = free.aggregate + 0.01;
   EXPECT_NEAR(segment_scan(scan, options).aggregate, free.aggregate + 0.01, 0.003);

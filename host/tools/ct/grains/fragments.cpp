@@ -54,7 +54,7 @@ std::vector<std::uint32_t> from_inside_out(const Image<float>& distance, double 
   return order;
 }
 
-/// Returns the faces between all pairs of adjacent fragments, sorted by their numbers.
+/// Returns the faces between all pairs of adjacent fragments, sorted by the numbers of the two fragments.
 std::vector<Face> faces_of(const Image<std::uint32_t>& labels, const Image<float>& distance, const Image<float>& grey) {
   std::unordered_map<std::uint64_t, std::size_t> known;
   std::vector<Face> faces;

@@ -158,8 +158,8 @@ double margin_of(double neck, double solidity, double valley) {
 Decision decide(const Fragments& fragments) {
   std::vector<Piece> pieces = pieces_of(fragments);
   Groups groups(pieces.size());
-  // Faces between the pieces that exist after each joining. Several faces between fragments may lie between the same
-  // two pieces.
+  // The faces between pieces; updated after each joining of two pieces. A piece consists of one or more fragments, so
+  // several faces between fragments may lie between the same two pieces.
   std::vector<Face> faces = fragments.faces;
   std::vector<GrainCut> judgement(faces.size());
   for_each_in_parallel(faces.size(),

@@ -44,8 +44,9 @@ class March {
       inside += values[c] > 0;
     }
     if (inside == 0 || inside == 8) return;
-    // Along the order of a side's corners, a line leads from the point where the positive range begins to the point
-    // where it ends. Loops of such lines are counter-clockwise as seen from outside the surface.
+    // Going round the corners of a side in order, the value becomes positive on one edge and ceases to be positive on a
+    // later edge. A line leads from the point where the surface crosses the first edge to the point where it crosses
+    // the second edge. Such lines form loops, which are counter-clockwise as seen from outside the surface.
     std::int32_t from[12], to[12];
     int lines = 0;
     for (const auto& side : sides) {

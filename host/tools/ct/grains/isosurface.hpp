@@ -18,9 +18,9 @@ struct Simplified {
   double error = 0;  ///< largest distance of the original surface's points from `surface` [m]
 };
 
-/// Returns a surface of about `facets` facets. If points of the original surface are farther than `error` [m] from this
-/// surface, returns one of about `most` facets instead. Uses CGAL's edge collapse by Lindstrom and Turk, which keeps
-/// the volume. The result may intersect itself; check_surface() reports that.
+/// Simplifies `surface` to about `facets` facets. If the simplified surface is farther than `error` [m] from a point of
+/// `surface`, simplifies `surface` to about `most` facets instead. Uses CGAL's edge collapse by Lindstrom and Turk,
+/// which keeps the volume. The result may intersect itself; check_surface() reports that.
 Simplified simplified(const Surface& surface, int facets, int most, double error);
 
 }  // namespace macadam::ct

@@ -44,7 +44,7 @@ void check_counts(const ImageHeader& header, const fs::path& path, const fs::pat
   const std::string found =
       fmt::format("{} x {} x {} of {} bits", header.size[0], header.size[1], header.size[2], header.bits);
   if (!(bytes > 0 && bytes < 0x1p46))
-    throw InputError(path.string(), 0, "voxels", found, "at least one, and no more than a scan can have");
+    throw InputError(path.string(), 0, "voxels", found, "at least one voxel, and less than 2^46 bytes (64 TiB)");
   // largest compression ratios: 1032 for deflate, 2730 for LZW; 4000 is above both
   const double there =
       fs::is_directory(voxels) ? std::numeric_limits<double>::infinity() : static_cast<double>(fs::file_size(voxels));

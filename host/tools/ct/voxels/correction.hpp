@@ -33,7 +33,7 @@ double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, Cor
 double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps = nullptr);
 
 /// Removes smooth changes of the levels over radius and height (beam hardening): fits a polynomial and divides by or
-/// subtracts it. Returns the difference between the brightest and the darkest radius.
+/// subtracts it. Returns the difference of the fitted grey levels between the brightest and the darkest radius.
 double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps = nullptr);
 
 /// Applies the corrections that `options` selects in turn, at most four times, until each changes less than 2 % of the
