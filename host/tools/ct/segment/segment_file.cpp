@@ -51,8 +51,7 @@ std::int64_t block_of(const FineScan& scan, const std::string& file, const Segme
     if (bytes_in_blocks(scan, block) <= memory) return block;
   std::string found = fmt::format("{:.3g} GB", gigabytes(memory));
   if (!scan.file.apart())
-    found +=
-        ", and a file that must be read as a whole (raw MetaImage, HDF5 and folders of TIFF files are read in parts)";
+    found += ", and this file cannot be read in parts (raw MetaImage, HDF5 and folders of TIFF files can)";
   throw InputError(
       file, 0, "memory", found,
       fmt::format(
