@@ -150,7 +150,7 @@ class CsvReader {
   /// Parses one record and appends the particle or void.
   void record(std::string_view line) {
     if (static_cast<std::int64_t>(specimen_.cells()) == most_particles)
-      fail("particles", "one more", "at most " + std::to_string(most_particles));
+      fail("number of particles", "a larger number", "at most " + std::to_string(most_particles));
     std::array<std::string_view, columns> field;
     const std::size_t found = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
     if (found != columns)
@@ -165,8 +165,7 @@ class CsvReader {
     const auto id = number<std::int64_t>(field[0], "id", "an integer of 0 or more");
     if (id < 0) fail("column id", in_quotes(field[0]), "an integer of 0 or more");
     if (const auto [earlier, is_new] = line_of_id_.try_emplace(id, lines_.number()); !is_new)
-      fail("column id",
-           in_quotes(field[0]) + ", which is already the number of line " + std::to_string(earlier->second),
+      fail("column id", in_quotes(field[0]) + ", which is already the id in line " + std::to_string(earlier->second),
            "a number that occurs once");
     const Vec3d centre{number<double>(field[1], "x", finite), number<double>(field[2], "y", finite),
                        number<double>(field[3], "z", finite)};

@@ -44,7 +44,7 @@ void check_counts(const ImageHeader& header, const fs::path& path, const fs::pat
   const std::string found =
       fmt::format("{} x {} x {} of {} bits", header.size[0], header.size[1], header.size[2], header.bits);
   if (!(bytes > 0 && bytes < 0x1p46))
-    throw InputError(path.string(), 0, "voxels", found, "at least one, and no more than a scan can have");
+    throw InputError(path.string(), 0, "voxels", found, "at least one voxel, and less than 70 TB");
   // largest compression ratios: 1032 for deflate, 2730 for LZW; 4000 is above both
   const double there =
       fs::is_directory(voxels) ? std::numeric_limits<double>::infinity() : static_cast<double>(fs::file_size(voxels));
@@ -123,7 +123,8 @@ std::unique_ptr<ImageSlices> open_image(const fs::path& path, const std::string&
   const std::string ending = lower_ending(path);
   const bool hdf5 = ending == ".h5" || ending == ".hdf5" || ending == ".hdf" || ending == ".nxs";
   if (!dataset.empty() && !hdf5)
-    throw InputError(path.string(), 0, "dataset", "\"" + dataset + "\"", "none: the file is not HDF5");
+    throw InputError(path.string(), 0, "dataset", "\"" + dataset + "\"",
+                     "no name of a dataset, because the file is not HDF5");
   std::unique_ptr<ImageSlices> image = hdf5 ? open_hdf5(path, dataset) : open_itk(path);
   check_counts(image->header(), path, image->voxel_file().empty() ? path : image->voxel_file());
   return image;
