@@ -81,8 +81,8 @@ def section():
             *wrapped(f"""The merit of a set is the root mean square, over the four specimens, of six differences
                 (misfits) from the paper: the numbers of contacts A-A, M-A, M-M and total, divided by the numbers of
                 SS, each in units of {100 * CONTACT_SCALE:.0f} %, and d_m of |E\\*| and φ in units of
-                {DEVIATION_SCALE:.0f} percentage points. A lower merit is better. A different seed changes d_m by one
-                point and the number of A-A contacts by 4 %, so two sets with merits below 1 cannot be distinguished.
+                {DEVIATION_SCALE:.0f} percentage points. A lower merit is better. With another seed d_m changes by about 1
+                percentage point and the number of A-A contacts by up to 4 %, so two sets with merits below 1 cannot be distinguished.
                 The other columns are the root mean squares of the single misfits. In the first table one choice at a
                 time is changed:"""), "",
             *ranking([f for f in found if single(f[1])]), f"The best {SHOWN} of {len(found)} sets:", "",

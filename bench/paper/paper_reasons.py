@@ -180,9 +180,9 @@ def shape(f):
     return f"""*Ico against Poly.* Table 3, and therefore our scenes, give Ico more aggregate and less mastic than
         Poly. If Poly has the composition of Ico (seed 1, mean of 2 and 20 Hz), |E\\*| of Ico differs from Poly's by
         {several(same, '{:+.1f}')} % (coarse and fine) instead of {several(e, '{:+.1f}')} %, and φ by
-        {several(phi, '{:+.1f}')} % (paper {ICO_OVER_POLY['fine'][1]:+} % for fine). The difference in composition
-        therefore explains our difference in |E\\*| between Ico and Poly. Why the paper's specimens differ as if they
-        had equal compositions is *not explained*."""
+        {several(phi, '{:+.1f}')} % (paper {ICO_OVER_POLY['fine'][1]:+} % for fine). The different
+        compositions therefore explain why |E\\*| of our Ico is higher than |E\\*| of our Poly. It is *not explained* why
+        |E\\*| and φ of the paper's Ico and Poly differ as if the two had the same composition."""
 
 
 REASONS = [

@@ -152,8 +152,8 @@ def contact_scene(text, choice, specimen):
 
 QUANTITIES = [*PAIRS, "total", "|E*|", "φ"]
 # Scales by which differences are divided: 5 % for a number of contacts relative to SS, 2 points for a deviation from
-# SS. The paper rounds to half a point. The seeds of one scene differ by up to 4 % in the number of A-A contacts, by
-# less in the other numbers, and by one point in the deviations.
+# SS. The paper gives deviations to the nearest 0.5 percentage points. The seeds of one scene differ by up to 4 % in
+# the number of A-A contacts, by less in the other numbers, and by about 1 percentage point in the deviations.
 CONTACT_SCALE, DEVIATION_SCALE = 0.05, 2.0
 Judged = namedtuple("Judged", "ratios deviations misfits")
 

@@ -136,8 +136,8 @@ class ReferenceStepper : public Stepper {
   }
 
   std::string description() const override {
-    return std::string("reference, double, points, ") + (options_.geometry == Geometry::updated ? "updated" : "fixed") +
-           " geometry, 1 thread";
+    return std::string("reference, double precision, one contact point after the other, ") +
+           (options_.geometry == Geometry::updated ? "updated" : "fixed") + " geometry, 1 thread";
   }
 
   std::int64_t bytes() const override {

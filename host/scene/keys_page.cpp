@@ -81,7 +81,7 @@ std::string keys_page() {
                        cell(section.text.substr(1)));
     out += section.need == Need::required ? ". Required." : fmt::format(". Without it: {}.", section.usual);
     out +=
-        "\n\n<!-- by hand: printed by the program -->\n\n| key | value | default | meaning |"
+        "\n\n<!-- made by macadam info --keys markdown; do not edit -->\n\n| key | value | default | meaning |"
         "\n|---|---|---|---|\n";
     for (const KnownKey& key : keys)
       if (key.section == title && !is_section(key)) out += row(key);

@@ -124,8 +124,8 @@ GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
   specimen.source = spec.line > 0 ? "specimen generated from " + spec.source : "generated specimen";
   if ((spec.shapes || spec.voids) && !spec.fix_aggregates)
     throw InputError(spec.source, spec.line, "fix_aggregates", "false",
-                     spec.shapes ? "true: otherwise the spheres of one shape would move apart"
-                                 : "true: otherwise the voids would move with the aggregates");
+                     spec.shapes ? "true, because otherwise the spheres of one shape would move apart"
+                                 : "true, because otherwise the voids would move with the aggregates");
   Enclosure wall;
   auto [placement, first_void, end_of_voids] =
       spec.shapes ? with_shapes(spec, result, wall, progress) : with_spheres(spec, result, placing);

@@ -123,12 +123,13 @@ std::vector<std::string> packing_warnings(const Specimen& specimen, const Tessel
       fmt::format("spheres fill {:.3g} % of the box of {:g} x {:g} x {:g} m", 100 * fill, box.x, box.y, box.z);
   std::vector<std::string> out;
   if (const Reach reach = farthest_reach(all, tessellation); reach.cell >= 0) {
-    out.push_back(
-        fmt::format("the packing does not fill its box: the facet between {} and {} extends to {:.3g} m from the "
-                    "sphere, {:.3g} times the largest radius there (expected at most {:g}); {}. Empty parts of the box "
-                    "carry load as if they were solid",
-                    name_of(specimen, reach.cell), name_of(specimen, farthest_side(all, tessellation, reach)),
-                    reach.distance, reach.radii, most_radii, filled));
+    const std::string cell = name_of(specimen, reach.cell);
+    out.push_back(fmt::format(
+        "the packing does not fill its box: the program treats the gap between {} and {} as solid material "
+        "that carries load. The cell of {} reaches {:.3g} m from the surface of its sphere, {:.3g} times the "
+        "largest radius of this sphere and its neighbours (expected at most {:g} times); {}",
+        cell, name_of(specimen, farthest_side(all, tessellation, reach)), cell, reach.distance, reach.radii, most_radii,
+        filled));
   }
   if (fill > most_fill)
     out.push_back(

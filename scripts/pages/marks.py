@@ -22,7 +22,9 @@ BLOCK = re.compile(r"^( *)<!-- (table|turned|lines|copy)$")
 CLOSE = re.compile(r"^ *-->$")
 END = re.compile(r"^ *<!-- end -->$")
 VALUE = re.compile(r"<!--= (.+?) -->(.*?)<!--/-->")
-BY_HAND = re.compile(r"^ *<!-- by hand: \S+( \S+){2,} -->$")  # a reason has three words or more
+# Comment before a table whose numbers are not marked: by hand with a reason of three words or more, or the command that
+# printed the table.
+BY_HAND = re.compile(r"^ *<!-- (by hand: \S+( \S+){2,}|made by macadam( \S+)+; do not edit) -->$")
 ANY = re.compile(r"<!--(=|/| *(table|turned|lines|copy|end|by hand)\b)")
 WITHIN = re.compile(r"<!--(?:(?!-->).)*?<!--", re.S)
 

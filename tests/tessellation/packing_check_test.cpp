@@ -53,8 +53,9 @@ TEST(PackingCheck, ABoxTwiceAsHighNamesTheTopWall) {
   s.box.size.z *= 2;
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
-  EXPECT_HAS(found[0], "the packing does not fill its box: the facet between particle 1");
-  EXPECT_HAS(found[0], "and the +z wall extends to 6");  // 6 m above the spheres, measured to a corner of the facet
+  EXPECT_HAS(found[0], "the packing does not fill its box: the program treats the gap between particle 1");
+  EXPECT_HAS(found[0], " and the +z wall as solid material");
+  EXPECT_HAS(found[0], " reaches 6");  // 6 m above the spheres, measured to a corner of the facet
   EXPECT_HAS(found[0], "spheres fill 26.2 % of the box of 5 x 5 x 12 m");  // half of π/6
 }
 
@@ -63,7 +64,7 @@ TEST(PackingCheck, ABoxTwiceAsWideNamesASide) {
   s.box.size.x *= 2;
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
-  EXPECT_HAS(found[0], "and the +x wall extends to ");
+  EXPECT_HAS(found[0], " and the +x wall as solid material");
 }
 
 // The corners of the box are at least 3.7 m from the spheres of the cylinder.
@@ -76,7 +77,7 @@ TEST(PackingCheck, ACylinderInABoxIsFound) {
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
   EXPECT_HAS(found[0], "the packing does not fill its box");
-  EXPECT_HAS(found[0], " wall extends to 4.");
+  EXPECT_HAS(found[0], " reaches 4.");
 }
 
 TEST(PackingCheck, DiametersForRadiiFillTooMuch) {

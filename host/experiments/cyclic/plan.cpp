@@ -80,8 +80,8 @@ class Planner {
       };
       if (automatic() && !facts[pair]->stiffness) {
         refuse("tolerance in [solver]", fmt::format("{}", tolerance()),
-               "no tolerance: errors are measured against a solution in the frequency domain, for which this law has "
-               "no complex stiffness");
+               "no tolerance, because errors are measured against a solution in the frequency domain, and this law has "
+               "no complex stiffness for such a solution");
       }
       if (facts[pair]->linear) continue;
       if (scene_.network.quadrature == Quadrature::exact) {

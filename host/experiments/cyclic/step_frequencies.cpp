@@ -56,7 +56,7 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
   const double blocks = common_options(plan, solver).blocks;
   plan.decisions.push_back(
       fmt::format("viscoelastic states are not updated in every step but {:.0f} times within the shortest time of the "
-                  "load and the laws; the error of this is at most {:.1e}",
+                  "load and the laws; the error that the rarer updates cause is at most {:.1e}",
                   std::ceil(blocks), block_error(blocks)));
 }
 

@@ -38,10 +38,12 @@ void check(const std::vector<ShapeTemplate>& shapes, const ShapeComposition& com
     refuse("spacing", shown(spec.spacing) + " m", "a finite length, not negative");
   const bool insertion = spec.method == PlacementMethod::insertion;
   if (!insertion && spec.spacing > 0)
-    refuse("spacing", shown(spec.spacing) + " m with packing", "insertion, or a gap in place of the spacing");
+    refuse("spacing", shown(spec.spacing) + " m with placement \"packing\"",
+           "placement \"insertion\", or a gap instead of the spacing");
   if (!spec.spheres.empty() && (!insertion || spec.spheres.size() != composition.aggregate.size()))
-    refuse("spheres", insertion ? std::to_string(spec.spheres.size()) : "a test by spheres with packing",
-           "insertion, and the spheres of each of " + std::to_string(composition.aggregate.size()) + " aggregates");
+    refuse("spheres", insertion ? std::to_string(spec.spheres.size()) : "spheres with placement \"packing\"",
+           "placement \"insertion\", and the spheres of each of " + std::to_string(composition.aggregate.size()) +
+               " aggregates");
   for (const AggregateRequest& r : composition.aggregate) {
     if (r.shape < 0 || r.shape >= static_cast<int>(shapes.size()))
       refuse("shape number", std::to_string(r.shape),

@@ -66,7 +66,7 @@ TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
   std::vector<GrainCut> cuts = good;
   cuts[1].cut = false;  // a contradiction: fragments 1 and 2 would be cut apart, although each is joined to fragment 3
   EXPECT_NE(fault_of(cuts).find("fragments 1 and 2"), std::string::npos) << fault_of(cuts);
-  EXPECT_NE(fault_of(cuts).find("that other rows join"), std::string::npos) << fault_of(cuts);
+  EXPECT_NE(fault_of(cuts).find("join these two fragments"), std::string::npos) << fault_of(cuts);
   cuts = good;
   cuts[2].place.x += 1.9 * voxel;  // the place is within the tolerance of two voxels from the face
   EXPECT_EQ(fault_of(cuts), "none");

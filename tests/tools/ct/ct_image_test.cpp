@@ -122,7 +122,8 @@ TEST_F(CtImage, AStackWithoutOneOfItsSlicesIsRefused) {
   fs::remove(folder_ / "core2_12.tif");
   EXPECT_NE(fault<std::uint16_t>(folder_).find("core2_14.tif after core2_10.tif"), std::string::npos);
   write_image(folder_ / "core2_010.tif", slice);
-  EXPECT_NE(fault<std::uint16_t>(folder_).find("core2_010.tif beside core2_10.tif, expected one file for each number"),
+  EXPECT_NE(fault<std::uint16_t>(folder_).find(
+                "core2_010.tif and core2_10.tif, which have the same number, expected one file for each number"),
             std::string::npos)
       << fault<std::uint16_t>(folder_);
 }

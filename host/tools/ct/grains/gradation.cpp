@@ -144,11 +144,12 @@ double trust_in_sizes(const std::vector<ScannedGrain>& grains, const std::vector
   // With a few dozen grains the median may differ by a fifth by chance. Grains somewhat larger than the mesh of a sieve
   // may also pass, because they are long or the wires are worn.
   if (middle > 0.7 * high && middle < 1.4 * high && largest < 1.25 * laboratory.back().size) return 1;
-  warnings.push_back(
-      fmt::format("half of the grains' volume in the scan is below {:.3g} mm, and in the laboratory's gradation below "
-                  "{:.3g} mm (only sizes that a scan can show); the largest grain passes {:.3g} mm in the scan and "
-                  "{:.3g} mm in the laboratory: the edge of a voxel may be wrong, please check it",
-                  1e3 * middle, 1e3 * high, 1e3 * largest, 1e3 * laboratory.back().size));
+  warnings.push_back(fmt::format(
+      "the grains of the scan and of the laboratory's gradation differ in size, so the edge of a voxel may be "
+      "wrong; please check it. Half of the grains' volume is below {:.3g} mm in the scan and below {:.3g} mm "
+      "in the laboratory's gradation, without the sizes that are too small for the scan. The largest grain "
+      "passes a sieve of {:.3g} mm in the scan and of {:.3g} mm in the laboratory",
+      1e3 * middle, 1e3 * high, 1e3 * largest, 1e3 * laboratory.back().size));
   return doubtful;
 }
 

@@ -239,8 +239,8 @@ Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts) {
   for (const GrainCut& cut : cuts) {
     if (cut.cut && groups.root(cut.a) == groups.root(cut.b)) {
       throw InputError("cuts", 0, name(cut.a, cut.b),
-                       "a cut between two fragments that other rows join through their neighbours",
-                       "cuts in all rows between two grains, or in none");
+                       "cut 1, although rows with cut 0 join these two fragments through other fragments",
+                       "cut 0 in this row too, or cut 1 in all rows of the two grains that this row separates");
     }
   }
   return {groups.numbers(), cuts};

@@ -87,8 +87,9 @@ void check_storage(const H5::DataSet& set, const ImageHeader& header, const std:
   const double packed = how.getNfilters() > 0 ? 1 / 4000.0 : 1;
   if (how.getLayout() != H5D_VIRTUAL && there < packed * bytes) {
     throw InputError(file, 0, "bytes of the dataset", fmt::format("{:.0f}", there),
-                     fmt::format("those of {} x {} x {} voxels of {} bits", header.size[0], header.size[1],
-                                 header.size[2], header.bits));
+                     fmt::format("at least {:.0f} for {} x {} x {} voxels of {} bits{}", std::ceil(packed * bytes),
+                                 header.size[0], header.size[1], header.size[2], header.bits,
+                                 packed < 1 ? " at the highest compression, 1 to 4000" : ""));
   }
   if (how.getLayout() == H5D_VIRTUAL || how.getExternalCount() > 0)
     throw InputError(file, 0, "dataset", "one whose voxels are in other files", "voxels in this file");

@@ -123,7 +123,8 @@ std::unique_ptr<ImageSlices> open_image(const fs::path& path, const std::string&
   const std::string ending = lower_ending(path);
   const bool hdf5 = ending == ".h5" || ending == ".hdf5" || ending == ".hdf" || ending == ".nxs";
   if (!dataset.empty() && !hdf5)
-    throw InputError(path.string(), 0, "dataset", "\"" + dataset + "\"", "none: the file is not HDF5");
+    throw InputError(path.string(), 0, "dataset", "\"" + dataset + "\"",
+                     "no name of a dataset, because the file is not HDF5");
   std::unique_ptr<ImageSlices> image = hdf5 ? open_hdf5(path, dataset) : open_itk(path);
   check_counts(image->header(), path, image->voxel_file().empty() ? path : image->voxel_file());
   return image;

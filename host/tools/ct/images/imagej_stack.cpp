@@ -37,7 +37,7 @@ class ImagejStack : public ImageSlices {
     in_.read(to, bytes);
     if (in_.gcount() != bytes)
       throw InputError(file_, 0, "voxels", fmt::format("{} bytes from slice {} on", in_.gcount(), first),
-                       fmt::format("{}", bytes));
+                       fmt::format("{} bytes", bytes));
     if (!swaps_) return;
     const int voxel = bytes_of(type_);
     for (char* at = to; at < to + bytes; at += voxel) std::reverse(at, at + voxel);

@@ -106,9 +106,10 @@ void check_slice_numbers(const std::vector<std::filesystem::path>& slices) {
   const std::string folder = slices.front().parent_path().string();
   for (std::size_t k = 1; k < names.size(); ++k) {
     if (names[k].numbers == names[k - 1].numbers)
-      throw InputError(folder, 0, "slices",
-                       slices[k].filename().string() + " beside " + slices[k - 1].filename().string(),
-                       "one file for each number");
+      throw InputError(
+          folder, 0, "slices",
+          slices[k].filename().string() + " and " + slices[k - 1].filename().string() + ", which have the same number",
+          "one file for each number");
   }
   const std::vector<std::int64_t> numbers = counted(names);
   std::int64_t step = std::numeric_limits<std::int64_t>::max();

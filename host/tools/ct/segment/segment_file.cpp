@@ -51,8 +51,7 @@ std::int64_t block_of(const FineScan& scan, const std::string& file, const Segme
     if (bytes_in_blocks(scan, block) <= memory) return block;
   std::string found = fmt::format("{:.3g} GB", gigabytes(memory));
   if (!scan.file.apart())
-    found +=
-        ", and a file that must be read as a whole (raw MetaImage, HDF5 and folders of TIFF files are read in parts)";
+    found += ", and this file cannot be read in parts (raw MetaImage, HDF5 and folders of TIFF files can)";
   throw InputError(
       file, 0, "memory", found,
       fmt::format(
@@ -122,9 +121,9 @@ Segmentation segment_open(ImageSlices& image, const Vec3d& spacing, const ScanFi
     return segment_scan(std::move(scan), options);
   }
   if (options.recipe == SegmentRecipe::paper) {
-    throw InputError(
-        name, 0, "memory", fmt::format("{:.3g} GB", gigabytes(memory)),
-        fmt::format("{:.3g} GB: with the recipe paper the whole scan must fit in memory", gigabytes(whole)));
+    throw InputError(name, 0, "memory", fmt::format("{:.3g} GB", gigabytes(memory)),
+                     fmt::format("at least {:.3g} GB, because with the recipe paper the whole scan must fit in memory",
+                                 gigabytes(whole)));
   }
   fine.block = block_of(fine, name, options, memory);
   CoarseScan coarse = read_coarse(fine, options);

@@ -64,7 +64,7 @@ Range voxels_in(const std::array<Vec3d, 2>& box, const Image<std::uint8_t>& phas
   for (std::size_t k = 0; k < 3; ++k) {
     if (out.begin[k] < 0 || out.end[k] > phases.size[k] || out.begin[k] >= out.end[k])
       throw InputError("twin", 0, "box", fmt::format("voxels {} to {} along {}", out.begin[k], out.end[k], "xyz"[k]),
-                       fmt::format("at least one, within the {} of the image", phases.size[k]));
+                       fmt::format("at least one voxel, and only voxels of the image, which has {}", phases.size[k]));
   }
   return out;
 }
@@ -120,7 +120,7 @@ Cut cut_out(const fs::path& folder, const TwinSpec& spec) {
   out.labels = read_image<std::uint32_t>(folder / "labels.mha");
   if (out.labels.size != out.phases.size)
     throw InputError((folder / "labels.mha").string(), 0, "voxels", fmt::format("{}", out.labels.count()),
-                     fmt::format("{}, those of phases.mha", out.phases.count()));
+                     fmt::format("{}, as in phases.mha", out.phases.count()));
   const Range range = spec.box ? voxels_in(*spec.box, out.phases) : extent_of(out.phases, folder);
   out.phases = cropped(out.phases, range);
   out.labels = cropped(out.labels, range);
@@ -135,7 +135,7 @@ Cut cut_out(const fs::path& folder, const TwinSpec& spec) {
   const double share = static_cast<double>(outside) / static_cast<double>(out.phases.count());
   if (share > most_outside)
     throw InputError((folder / "phases.mha").string(), 0, "voxels of the box outside of the specimen",
-                     fmt::format("{:.2g} %", 100 * share), "less than 1 %: a box within it");
+                     fmt::format("{:.2g} %", 100 * share), "less than 1 %, so that the box lies within the specimen");
   return out;
 }
 
