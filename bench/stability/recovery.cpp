@@ -114,7 +114,7 @@ void pair_rows(Rows& rows, const Setting& setting, bool flows, Effort effort) {
   made.inertia.mass[0] = made.inertia.inertia[0] = 1e30;
   test::TestScene scene{made.specimen, made.network, test::same_law(laws::Elastic{1e10, 0.3}), made.inertia};
   const Contact& contact = scene.network.contacts[0];
-  const double stiffness = 1e10 * contact.area / contact.distance;
+  const double stiffness = 1e10 * contact.area / contact.length;
   const double step = 0.1 * std::sqrt(scene.inertia.mass[1] / stiffness);  // ωΔt = 0.1
   const auto law = test_law(step, flows);
   scene.laws = test::same_law(law);
@@ -152,7 +152,7 @@ void pair_rows(Rows& rows, const Setting& setting, bool flows, Effort effort) {
       rows.push_back({run_name, setting.name(), "permanent displacement − exact ∫f/C_m dt, of the largest",
                       -order - rounding, order + rounding,
                       "no impulse after the release: the dashpot keeps its displacement", left - exact.flow});
-      const double stepped = found.impulse / (law.C_m * contact.area / contact.distance) / largest;
+      const double stepped = found.impulse / (law.C_m * contact.area / contact.length) / largest;
       rows.push_back({run_name, setting.name(), "permanent displacement − trapezoidal ∫f/C_m dt, of the largest",
                       -rounding, rounding, "the rule keeps this to rounding at any Δt", left - stepped});
       error.push_back(left - exact.flow);

@@ -62,8 +62,8 @@ void ringing(Rows& rows, double dt) {
     options.boundary = moving_top(loading);
     constexpr int steps = 1000;
     const Contact& contact = scene.network.contacts[0];
-    const double flow = modulus * tau * dt * contact.area / contact.distance * 2 * std::numbers::pi *
-                        loading.frequency * loading.amplitude;
+    const double flow = modulus * tau * dt * contact.area / contact.length * 2 * std::numbers::pi * loading.frequency *
+                        loading.amplitude;
     const double kept = std::pow((1 - 2 * tau) / (1 + 2 * tau), steps);
     for (const Setting& setting : settings()) {
       const auto stepper = make(setting, scene, options);

@@ -13,6 +13,8 @@ ReferenceContact make_reference_contact(const ContactNetwork& network, const Con
   out.a = contact.a;
   out.b = contact.b;
   out.pair = contact.pair;
+  out.length = contact.length;
+  out.series = contact.series;
   out.initial_distance = contact.distance;
   out.initial_arm_a = contact.arm_a;
   out.frame = {to_eigen(contact.n), to_eigen(contact.s), to_eigen(contact.t), contact.arm_a, contact.arm_b};

@@ -41,12 +41,14 @@ struct ContactFrame {
 /// every step.
 ContactFrame middle_of(const ContactFrame& before, const ContactFrame& after);
 
-/// One contact with its points. Its stiffness is always computed from the initial distance and areas; only the frame
+/// One contact with its points. Its stiffness is always computed from its length and its initial areas; only the frame
 /// and the lever arms follow the particles.
 struct ReferenceContact {
   std::int32_t a = 0, b = 0;  ///< particle numbers; b may be a Wall
   PairType pair{};
-  double initial_distance = 0;  ///< [m]
+  double length = 0;            ///< length of the law's material [m]
+  double series = 0;            ///< compliance of the rock in series [1/Pa]
+  double initial_distance = 0;  ///< of the two centres, or of the centre and the wall [m]
   double initial_arm_a = 0;     ///< from A's centre to x0 [m]
   ContactFrame frame;           ///< at the whole step; forces act in this frame
   ContactFrame middle;          ///< half a step earlier; velocities are taken in this frame

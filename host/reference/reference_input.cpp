@@ -52,6 +52,13 @@ void require_network(const ContactNetwork& network, std::size_t particles) {
     if (!positive(contact.distance)) {
       throw InputError(source, 0, which + ": distance", fmt::format("{}", contact.distance), "a positive length");
     }
+    if (!positive(contact.length)) {
+      throw InputError(source, 0, which + ": length", fmt::format("{}", contact.length), "a positive length");
+    }
+    if (!(std::isfinite(contact.series) && contact.series >= 0)) {
+      throw InputError(source, 0, which + ": compliance in series", fmt::format("{}", contact.series),
+                       "at least 0 1/Pa");
+    }
     if (contact.point_begin > contact.point_end || contact.point_end > points) {
       throw InputError(source, 0, which + ": contact points",
                        fmt::format("{}…{}", contact.point_begin, contact.point_end),

@@ -23,7 +23,7 @@ ReferenceLaws read_laws(const ContactNetwork& network, const LawTable& laws);
 void require_count(const char* what, std::size_t found, std::size_t expected);
 
 /// Checks the contacts of a network. \throws InputError naming the first contact whose particles or points do not exist
-/// or whose distance is not positive.
+/// or whose distance or length is not positive, or whose compliance in series is negative.
 void require_network(const ContactNetwork& network, std::size_t particles);
 
 /// Checks the masses. \throws InputError naming the first particle whose mass or moment of inertia is not positive and

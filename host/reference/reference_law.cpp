@@ -54,9 +54,8 @@ ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
   out.alpha = law.alpha;
   out.kept = 2;  // two numbers: the stretch and, in component 0 only, how the point broke
   out.break_of = [](const ChainState(&chain)[3]) { return static_cast<Break>(static_cast<int>(chain[0].stretch[1])); };
-  out.point = [law](double area, double distance, double, const std::array<double, 3>& dx, ChainState(&chain)[3]) {
-    const double k[3] = {law.E * area / distance, law.alpha * law.E * area / distance,
-                         law.alpha * law.E * area / distance};
+  out.point = [law](double area, double length, double, const std::array<double, 3>& dx, ChainState(&chain)[3]) {
+    const double k[3] = {law.E * area / length, law.alpha * law.E * area / length, law.alpha * law.E * area / length};
     for (int axis = 0; axis < 3; ++axis) {
       chain[axis].stretch[0] += dx[static_cast<std::size_t>(axis)];
       chain[axis].force = k[axis] * chain[axis].stretch[0];
@@ -98,14 +97,14 @@ ReferenceLaw make_reference_law(const Law& law, const std::string& pair) {
 // so that Eq. 13 holds if its factor (1 + g/c) stands outside the bracket. The new stretch is
 //   x_l + Δx_l = [b·x_l + Δt/(2η)·(f1 + f0)]/a,
 // which is Eq. 14 with the sum of the two forces in place of their difference.
-void advance_chain(const ReferenceLaw& law, double scale, double dt, double dx, ChainState& state) {
+void advance_chain(const ReferenceLaw& law, double scale, double dt, double dx, ChainState& state, double rock) {
   const auto mobility = [&](const KelvinUnit& unit) {
     return dt / (unit.C * scale) / (1 + dt * unit.E / (2 * unit.C));  // μ_l [m/N]
   };
   const double f0 = state.force;
   const double mobility_m = dt / (law.C_m * scale);
 
-  double compliance = 1 / (law.E_m * scale) + mobility_m / 2;
+  double compliance = 1 / (law.E_m * scale) + rock / scale + mobility_m / 2;
   double flow = mobility_m * f0;
   for (std::size_t l = 0; l < law.units.size(); ++l) {
     const double mu = mobility(law.units[l]);

@@ -26,10 +26,10 @@ struct ChainState {
 };
 
 /// A function that advances a law that is not a chain by one step, at one contact point. `area` is the point's part A_J
-/// of the contact's area [m²], `distance` is d of the contact [m], and `dx` contains the opening and the two slips
+/// of the contact's area [m²], `length` is Contact::length [m], and `dx` contains the opening and the two slips
 /// during the step, along n, ŝ and t̂ [m].
-using PointLaw = std::function<void(double area, double distance, double dt, const std::array<double, 3>& dx,
-                                    ChainState (&chain)[3])>;
+using PointLaw =
+    std::function<void(double area, double length, double dt, const std::array<double, 3>& dx, ChainState (&chain)[3])>;
 
 /// A spring, a dashpot and any number of Kelvin units in series. Without units and with C_m = ∞ the law is a spring.
 struct ReferenceLaw {
@@ -50,8 +50,11 @@ struct ReferenceLaw {
 /// \throws InputError when a modulus is negative or not a number, or springs and dashpots differ in number.
 ReferenceLaw make_reference_law(const Law& law, const std::string& pair);
 
-/// Takes one step Δt in which the ends of the chain move apart by dx [m]. `scale` is A_J/d [m], times α for shear:
+/// Takes one step Δt in which the ends of the chain move apart by dx [m]. `scale` is A_J/length [m], times α for shear:
 /// stiffnesses are k = E·scale and viscosities η = C·scale (Eq. 11, 12, 16, 17). `scale` must not be 0.
-void advance_chain(const ReferenceLaw& law, double scale, double dt, double dx, ChainState& state);
+/// `rock` [1/Pa] is the compliance of a spring in series with the chain, whose stiffness is scale/rock. The chain's own
+/// Maxwell spring is in series with all its other elements too, so the two springs act as one spring of compliance
+/// 1/E_m + rock.
+void advance_chain(const ReferenceLaw& law, double scale, double dt, double dx, ChainState& state, double rock = 0);
 
 }  // namespace macadam::reference

@@ -56,6 +56,8 @@ class ReferenceStepper : public Stepper {
     for (const std::int32_t i : options.boundary.fixed) bodies_[static_cast<std::size_t>(i)].fixed = true;
     for (const Contact& contact : network.contacts) {
       contacts_.push_back(make_reference_contact(network, contact, law(contact.pair).states()));
+      if (law(contact.pair).point && contact.series != 0)
+        throw InputError("reference stepper: found rock in series with a law that is not a chain, expected none");
     }
     if (options.start) start_from(*options.start);
     options_.start = nullptr;
@@ -187,7 +189,7 @@ class ReferenceStepper : public Stepper {
                                    number(3, word) - point.t * number(5, word),
                                    number(4, word) + point.s * number(5, word)};
           for (int axis = 0; axis < 3; ++axis) {
-            const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contacts_[c].initial_distance;
+            const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contacts_[c].length;
             if (word == 0) {
               point.chain[axis].force = scale * along[axis];
             } else {
@@ -291,12 +293,15 @@ class ReferenceStepper : public Stepper {
       const ContactFrame &middle = contact.middle, &frame = contact.frame;
       const Vector3d local(increment.dot(middle.n), increment.dot(middle.s), increment.dot(middle.t));
       if (law.point) {
-        law.point(point.area, contact.initial_distance, options_.dt, {local[0], local[1], local[2]}, point.chain);
+        law.point(point.area, contact.length, options_.dt, {local[0], local[1], local[2]}, point.chain);
       }
       for (int axis = 0; axis < 3 && !law.point; ++axis) {
-        const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contact.initial_distance;
+        const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contact.length;
         // If area, shear stiffness (α) or modulus is 0, no force acts, so the chain is not advanced.
-        if (scale * law.E_m != 0) advance_chain(law, scale, options_.dt, local[axis], point.chain[axis]);
+        // The rock has the same stiffness in all directions, series⁻¹·A/length, so its compliance is α·series in units
+        // of the scale of shear.
+        const double rock = (axis == 0 ? 1.0 : law.alpha) * contact.series;
+        if (scale * law.E_m != 0) advance_chain(law, scale, options_.dt, local[axis], point.chain[axis], rock);
       }
       // In tension the chains pull A towards B, and B towards A.
       const Vector3d force =

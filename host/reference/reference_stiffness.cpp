@@ -40,9 +40,10 @@ Stiffness assemble_stiffness(const ContactNetwork& network, const LawTable& laws
     const ReferenceLaw& law = *chains[static_cast<std::size_t>(contact.pair)];
     const ReferenceContact geometry = make_reference_contact(network, contact, 0);
     const Eigen::Matrix3d along_n = geometry.frame.n * geometry.frame.n.transpose();
-    const Eigen::Matrix3d direction = along_n + law.alpha * (Eigen::Matrix3d::Identity() - along_n);
+    const double rock_n = 1 + contact.series * law.E_m, rock_s = 1 + law.alpha * contact.series * law.E_m;
+    const Eigen::Matrix3d direction = along_n / rock_n + law.alpha / rock_s * (Eigen::Matrix3d::Identity() - along_n);
     for (const ContactPoint& point : geometry.points) {
-      const Eigen::Matrix3d D = law.E_m * point.area / contact.distance * direction;
+      const Eigen::Matrix3d D = law.E_m * point.area / contact.length * direction;
       const Matrix36 side_a = point_motion(geometry.frame.lever_a(point));
       add_block(entries, contact.a, contact.a, side_a.transpose() * D * side_a);
       if (contact.b == wall_z_hi) {

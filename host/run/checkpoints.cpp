@@ -92,6 +92,13 @@ std::uint32_t checksum(const Preparation& prepared) {
   add(s.centre), add(s.radius), add(s.phase), add(s.body);
   const ContactNetwork& n = prepared.network;
   add(n.point_s), add(n.point_t), add(n.point_area);
+  std::vector<double> in_series;  // empty unless the network has the rule "series"
+  for (std::size_t c = 0; c < n.contacts.size(); ++c) {
+    const Contact& contact = n.contacts[c];
+    if (contact.length != contact.distance || contact.series != 0)
+      in_series.insert(in_series.end(), {static_cast<double>(c), contact.length, contact.series});
+  }
+  if (!in_series.empty()) add(in_series);
   return static_cast<std::uint32_t>(sum);
 }
 

@@ -35,7 +35,8 @@ double stiffness_on(const ContactNetwork& network, const FactsTable& laws, std::
     if (c.b != wall) continue;
     const LawFacts& law = laws[static_cast<std::size_t>(c.pair)].value();
     const double n[3] = {c.n.x, c.n.y, c.n.z}, normal = n[axis] * n[axis];
-    sum += law.instantaneous * c.moments.a / c.distance * (normal + law.alpha * (1 - normal));
+    const double weak_n = 1 + c.series * law.instantaneous, weak_s = 1 + c.series * law.alpha * law.instantaneous;
+    sum += law.instantaneous * c.moments.a / c.length * (normal / weak_n + law.alpha * (1 - normal) / weak_s);
   }
   return sum;
 }

@@ -63,6 +63,10 @@ struct BlockSettling {
       for (int c = 0; c < 6; ++c) {
         if (c < view.components) f[c] = law.rate * x[c];
       }
+      if (view.series != 0) {
+        const auto factors = SeriesFactors<double>::of(word(view.series), law.rate, static_cast<double>(view.alpha));
+        for (int c = 0; c < 6; ++c) f[c] *= factors.of_component(c);
+      }
     }
     // If the number of units is known at compile time, all chains are loaded before the first is stored. The loops have
     // compile-time bounds, because a GPU keeps an array in registers only if every index is known at compile time.

@@ -52,17 +52,18 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
     word(n_x) = static_cast<Geo>(c.n.x);
     word(n_y) = static_cast<Geo>(c.n.y);
     word(n_z) = static_cast<Geo>(c.n.z);
-    if (shape.geometry_words > distance) word(distance) = static_cast<Geo>(c.distance);
+    if (sizes.has_distance) word(distance) = static_cast<Geo>(c.distance);
     if (!real) return;
     word(arm_a) = static_cast<Geo>(c.arm_a);
     word(arm_b) = static_cast<Geo>(c.arm_b);
+    if (shape.series != 0) word(shape.series) = static_cast<Geo>(c.series);
     const double moments[6] = {c.moments.a, c.moments.s, c.moments.t, c.moments.ss, c.moments.st, c.moments.tt};
-    for (int k = 0; k < (turns ? 6 : 1); ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.distance);
+    for (int k = 0; k < (turns ? 6 : 1); ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.length);
     for (std::uint32_t j = 0; by_points && j < c.point_end - c.point_begin; ++j) {
       Geo* layer = &out.points[(group.packet_layer[packet] + j) * point_words * lanes];
       layer[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);
       layer[point_t * lanes + lane] = static_cast<Geo>(network.point_t[c.point_begin + j]);
-      layer[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.distance);
+      layer[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.length);
     }
   });
   return out;

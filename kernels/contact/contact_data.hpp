@@ -19,7 +19,8 @@
 namespace macadam::kernels {
 
 /// Words of ContactView::geometry, in order. `distance` is only present if the geometry is updated during the run, or
-/// if the law advances the components of a contact point together.
+/// if the law advances the components of a contact point together. One more word, ContactView::series, is only present
+/// if some contact of the group has rock in series.
 enum GeometryWord { n_x, n_y, n_z, arm_a, arm_b, moment_0, distance = moment_0 + 6 };
 /// Words of one layer of ContactView::points.
 enum PointWord { point_s, point_t, point_weight, point_words };
@@ -31,8 +32,8 @@ struct ContactView {
   using Geometry = typename P::Geometry;
   const std::int32_t* body_a;         ///< [slot] body number
   const std::int32_t* body_b;         ///< [slot]
-  const Geometry* geometry;           ///< [packet][geometry_words][lane]; arms [m], moments over d [m] [m²] [m³]
-  const Geometry* points;             ///< [layer][point_words][lane]; s, t [m], A_J/d [m]; points form only
+  const Geometry* geometry;           ///< [packet][geometry_words][lane]; arms [m], moments over length [m] [m²] [m³]
+  const Geometry* points;             ///< [layer][point_words][lane]; s, t [m], A_J/length [m]; points form only
   const std::uint32_t* packet_layer;  ///< [packet + 1]; points form only
   /// [packet][components][1 + units][lane], in points form [layer] instead of [packet]: f [Pa·m], then x_l [m] of each
   /// Kelvin unit. Null if the contacts are stateless.
@@ -40,6 +41,7 @@ struct ContactView {
   State* frame;  ///< [packet][frame_words][lane] ŝ and, in single precision, the spin not yet applied to it
   std::uint32_t packets;
   std::int32_t geometry_words;
+  std::int32_t series;  ///< number of the word of geometry that holds Contact::series [1/Pa]; 0: no such word
   std::int32_t frame_words;
   /// Number of displacement components that have chains. Condensed form: 6, or 3 without shear, or 1 without shear and
   /// rotations. Points form: 3, or 1 without shear.
@@ -64,7 +66,7 @@ struct ContactArrays {
   void for_each_array(ContactView<P>& view, F&& f) {
     f("body_a", "1", body_a, view.body_a);
     f("body_b", "1", body_b, view.body_b);
-    f("geometry", "1, m, m, m2, m3", geometry, view.geometry);
+    f("geometry", "1, m, m, m2, m3, 1/Pa", geometry, view.geometry);
     f("points", "m, m, m", points, view.points);
     f("packet_layer", "1", packet_layer, view.packet_layer);
     f("chain", "Pa m, m", chain, view.chain);
@@ -77,12 +79,14 @@ template <class P>
 struct GroupShape {
   ContactView<P> view{};  ///< sizes and flags only; pointers are null
   bool by_points, stateless;
+  bool has_distance;                 ///< whether the geometry has the word `distance`
   std::size_t slots, lanes, layers;  ///< layers: number of layers of chains
 
   /// `options.skip_rotations` must be final (StepperImpl::decided()).
   GroupShape(const Layout& layout, const GroupLayout& group, const LawFacts& law, const StepperOptions& options)
       : by_points(options.form == ContactForm::points),
         stateless(options.geometry == Geometry::fixed && law.memoryless),
+        has_distance(options.geometry == Geometry::updated || law.coupled),
         slots(group.contact.size()),
         lanes(static_cast<std::size_t>(layout.lanes)),
         layers(by_points ? group.packet_layer.back() : group.packets()) {
@@ -90,7 +94,8 @@ struct GroupShape {
     view.by_points = by_points;
     view.alpha = static_cast<typename P::Geometry>(law.alpha);
     view.packets = static_cast<std::uint32_t>(group.packets());
-    view.geometry_words = options.geometry == Geometry::updated || law.coupled ? distance + 1 : distance;
+    view.geometry_words = has_distance ? distance + 1 : distance;
+    if (group.series) view.series = view.geometry_words++;
     view.frame_words = options.geometry == Geometry::updated ? tangent_words<typename P::State> : 0;
     view.components = by_points ? (shear ? 3 : 1) : shear ? 6 : turns ? 3 : 1;
     view.units = law.units;

@@ -69,8 +69,8 @@ struct FacetLoad {
   T moment_n{}, moment_s{}, moment_t{};
 };
 
-/// Returns the load of a facet by equations (7.1) and (7.2) of the model. d is the distance of the two bodies. f[c] are
-/// the six force densities: f[c]/d is a force per unit of area. m are the area moments divided by d.
+/// Returns the load of a facet by equations (7.1) and (7.2) of the model. d is the contact's length (Contact::length).
+/// f[c] are the six force densities: f[c]/d is a force per unit of area. m are the area moments divided by d.
 template <class T>
 MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T (&m)[6]) {
   const T slip_s = alpha * f[3], slip_t = alpha * f[4], twist = alpha * f[5];

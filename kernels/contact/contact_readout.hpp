@@ -98,11 +98,20 @@ class GroupReading {
     return out;
   }
 
+  /// Returns the factor by which rock in series reduces f of a stateless contact, in a normal or a shear component.
+  double series_factor(const Contact& c, bool shear) const {
+    if constexpr (series_law<L>) {
+      const auto factors = SeriesFactors<double>::of(c.series, law_.step_stiffness(), alpha_);
+      if (c.series != 0) return shear ? factors.shear : factors.normal;
+    }
+    return 1;
+  }
+
   /// Returns the force density f of a chain and copies the chain's numbers to `out`. For a stateless contact, computes
-  /// f from the displacement x.
-  double chain(std::size_t layer, int component, std::size_t lane, double x, double* out) const {
+  /// f from the displacement x and the factor of rock in series.
+  double chain(std::size_t layer, int component, std::size_t lane, double x, double factor, double* out) const {
     if constexpr (memoryless_law<L>) {
-      if (shape_.stateless) return *out = law_.value(x);
+      if (shape_.stateless) return *out = factor * law_.value(x);
     }
     const auto at = (layer * static_cast<std::size_t>(shape_.view.components) + static_cast<std::size_t>(component)) *
                     words() * shape_.lanes;
@@ -116,12 +125,12 @@ class GroupReading {
     double f[6] = {0, 0, 0, 0, 0, 0};
     for (int k = 0; k < shape_.view.components; ++k) {
       double* own = out + static_cast<std::size_t>(k) * words();
-      f[k] = chain(slot / shape_.lanes, k, slot % shape_.lanes, u[k], own);
+      f[k] = chain(slot / shape_.lanes, k, slot % shape_.lanes, u[k], series_factor(c, k >= 3), own);
       if (!state_.change.empty() && !shape_.stateless)
         *own = f[k] += state_.change[6 * slot + static_cast<std::size_t>(k)];
     }
     const AreaMoments& m = c.moments;
-    const double d = c.distance, moments[6] = {m.a / d, m.s / d, m.t / d, m.ss / d, m.st / d, m.tt / d};
+    const double d = c.length, moments[6] = {m.a / d, m.s / d, m.t / d, m.ss / d, m.st / d, m.tt / d};
     return condensed_load(f, alpha_, moments);
   }
 
@@ -132,13 +141,13 @@ class GroupReading {
     for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j) {
       const std::uint32_t point = c.point_begin + j;
       const double s = network_.point_s[point], t = network_.point_t[point],
-                   weight = network_.point_area[point] / c.distance;
+                   weight = network_.point_area[point] / c.length;
       const double x[3] = {u[0] + s * u[1] + t * u[2], u[3] - t * u[5], u[4] + s * u[5]};
       double f[3] = {0, 0, 0};
       for (int k = 0; k < shape_.view.components; ++k) {
         const std::size_t layer = group_.packet_layer[slot / shape_.lanes] + j;
-        f[k] =
-            weight * chain(layer, k, slot % shape_.lanes, x[k], out + (3 * j + static_cast<std::size_t>(k)) * words());
+        f[k] = weight * chain(layer, k, slot % shape_.lanes, x[k], series_factor(c, k > 0),
+                              out + (3 * j + static_cast<std::size_t>(k)) * words());
       }
       const double along_s = alpha_ * f[1], along_t = alpha_ * f[2];
       load.n += f[0], load.s += along_s, load.t += along_t;

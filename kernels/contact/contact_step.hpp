@@ -4,7 +4,7 @@
 ///
 /// An Item loads and stores the words of a contact: `PackItem` (pack_item.hpp) handles all contacts of a packet at
 /// once, `LaneItem` (lane_item.hpp) one contact of a packet. A step of a condensed contact with L Kelvin units
-/// reads and writes 6·(1 + L) states and reads 11 or 12 words of geometry and two bodies.
+/// reads and writes 6·(1 + L) states and reads 11 to 13 words of geometry and two bodies.
 #pragma once
 
 #include <type_traits>
@@ -12,6 +12,7 @@
 #include "kernels/contact/carried_frame.hpp"
 #include "kernels/contact/contact_data.hpp"
 #include "kernels/contact/contact_kinematics.hpp"
+#include "macadam/laws/law.hpp"
 
 namespace macadam::kernels {
 
@@ -23,6 +24,27 @@ struct MotionView {
 };
 inline constexpr int velocity_words = 8;
 inline constexpr int displacement_words = 8;
+
+/// Factors 1/(1 + r·k) and 1/(1 + r·α·k) by which rock in series reduces the change of f in a step (model (6.12)), for
+/// the normal components of a contact (opening, bending) and for its shear components (slips, twist).
+template <class T>
+struct SeriesFactors {
+  T normal, shear;
+
+  /// `series`: compliance r of the rock [1/Pa]; `stiffness`: k, change of f per displacement [Pa].
+  MACADAM_HD static SeriesFactors of(const T& series, const T& stiffness, const T& alpha) {
+    const T weakened = series * stiffness;
+    return {T(1) / (T(1) + weakened), T(1) / (T(1) + alpha * weakened)};
+  }
+  /// Returns the factor of one of the six components.
+  MACADAM_HD const T& of_component(int c) const { return c < 3 ? normal : shear; }
+};
+/// The factors of a contact without rock in series.
+template <>
+struct SeriesFactors<laws::NoFactor> {
+  laws::NoFactor normal, shear;
+  MACADAM_HD laws::NoFactor of_component(int) const { return {}; }
+};
 
 /// Functor that steps the contacts of one group. Everything that may branch (form, geometry, law, units) is a template
 /// argument. `Units`: exact number of Kelvin units; 5 means at most five, all in registers; −1 means any number.
@@ -78,23 +100,41 @@ struct ContactForces {
       relative_rates(middle, a, b, u);
     }
 
+    // Without rock in series, the factors compile to nothing
+    const auto with_factors = [&](auto&& f) {
+      if constexpr (takes_factor<LawStep>) {
+        if (view.series != 0) {
+          const auto factors = SeriesFactors<T>::of(word(view.series), T(static_cast<Work>(law.step_stiffness())),
+                                                    T(static_cast<Work>(view.alpha)));
+          const auto state = [&](const T& x) { return item.template convert<typename P::State>(x); };
+          using S = typename Item::template Value<typename P::State>;
+          f(SeriesFactors<S>{state(factors.normal), state(factors.shear)});
+          return;
+        }
+      }
+      f(SeriesFactors<laws::NoFactor>{});
+    };
     if constexpr (form == ContactForm::condensed) {
       T density[6] = {T(0), T(0), T(0), T(0), T(0), T(0)};
       typename P::State* chain = view.chain + slot * chain_words();
-      if (view.components == 6)
-        advance_chains<6>(item, u, chain, density);
-      else if (view.components == 3)
-        advance_chains<3>(item, u, chain, density);
-      else
-        advance_chains<1>(item, u, chain, density);
+      with_factors([&](const auto& factors) {
+        if (view.components == 6)
+          advance_chains<6>(item, u, chain, factors, density);
+        else if (view.components == 3)
+          advance_chains<3>(item, u, chain, factors, density);
+        else
+          advance_chains<1>(item, u, chain, factors, density);
+      });
       T m[6];
       for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
       return to_centres(now, condensed_load(density, T(view.alpha), m));
     } else {
+      FacetLoad<T> load;
       if constexpr (coupled)
-        return to_centres(now, coupled_points_load(item, packet, u, word(distance)));
+        load = coupled_points_load(item, packet, u, word(distance));
       else
-        return to_centres(now, points_load(item, packet, u));
+        with_factors([&](const auto& factors) { load = points_load(item, packet, u, factors); });
+      return to_centres(now, load);
     }
   }
 
@@ -110,8 +150,9 @@ struct ContactForces {
   /// Advances the first N chains of a contact (a chain is the force density and the Kelvin units of one displacement
   /// component). A thread that handles one contact loads all of them before it stores the first, because a compiler
   /// cannot move a load past a store that may have the same address.
-  template <int N, class Item, class T>
-  MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, T (&density)[6]) const {
+  template <int N, class Item, class T, class Factors>
+  MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, const Factors& factors,
+                                 T (&density)[6]) const {
     if constexpr (!stateless && Units >= 0 && requires { Item::staged; }) {
       using S = typename P::State;
       S state[N][1 + Units];  // units that the law does not have get zero displacements and coefficients
@@ -121,7 +162,7 @@ struct ContactForces {
       }
       for (int c = 0; c < N; ++c) {
         auto unit = [&](int l) -> S& { return state[c][1 + l]; };
-        state[c][0] = law.template advance<Units>(state[c][0], S(u[c]) * dt, unit);
+        state[c][0] = law_step<Units>(state[c][0], S(u[c]) * dt, unit, factors.of_component(c));
         density[c] = static_cast<T>(state[c][0]);
       }
       for (int c = 0; c < N; ++c) {
@@ -131,23 +172,34 @@ struct ContactForces {
       }
     } else {
       for (int c = 0; c < N; ++c)
-        density[c] = advance(item, u[c], chain + chain_stride(item) * static_cast<std::size_t>(c));
+        density[c] =
+            advance(item, u[c], chain + chain_stride(item) * static_cast<std::size_t>(c), factors.of_component(c));
     }
   }
 
+  /// Calls advance() of the law, without the last argument if the factor is 1: a law need not have this argument.
+  template <int L, class S, class Units_, class Factor>
+  MACADAM_HD S law_step(const S& f, const S& dx, Units_&& unit, const Factor& factor) const {
+    if constexpr (std::is_same_v<Factor, laws::NoFactor>)
+      return law.template advance<L>(f, dx, unit);
+    else
+      return law.template advance<L>(f, dx, unit, factor);
+  }
+
   /// Advances one chain by one step with the relative rate `rate` of its displacement component, and returns its force
-  /// density f. If the contact is stateless, `rate` is the displacement, from which f follows.
-  template <class Item, class T>
-  MACADAM_HD T advance(const Item& item, const T& rate, typename P::State* chain) const {
+  /// density f. If the contact is stateless, `rate` is the displacement, from which f follows. `factor`: SeriesFactors.
+  template <class Item, class T, class Factor>
+  MACADAM_HD T advance(const Item& item, const T& rate, typename P::State* chain, const Factor& factor) const {
     using S = typename Item::template Value<typename P::State>;
-    if constexpr (stateless) { return law.value(rate); }
+    if constexpr (stateless) { return factor * law.value(rate); }
     const S dx = item.template convert<typename P::State>(rate) * S(dt);
     const auto place = [&](int l) { return chain + static_cast<std::size_t>(1 + l) * item.lanes(); };
     if constexpr (Units >= 0 && requires { Item::staged; }) {
       S x[Units + 1];
       const S before = item.load(chain);
       for (int l = 0; l < Units; ++l) x[l] = l < units() ? item.load(place(l)) : S(0);
-      const S f = law.template advance<Units>(before, dx, [&](int l) -> S& { return x[l]; });
+      const S f = law_step<Units>(
+          before, dx, [&](int l) -> S& { return x[l]; }, factor);
       item.store(chain, f);
       for (int l = 0; l < Units; ++l) {
         if (l < units()) item.store(place(l), x[l]);
@@ -155,27 +207,28 @@ struct ContactForces {
       return static_cast<T>(f);
     } else {
       auto unit = [&](int l) -> decltype(auto) { return item.ref(place(l)); };
-      const S f = law.template advance<Units>(item.load(chain), dx, unit);
+      const S f = law_step<Units, S>(item.load(chain), dx, unit, factor);
       item.store(chain, f);
       return item.template convert<Work>(f);
     }
   }
 
   /// Returns the sum of the loads of the contact points (Eq. 3, 4; model (8.1)). Each point has its own chains.
-  template <class Item, class T>
-  MACADAM_HD FacetLoad<T> points_load(const Item& item, std::uint32_t packet, const T (&u)[6]) const {
+  template <class Item, class T, class Factors>
+  MACADAM_HD FacetLoad<T> points_load(const Item& item, std::uint32_t packet, const T (&u)[6],
+                                      const Factors& factors) const {
     FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
     for (std::uint32_t layer = view.packet_layer[packet]; layer < view.packet_layer[packet + 1]; ++layer) {
       const auto* point = view.points + static_cast<std::size_t>(layer) * point_words * item.lanes();
       const auto of = [&](std::size_t w) { return item.template convert<Work>(item.load(point + w * item.lanes())); };
       const T s = of(point_s), t = of(point_t), weight = of(point_weight);
       typename P::State* chain = view.chain + static_cast<std::size_t>(layer) * chain_words() * item.lanes();
-      const T n = weight * advance(item, u[0] + s * u[1] + t * u[2], chain);
+      const T n = weight * advance(item, u[0] + s * u[1] + t * u[2], chain, factors.normal);
       T along_s(0), along_t(0);
       if (view.components == 3) {
         const T shear = T(view.alpha) * weight;
-        along_s = shear * advance(item, u[3] - t * u[5], chain + chain_stride(item));
-        along_t = shear * advance(item, u[4] + s * u[5], chain + 2 * chain_stride(item));
+        along_s = shear * advance(item, u[3] - t * u[5], chain + chain_stride(item), factors.shear);
+        along_t = shear * advance(item, u[4] + s * u[5], chain + 2 * chain_stride(item), factors.shear);
       }
       add_point(load, s, t, n, along_s, along_t);
     }

@@ -25,6 +25,7 @@ struct BlockForces {
   float* state = nullptr;
   const float* placed = nullptr;
   float rate = 0, relax = 0, follow = 0;  ///< rate is multiplied by Δt
+  float stiffness = 0;                    ///< rate without Δt [Pa]
 
   template <class Item>
   ContactLoad<typename Item::template Value<float>> operator()(const Item& item, std::uint32_t packet,
@@ -50,27 +51,38 @@ struct BlockForces {
     T u[6], change[6] = {T(0), T(0), T(0), T(0), T(0), T(0)};
     relative_rates(frame, item.twist(motion.velocity, view.body_a + slot),
                    item.twist(motion.velocity, view.body_b + slot), u);
-    if (view.components == 6)
-      advance<6>(item, slot, u, change);
-    else if (view.components == 3)
-      advance<3>(item, slot, u, change);
+    const T alpha(static_cast<float>(view.alpha));
+    if (view.series != 0)
+      advance(item, slot, u, SeriesFactors<T>::of(word(view.series), T(stiffness), alpha), change);
     else
-      advance<1>(item, slot, u, change);
+      advance(item, slot, u, SeriesFactors<laws::NoFactor>{}, change);
     T m[6];
     for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
-    return to_centres(frame, condensed_load(change, T(static_cast<float>(view.alpha)), m));
+    return to_centres(frame, condensed_load(change, alpha, m));
   }
 
  private:
+  /// Advances the components of a contact by one step of the block.
+  template <class Item, class T, class Factors>
+  void advance(const Item& item, std::size_t slot, const T (&u)[6], const Factors& factors, T (&change)[6]) const {
+    if (view.components == 6)
+      advance_first<6>(item, slot, u, factors, change);
+    else if (view.components == 3)
+      advance_first<3>(item, slot, u, factors, change);
+    else
+      advance_first<1>(item, slot, u, factors, change);
+  }
   /// Advances the first N components by one step of the block.
-  template <int N, class Item, class T>
-  void advance(const Item& item, std::size_t slot, const T (&u)[6], T (&change)[6]) const {
+  template <int N, class Item, class T, class Factors>
+  void advance_first(const Item& item, std::size_t slot, const T (&u)[6], const Factors& factors,
+                     T (&change)[6]) const {
     float* own = state + slot * 3 * N;
     const auto place = [&](int kind, int c) { return own + static_cast<std::size_t>(kind * N + c) * item.lanes(); };
     for (int c = 0; c < N; ++c) {
       change[c] = item.load(place(0, c));
       T sum = item.load(place(1, c));
-      step_in_block_by<T>({T(rate), T(relax), T(follow)}, u[c], item.load(place(2, c)), change[c], sum);
+      step_in_block_by<T>({T(rate), T(relax), T(follow)}, u[c], item.load(place(2, c)), change[c], sum,
+                          factors.of_component(c));
       item.store(place(0, c), change[c]);
       item.store(place(1, c), sum);
     }
@@ -211,6 +223,7 @@ struct CpuGroupOf final : CpuGroup<P, width> {
       // The coefficients of a step within a block do not depend on the length of the block
       const auto coefficients = law.block(dt, 1);
       block_.rate = static_cast<float>(coefficients.rate * dt);
+      block_.stiffness = static_cast<float>(coefficients.rate);
       block_.relax = static_cast<float>(coefficients.relax);
       block_.follow = static_cast<float>(coefficients.follow);
     }

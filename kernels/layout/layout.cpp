@@ -188,6 +188,7 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
     layer += *std::max_element(first, first + layout.lanes);
   }
   group.packet_layer.push_back(layer);
+  group.series = std::ranges::any_of(numbers, [&](auto number) { return network.contacts[number].series != 0; });
   return group;
 }
 

@@ -36,6 +36,7 @@ struct GroupLayout {
   std::vector<std::uint32_t> tile_packet;  ///< tile → first packet; tiles + 1 entries
   /// Packet → first layer of contact points (one point of each lane); packets + 1 entries.
   std::vector<std::uint32_t> packet_layer;
+  bool series = false;  ///< whether any contact has rock in series (Contact::series)
   std::size_t packets() const { return tile_packet.back(); }
 };
 

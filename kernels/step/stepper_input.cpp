@@ -93,6 +93,28 @@ void require_boundary(std::size_t particles, const StepperOptions& options) {
   }
 }
 
+/// Checks that no contact whose law cannot have it has rock in series. The force of a coupled law also depends on the
+/// length, which must then equal the distance.
+void require_series(const ContactNetwork& network, const FactsTable& laws) {
+  for (std::size_t c = 0; c < network.contacts.size(); ++c) {
+    const Contact& contact = network.contacts[c];
+    const auto& given = laws[static_cast<std::size_t>(contact.pair)];
+    if (!given || given->series) continue;
+    const LawFacts& law = *given;
+    const std::string where = "contact " + std::to_string(c) + " of pair " + to_string(contact.pair) + ": ";
+    const std::string because =
+        std::string(", because its law ") + law.name +
+        (law.coupled || !law.linear ? " is not linear" : " has no step_stiffness() and no factor of advance()") +
+        "; choose another law, or a [network] whose rule is not \"series\"";
+    if (contact.series != 0)
+      throw InputError(where + "compliance of the rock in series: found " + shown(contact.series) +
+                       " 1/Pa, expected 0" + because);
+    if (law.coupled && contact.length != contact.distance)
+      throw InputError(where + "length: found " + shown(contact.length) + " m, expected its distance of " +
+                       shown(contact.distance) + " m" + because);
+  }
+}
+
 }  // namespace
 
 void require_input(std::size_t particles, const ContactNetwork& network, const FactsTable& laws,
@@ -108,6 +130,7 @@ void require_input(std::size_t particles, const ContactNetwork& network, const F
                        ", expected its only_units = " + std::to_string(laws[p]->only_units));
     }
   }
+  require_series(network, laws);
   if (options.damping_kind == Damping::viscous && !(options.damping * options.dt < 2)) {
     throw InputError("viscous damping: found beta * dt = " + std::to_string(options.damping * options.dt) +
                      ", expected below 2 (choose a smaller time_step or less damping)");

@@ -6,8 +6,8 @@
 
 namespace macadam::kernels {
 
-/// Checks laws, boundary and start. \throws InputError naming the pair without a law, or the wall, particle or array
-/// that does not fit.
+/// Checks laws, contacts, boundary and start. \throws InputError naming the pair without a law, or the contact, wall,
+/// particle or array that does not fit.
 void require_input(std::size_t particles, const ContactNetwork& network, const FactsTable& laws,
                    const StepperOptions& options);
 

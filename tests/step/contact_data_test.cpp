@@ -41,6 +41,16 @@ TEST(GroupShape, ForetellsTheArrays) {
       }
     }
   }
+  for (std::size_t c = 0; c < scene.network.contacts.size(); c += 100) scene.network.contacts[c].series = 1e-11;
+  for (const auto form : {ContactForm::condensed, ContactForm::points}) {
+    for (const auto geometry : {Geometry::updated, Geometry::fixed}) {
+      StepperOptions options = shaking_options(scene);
+      options.form = form, options.geometry = geometry;
+      expect_foretold<kernels::DoublePrecision>(scene, options);
+      expect_foretold<kernels::SinglePrecision>(scene, options);
+    }
+  }
+  for (Contact& c : scene.network.contacts) c.series = 0;
   scene.laws.fill(laws::BrittleBond{1e9, 1e6});  // coupled laws need all three components and the distance
   for (const auto geometry : {Geometry::updated, Geometry::fixed}) {
     StepperOptions options = shaking_options(scene);

@@ -131,7 +131,10 @@ double affine_modulus(const ContactNetwork& network, const FactsTable& laws, dou
   for (const Contact& c : network.contacts) {
     const LawFacts& law = laws[static_cast<std::size_t>(c.pair)].value();
     const double normal = c.n.z * c.n.z;
-    sum += law.instantaneous * c.area * c.distance * normal * (normal + law.alpha * (1 - normal));
+    const double weak_n = 1 + c.series * law.instantaneous, weak_s = 1 + c.series * law.alpha * law.instantaneous;
+    // A uniform strain opens the contact by strain·distance; the stiffness is that of area over length
+    sum += law.instantaneous * c.area * c.distance * (c.distance / c.length) * normal *
+           (normal / weak_n + law.alpha * (1 - normal) / weak_s);
   }
   return sum / volume;
 }

@@ -41,10 +41,11 @@ struct Elastic {
     MACADAM_HD S value(S x) const {
       return S(E) * x;
     }
-    template <int L, class S, class Units>
-    MACADAM_HD S advance(S f, S dx, Units&&) const {
-      return f + S(E) * dx;  // Eq. 9
+    template <int L, class S, class Units, class Factor = NoFactor>
+    MACADAM_HD S advance(S f, S dx, Units&&, const Factor& factor = {}) const {
+      return f + factor * (S(E) * dx);  // Eq. 9
     }
+    MACADAM_HD R step_stiffness() const { return E; }
   };
   template <class R>
   Step<R> step(double) const {

@@ -38,6 +38,7 @@ struct LawFacts {
   bool coupled = false;
   bool stiffness = true;  ///< whether the law can be used in the frequency domain
   bool breaks = false;    ///< whether its contact points can break
+  bool series = true;     ///< whether contacts of the law can have rock in series (Contact::series)
 };
 
 /// Traits for the optional parts of a law's contract (law.hpp).
@@ -61,6 +62,15 @@ inline constexpr bool coupled_step = requires {
 };
 template <class L>
 inline constexpr bool coupled_law = coupled_step<typename L::template Step<double>>;
+/// Whether a law's Step can be weakened by a spring in series: it has step_stiffness(), and advance() takes a factor.
+template <class Step>
+inline constexpr bool takes_factor = requires(const Step& step, double x, double& (&unit)(int)) {
+  step.step_stiffness();
+  step.template advance<-1>(x, x, unit, x);
+};
+/// Whether contacts of a law can have rock in series.
+template <class L>
+inline constexpr bool series_law = linear_law<L> && !coupled_law<L> && takes_factor<typename L::template Step<double>>;
 /// Whether a law has everything that the frequency domain needs.
 template <class L>
 inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std::complex<double> s,
@@ -94,9 +104,9 @@ constexpr int units_of() {
 /// Returns the properties of a law. The overload below returns the properties of each law of a table.
 template <class L>
 LawFacts facts_of(const L& law) {
-  return {L::name,       law.alpha,      law.instantaneous(), law.shortest_time(),
-          law.units(),   units_of<L>(),  memoryless_law<L>,   linear_law<L>,
-          has_blocks<L>, coupled_law<L>, has_stiffness<L>,    breakable_law<L>};
+  return {L::name,          law.alpha,         law.instantaneous(), law.shortest_time(), law.units(),
+          units_of<L>(),    memoryless_law<L>, linear_law<L>,       has_blocks<L>,       coupled_law<L>,
+          has_stiffness<L>, breakable_law<L>,  series_law<L>};
 }
 
 /// One entry per pair type; empty for pairs without a law.

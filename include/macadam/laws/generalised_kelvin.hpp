@@ -98,16 +98,17 @@ struct GeneralisedKelvin {
     R compliance[max_units];  ///< Δt/(2·a_l·η_l)               [1/Pa]
     int n;
 
-    template <int L, class S, class Units>
-    MACADAM_HD S advance(S f, S dx, Units&& x) const {
+    template <int L, class S, class Units, class Factor = NoFactor>
+    MACADAM_HD S advance(S f, S dx, Units&& x, const Factor& factor = {}) const {
       const int m = L >= 0 ? L : n;
       S stretched = dx;
       for (int l = 0; l < m; ++l) stretched += S(recover[l]) * x(l);
-      const S f_new = f + (S(inv_c) * stretched - S(relax) * f);  // model (6.6)
+      const S f_new = f + factor * (S(inv_c) * stretched - S(relax) * f);  // model (6.6)
       const S sum = f_new + f;
       for (int l = 0; l < m; ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // model (6.6)
       return f_new;  // NOLINT(performance-no-automatic-move): the numbers are in registers
     }
+    MACADAM_HD R step_stiffness() const { return inv_c; }
   };
 
   template <class R>

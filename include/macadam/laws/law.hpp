@@ -25,6 +25,14 @@
 ///   - `template <class F> void each_key(F&& f)` — calls f(key, member, ValueKind, ValueNeed) for each value that a
 ///     scene may set, a double or a std::vector<double>, in the order in which the scene file names them.
 /// All of the following members are optional:
+///   - the members that rock in series with a contact (Contact::series) needs, both or none. Without them, a stepper
+///     refuses such a contact and names the law:
+///     `R step_stiffness() const` of Step — k, the change of f per dx within one step [Pa];
+///     a last argument of advance(), by which the change of f is multiplied before the units are advanced:
+///     `template <int L, class S, class Units, class Factor = NoFactor>
+///     S advance(S f, S dx, Units&& x, const Factor& factor = {}) const`. A spring of compliance r in series takes r·δf
+///     of the increment dx, so that δf is multiplied by 1/(1 + r·k): model (6.12). Factor is S, or NoFactor, which
+///     stands for 1;
 ///   - `std::optional<LawFault> fault() const` — reports values that are valid separately but not together;
 ///   - `static constexpr bool linear = false` — f is not a linear function of the history of x. Such a law can only be
 ///     stepped in points form, and cannot be used in the frequency domain;
@@ -56,8 +64,9 @@
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
 ///     follows δf' = δf + rate·dx + drift + follow·s − relax·δf. The drift is computed from f and x(l) at the beginning
 ///     of the block; s is the sum of δf' + δf over its steps so far. At the end, settle() receives Σ (f' + f) and
-///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the
-///     block is zero. A memoryless law must have relax = follow = drift = 0.
+///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the block is
+///     zero. A memoryless law must have relax = follow = drift = 0. `rate` is step_stiffness(). With rock in series, the
+///     stepper multiplies δf' − δf by 1/(1 + r·rate), and f of a memoryless law is rate·x/(1 + r·rate).
 /// S is a number or, on the CPU, a packet of numbers. So a law must not branch; it uses select().
 ///
 /// Laws do not own memory and do not depend on arrays or threads. A law may use its units for states of any kind:
@@ -97,6 +106,14 @@ MACADAM_HD S select(const Condition& condition, const S& yes, S no) {
     return no;
   }
 }
+
+/// Factor 1 of a contact without rock in series. A product with it is the other number, so no code is compiled.
+struct NoFactor {
+  template <class S>
+  MACADAM_HD friend S operator*(NoFactor, S x) {
+    return x;
+  }
+};
 
 /// The parts of SteppableLaw as separate concepts, so that compilers name the missing one.
 namespace contract {

@@ -42,6 +42,13 @@ StreamedKernel<P> streamed_kernel(bool carried, bool memory) {
                 : run_streamed<P, streamed_threads, streamed_blocks, false, false>;
 }
 
+/// Returns whether tiles can step a network. They cannot if a contact has rock in series: the words of a contact in a
+/// tile (TileContactWords) do not include the factors by which rock in series reduces the change of its forces. Such a
+/// network is stepped by two kernels (ExecCuda), whose description gives this reason.
+inline bool tiles_can_step(const ContactNetwork& network) {
+  return std::ranges::none_of(network.contacts, [](const Contact& c) { return c.series != 0; });
+}
+
 /// Says by which kernel the tiles of a plan are stepped.
 struct TileFit {
   enum class Way { none, resident, streamed };

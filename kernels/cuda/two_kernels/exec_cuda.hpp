@@ -122,7 +122,11 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
     this->wait();
   }
 
-  std::string description() const { return this->described("two kernels a step"); }
+  std::string description() const {
+    const bool series = std::ranges::any_of(this->layout_.groups, [](const GroupLayout& g) { return g.series; });
+    return this->described(series ? "two kernels a step, because tiles cannot step contacts with rock in series"
+                                  : "two kernels a step");
+  }
   std::vector<KernelUse> kernels() const {
     std::vector<KernelUse> out = contacts_.front().kernels();
     out.push_back(kernel_use("bodies", step_bodies<P, false>, body_threads, 0));
