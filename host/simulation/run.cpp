@@ -69,6 +69,17 @@ std::string status_of(const std::exception& error) {
   return std::string("failed: ") + error.what();
 }
 
+/// Returns what a run with the rule "series" reports about the rock of its specimen.
+std::string words_of(const RockReport& rock, const Specimen& specimen) {
+  std::string out = fmt::format("rule \"series\": cells of aggregates fill {:.2f} % of the box", 100 * rock.rock_cells);
+  out += rock.rock_nominal ? fmt::format(" and the aggregates {:.2f} %", 100 * *rock.rock_nominal)
+                           : " (the aggregates' own volume is unknown)";
+  if (!specimen.voids.empty())
+    out += fmt::format("; cells of voids fill {:.2f} % and the voids {:.2f} %", 100 * rock.void_cells,
+                       100 * rock.void_nominal);
+  return out + fmt::format("; the centres of {} mastic spheres lie in aggregates", rock.mastic_centres_in_rock);
+}
+
 /// The backend that runs the scene. Another thread looks for it: the devices are counted and start up while the
 /// specimen is made.
 class FoundBackend {
@@ -122,6 +133,7 @@ class SceneRun {
       list.insert(list.end(), more.begin(), more.end());
     };
     append(result.decisions, decisions);
+    if (prepared().rock) result.decisions.push_back(words_of(*prepared().rock, prepared().specimen));
     append(result.warnings, warnings);
     append(result.warnings, packing);
     if (scene_.network.lateral_walls) {
