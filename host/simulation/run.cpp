@@ -69,6 +69,14 @@ std::string status_of(const std::exception& error) {
   return std::string("failed: ") + error.what();
 }
 
+/// Checks that contacts which were made for another scene have the rule of this scene. \throws InputError.
+void require_same_rule(const Scene& scene, const ContactNetwork& network) {
+  if (network.rule != scene.network.rule)
+    throw InputError(scene.file.string(), 0, "rule in [network]",
+                     std::string("\"") + to_string(scene.network.rule) + '"',
+                     std::string("\"") + to_string(network.rule) + "\", the rule of the given contacts");
+}
+
 /// Returns what a run with the rule "series" reports about the rock of its specimen.
 std::string words_of(const RockReport& rock, const Specimen& specimen) {
   std::string out = fmt::format("rule \"series\": cells of aggregates fill {:.2f} % of the box", 100 * rock.rock_cells);
@@ -119,6 +127,7 @@ class SceneRun {
   RunResult run() {
     begin();
     if (!given_) made_ = make_preparation();
+    if (given_) require_same_rule(scene_, given_->network);
     if (given_) require_laws(scene_, given_->specimen, given_->network);
     const Backend backend = wait_for_backend();
     const std::vector<std::string> warnings = checkpoint_warnings(backend);

@@ -78,8 +78,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                    {"rock_fraction_nominal", rock.rock_nominal ? Json(*rock.rock_nominal) : Json()},
                    {"void_fraction_cells", rock.void_cells},
                    {"void_fraction_nominal", rock.void_nominal},
-                   {"mastic_centres_in_rock", rock.mastic_centres_in_rock},
-                   {"seconds", rock.seconds}};
+                   {"mastic_centres_in_rock", rock.mastic_centres_in_rock}};
   }
   for (const CompositionRow& row : prepared.composition) {
     out["composition"].push_back({{"class", row.name},

@@ -27,16 +27,13 @@ struct RockReport {
   std::optional<double> rock_nominal;  ///< true aggregates; empty if their volumes are unknown
   double void_cells = 0, void_nominal = 0;
   std::int64_t mastic_centres_in_rock = 0;  ///< number of mastic spheres whose centres lie in aggregates
-  double seconds = 0;                       ///< wall time of the lengths, a part of the time of the network [s]
 };
 
 /// Particles, cells and contacts of a scene, and the wall time in which they were made.
 struct Preparation {
   Specimen specimen;
-  std::vector<CompositionRow> composition;  ///< empty for a specimen read from a file, as is `aggregates` unless the
-                                            ///< scene names a file of aggregates
+  std::vector<CompositionRow> composition;  ///< empty for a specimen read from a file, as is `aggregates`
   std::vector<Aggregate> aggregates;
-  std::vector<Surface> surfaces;   ///< templates of the shaped aggregates: GeneratedSpecimen::surfaces
   std::optional<RockReport> rock;  ///< with rule "series"
   Tessellation tessellation;
   ContactNetwork network;
