@@ -165,7 +165,7 @@ RockSurfaces::RockSurfaces(const Specimen& specimen, std::span<const Aggregate> 
   for (const Aggregate& a : aggregates) {
     const auto own = spheres.find(a.body);
     const bool shaped = a.surface >= 0 && static_cast<std::size_t>(a.surface) < surfaces.size();
-    if (own == spheres.end() || (!shaped && (own->second == 1 || !(a.size > 0)))) continue;
+    if (own == spheres.end() || (!shaped && (a.surface >= 0 || own->second == 1 || !(a.size > 0)))) continue;
     if (!known.emplace(a.body, true).second) continue;
     used.push_back(&a);
     if (shaped) wanted[static_cast<std::size_t>(a.surface)] = 1;
