@@ -144,10 +144,13 @@ void FilesTogether::give_names() {
 void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network) {
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);
-  fmt::format_to(to, "a,b,pair,area,distance,nx,ny,nz,points\n");
+  const bool series = network.rule == ContactRule::series;
+  fmt::format_to(to, "a,b,pair,area,distance,nx,ny,nz,points{}\n", series ? ",length,series" : "");
   for (const Contact& c : network.contacts) {
-    fmt::format_to(to, "{},{},{},{},{},{},{},{},{}\n", c.a, c.b, to_string(c.pair), c.area, c.distance, c.n.x, c.n.y,
+    fmt::format_to(to, "{},{},{},{},{},{},{},{},{}", c.a, c.b, to_string(c.pair), c.area, c.distance, c.n.x, c.n.y,
                    c.n.z, c.point_end - c.point_begin);
+    if (series) fmt::format_to(to, ",{},{}", c.length, c.series);
+    fmt::format_to(to, "\n");
   }
   write_whole(file, fmt::to_string(text));
 }

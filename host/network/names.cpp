@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// names.cpp  Defines the names of pair types and quadratures in scenes and results.
+// names.cpp  Defines the names of pair types, quadratures and rules in scenes and results.
 #include <array>
 
 #include "macadam/contact_network.hpp"
@@ -14,5 +14,7 @@ const char* to_string(PairType pair) {
 const char* to_string(Quadrature quadrature) {
   return quadrature == Quadrature::exact ? "exact" : quadrature == Quadrature::one_point ? "one_point" : "lumped";
 }
+
+const char* to_string(ContactRule rule) { return rule == ContactRule::series ? "series" : "centres"; }
 
 }  // namespace macadam

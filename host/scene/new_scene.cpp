@@ -178,6 +178,31 @@ std::vector<Part> contacts_of(NewKind kind) {
   return out;
 }
 
+/// Returns `[materials]` with the laws of the phases. `densities`: whether the scene gives densities.
+std::vector<Part> materials_with_laws(bool densities) {
+  Part aggregate{"[materials.aggregate]",
+                 {{"law", R"("elastic")"}, {"E", R"("60 GPa")"}, {"poisson_ratio", "0.28"}},
+                 "Laws of rock and mastic, from which the stiffness of every contact follows. macadam fit computes the "
+                 "law of your own mastic from measured moduli.",
+                 true,
+                 {"density"}};
+  Part mastic{"[materials.mastic]",
+              {{"law", R"("generalised_kelvin")"},
+               chain("E_m", "5.931e9"),
+               chain("C_m", "1.338e9"),
+               chain("E", "[2.021e8, 8.511e8, 2.291e10]"),
+               chain("C", "[4.761e9, 3.029e9, 5.926e8]"),
+               {"poisson_ratio", "0.35"}},
+              "",
+              true,
+              {"density"}};
+  if (densities) {
+    aggregate.given.insert(aggregate.given.begin(), {"density", R"("2.63 g/cm3")"});
+    mastic.given.insert(mastic.given.begin(), {"density", R"("2.11 g/cm3")"});
+  }
+  return {{"[materials]", {}}, aggregate, mastic};
+}
+
 Part loading_of(const std::string& test) {
   Part out{"[loading]", {{"kind", '"' + test + '"'}}};
   const auto give = [&](const char* key, const char* value) { out.given.push_back({key, value}); };
@@ -200,17 +225,22 @@ std::vector<std::string> tests_of_new_scenes() {
   return {};
 }
 
-std::string new_scene(NewKind kind, const std::string& test) {
+std::string new_scene(NewKind kind, const std::string& test, ContactRule rule) {
   std::vector<Part> parts = specimen_of(kind);
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
-  if (kind == NewKind::recipe)
+  const bool series = rule == ContactRule::series;
+  if (series)
+    append(materials_with_laws(kind != NewKind::recipe));
+  else if (kind == NewKind::recipe)
     append({{"[materials]", {}}});
   else
     append({{"[materials]", {}},
             {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
-  append(contacts_of(kind));
-  append({{"[network]", {}},
+  if (!series) append(contacts_of(kind));
+  std::vector<std::string> not_in_output{"every", "format"};
+  if (series) not_in_output.emplace_back("sensitivities");
+  append({{"[network]", series ? std::vector<Given>{{"rule", R"("series")"}} : std::vector<Given>{}},
           loading_of(test),
           {"[solver]",
            {{"method", R"("harmonic")"}},
@@ -218,7 +248,7 @@ std::string new_scene(NewKind kind, const std::string& test) {
            true,
            {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",
             "precision"}},
-          {"[output]", {}, "", true, {"every", "format"}}});
+          {"[output]", {}, "", true, not_in_output}});
   std::string out =
       "# A scene of Macadam. Numbers are in SI units, or text with a unit, such as \"12.5 mm\". docs/scene.md explains "
       "scenes,\n"

@@ -1,73 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file read_contacts.cpp  Reads `[[contacts]]`: one law for each pair type.
-#include <cmath>
-#include <limits>
-#include <map>
-
 #include <fmt/format.h>
 
+#include "host/scene/law_keys.hpp"
 #include "host/scene/sections.hpp"
 #include "host/scene/shift_keys.hpp"
-#include "macadam/laws/values.hpp"
 
 namespace macadam::scene {
 namespace {
-
-using laws::ValueKind;
-using laws::ValueNeed;
-
-/// Returns the explanation of a value of a law; empty if it is not listed here.
-std::string text_of(const std::string& law, const std::string& key) {
-  static const std::map<std::string, std::string> kelvin{{"E_m", "spring of the Maxwell unit"},
-                                                         {"C_m", "dashpot of the Maxwell unit; inf: no dashpot"},
-                                                         {"E", "springs of the Kelvin units, up to 16"},
-                                                         {"C", "dashpots of the Kelvin units, one per spring"}};
-  static const std::map<std::string, std::string> others{
-      {"E", "modulus"},
-      {"tensile_strength", "tensile stress above which a contact point breaks permanently"},
-      {"shear_strength", "shear stress above which a contact point breaks permanently; inf: never"}};
-  const auto& texts = law == "generalised_kelvin" ? kelvin : others;
-  const auto found = texts.find(key);
-  return found == texts.end() ? "" : found->second;
-}
-
-/// A modulus without a unit is in Pa. No solid is softer than 1000 Pa, so a smaller number was probably meant in GPa or
-/// MPa. The springs of Kelvin units may be softer, so this rule is not applied to these springs.
-constexpr Rule in_pascals{[](double v) { return v >= 1000; },
-                          "1000 Pa or more; a modulus in another unit is text with the unit"};
-
-/// Returns the keys of one law, except for `pair`, `law`, `alpha` and `delta`, which all laws have.
-template <class L>
-std::vector<Key> keys_of(L& law) {
-  std::vector<Key> out;
-  law.each_key([&](const char* key, auto& member, ValueKind kind, ValueNeed need) {
-    constexpr bool one = std::is_same_v<std::decay_t<decltype(member)>, double>;
-    const Quantity& unit = kind == ValueKind::viscosity ? viscosity : modulus;
-    Reader read = into(member, unit, positive);
-    if constexpr (one) {
-      if (kind == ValueKind::modulus) read = positive_into(member, unit, in_pascals);
-      if (need == ValueNeed::may_be_infinite) {  // written `inf`
-        read.words.rule = "a positive number, or inf";
-        read.words.usual = "inf";
-        read.read = [&member, &unit](const Value& value) {
-          member = value.is_infinite() ? std::numeric_limits<double>::infinity() : value.number(unit, positive);
-        };
-      }
-    }
-    const bool required = need == ValueNeed::required;
-    const std::string usual = required || !read.words.usual.empty() ? "" : "none";
-    out.push_back({key, required ? Need::required : Need::optional, std::move(read), text_of(L::name, key), usual});
-  });
-  return out;
-}
-
-/// Checks that the values of a law, each of which is valid by itself, fit together. \throws InputError if they do not.
-template <class L>
-void check(const L& law, const Section& section) {
-  if constexpr (requires { law.fault(); }) {
-    if (const auto fault = law.fault()) section.refuse(fault->key, fault->found, fault->expected);
-  }
-}
 
 /// Appends the name and an empty value of every kind of law.
 template <std::size_t I = 0>
@@ -90,6 +30,22 @@ Law law_named_in(const Section& section) {
   return laws[name->choice(names)];
 }
 
+std::vector<std::string> pair_names() {
+  std::vector<std::string> out;
+  for (int i = 0; i < pair_types; ++i) out.emplace_back(to_string(static_cast<PairType>(i)));
+  return out;
+}
+
+/// Stores the limits of one pair. \throws InputError if limits are given for a pair with a wall.
+void set_limits(const Section& section, std::size_t pair, const FacetLimits& limits, NetworkSpec& network) {
+  if (pair < network.of_pair.size()) {
+    network.of_pair[pair] = limits;
+  } else if (limits.gap_max || limits.area_min) {
+    section.refuse(limits.gap_max ? "gap_max" : "area_min", "this key for a pair with a wall",
+                   "this key only for pairs of two particles, because every facet on a wall is a contact");
+  }
+}
+
 }  // namespace
 
 /// Returns the keys that decide which facets between two particles become contacts.
@@ -104,9 +60,7 @@ std::vector<Key> keys_of(FacetLimits& limits) {
 }
 
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network) {
-  std::vector<std::string> pairs;
-  for (int i = 0; i < pair_types; ++i) pairs.emplace_back(to_string(static_cast<PairType>(i)));
-
+  const std::vector<std::string> pairs = pair_names();
   LawTable table;
   for (const Section& section : sections) {
     std::size_t pair = 0;
@@ -149,14 +103,30 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
     if (table[pair]) section.refuse("pair", fmt::format("\"{}\" again", pairs[pair]), "each pair once");
     table[pair] = std::move(read_law);
     deltas[pair] = delta;
-    if (pair < network.of_pair.size()) {
-      network.of_pair[pair] = limits;
-    } else if (limits.gap_max || limits.area_min) {
-      section.refuse(limits.gap_max ? "gap_max" : "area_min", "this key for a pair with a wall",
-                     "this key only for pairs of two particles, because every facet on a wall is a contact");
-    }
+    set_limits(section, pair, limits, network);
   }
   return table;
+}
+
+void read_limits_of_pairs(const std::vector<Section>& sections, NetworkSpec& network) {
+  const std::vector<std::string> pairs = pair_names();
+  std::vector<bool> seen(pairs.size());
+  for (const Section& section : sections) {
+    for (const char* key : {"law", "alpha", "delta"}) {
+      if (section.has(key))
+        section.refuse(key, "this key of a pair with rule = \"series\" in [network]",
+                       "only pair, gap_max and area_min: with this rule the laws of all pairs follow from the laws in "
+                       "[materials.mastic] and [materials.aggregate]");
+    }
+    std::size_t pair = 0;
+    FacetLimits limits;
+    std::vector<Key> keys{{"pair", Need::required, {[&](const Value& v) { pair = v.choice(pairs); }}}};
+    for (Key& key : keys_of(limits)) keys.push_back(std::move(key));
+    section.read(keys);
+    if (seen[pair]) section.refuse("pair", fmt::format("\"{}\" again", pairs[pair]), "each pair once");
+    seen[pair] = true;
+    set_limits(section, pair, limits, network);
+  }
 }
 
 }  // namespace macadam::scene

@@ -189,13 +189,17 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                            std::optional<MixDesign>& recipe) {
   SpecimenSpec spec;
   spec.source = section.file(), spec.line = section.line();
-  const auto read_file = [&](const Value& value) {
-    spec.file = (folder / value.text()).lexically_normal();
+  const auto existing = [&](const Value& value, const char* what) {
+    const std::filesystem::path file = (folder / value.text()).lexically_normal();
     std::error_code error;
-    if (value.text() == given_particles) return;
-    if (!std::filesystem::is_regular_file(*spec.file, error)) {
-      value.refuse("no file " + spec.file->string(), "a specimen file; paths are relative to the scene's folder");
+    if (value.text() != given_particles && !std::filesystem::is_regular_file(file, error)) {
+      value.refuse("no file " + file.string(), std::string(what) + "; paths are relative to the scene's folder");
     }
+    return file;
+  };
+  const auto read_file = [&](const Value& value) { spec.file = existing(value, "a specimen file"); };
+  const auto read_aggregate_file = [&](const Value& value) {
+    spec.aggregate_file = existing(value, "a file of aggregates");
   };
   const auto read_classes = [&](const Value& value) {
     for (const Section& entry : value.sections()) spec.aggregate.push_back(read_aggregate(entry, spec.box));
@@ -210,6 +214,11 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
         {read_file, {"text"}},
         "an existing specimen: CSV id,x,y,z,radius,phase,body; the path is relative to the scene's folder",
         "the specimen is generated"},
+       {"aggregate_file",
+        Need::optional,
+        {read_aggregate_file, {"text"}},
+        "with file, for rule \"series\": true surfaces of the aggregates, CSV body,shape,size,x,y,z and qw,qx,qy,qz",
+        "surfaces of the spheres"},
        {"seed", Need::optional, into(spec.seed, 0),
         "seed of the generator: another seed gives another specimen of the same mixture"},
        {"size_law", Need::optional,
@@ -239,6 +248,9 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
       if (section.has(key))
         section.refuse(key, "this key of the generator together with the key file", "only one of the two");
     }
+  } else if (spec.aggregate_file) {
+    section.refuse("aggregate_file", "this key without file",
+                   "file beside it: a generated specimen knows its aggregates");
   } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
     section.refuse("file", "neither a specimen file nor the sections aggregate or mastic", "one of the two");
   } else {

@@ -25,7 +25,9 @@ void require_laws(const Scene& scene, const Specimen& specimen, const ContactNet
       const std::string name = to_string(static_cast<PairType>(i));
       throw InputError(scene.file.string(), 0, "pair " + name,
                        fmt::format("no law for its {} contacts", network.count[i]),
-                       "[[contacts]] with pair = \"" + name + "\"");
+                       scene.network.rule == ContactRule::series
+                           ? "the laws of both phases in [materials.mastic] and [materials.aggregate]"
+                           : "[[contacts]] with pair = \"" + name + "\"");
     }
   }
 }

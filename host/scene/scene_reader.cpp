@@ -11,7 +11,6 @@
 
 #include "host/scene/known_keys.hpp"
 #include "host/scene/sections.hpp"
-#include "host/scene/shift_keys.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -59,26 +58,16 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
   }
 }
 
-/// Range of a density that is given as a number without a unit, in kg/m³. No solid is lighter than the lower limit, so
-/// a smaller number was probably meant in g/cm³.
-constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
-                        "10 to 30000 kg/m3; a density in another unit is text with the unit"};
+Reader rule_into(ContactRule& rule) {
+  return into<ContactRule>(rule, {{"centres", ContactRule::centres}, {"series", ContactRule::series}});
+}
 
-/// Reads `[materials]`. `need`: whether densities are required; densities may be left out if they follow from a recipe.
-Materials read_materials(const Section& section, Need need) {
-  Materials materials;
-  const auto phase = [need](double& target) {
-    return section_by([&target, need](const Value& value) {
-      value.section().read({{"density", need, positive_into(target, density, in_kg_m3), "density of the spheres",
-                             "computed from [specimen.recipe] if that is given"}});
-    });
-  };
-  section.read({{"aggregate", Need::optional, phase(materials.aggregate), "material of the aggregates", "none"},
-                {"mastic", Need::optional, phase(materials.mastic), "material of the mastic", "none"},
-                {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
-                 "temperature of the whole specimen; laws that have a shift change with it",
-                 "the laws' reference temperatures"}});
-  return materials;
+/// Returns the rule of a scene before `[network]` is read, because it decides how `[[contacts]]` is read.
+ContactRule rule_of(const Section& root) {
+  ContactRule rule = ContactRule::centres;
+  if (!root.has("network")) return rule;
+  if (const auto value = root.find("network")->section().find("rule")) rule_into(rule).read(*value);
+  return rule;
 }
 
 void read_network(const Section& section, NetworkSpec& spec) {
@@ -90,6 +79,9 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   "area moments of a contact: from its points, from its polygon, or from one point at the centroid"});
   keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
                   "whether the four sides are walls too; |E*| is then a confined modulus"});
+  keys.push_back({"rule", Need::optional, rule_into(spec.rule),
+                  "stiffness of a contact: the law of its pair over the distance of the centres, or the laws of mastic "
+                  "and rock in series over their parts of the line of centres"});
   section.read(keys);
 }
 
@@ -120,6 +112,19 @@ void check_together(const Scene& scene, const Section& root) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
                                           "kind = \"cyclic\" or \"sweep\", or method = \"explicit\" in [solver]");
   }
+  if (scene.network.rule == ContactRule::series) {
+    if (scene.solver.method == SolverMethod::harmonic && frequencies_of(scene.experiment).empty()) {
+      root.find("loading")->section().refuse(
+          "kind",
+          fmt::format("\"{}\" without time steps and rule = \"series\" in [network]", kind_of(scene.experiment)),
+          "method = \"explicit\" in [solver], or kind = \"cyclic\" or \"sweep\", because the response without time "
+          "steps is not available for this rule");
+    }
+    if (scene.output.sensitivities) {
+      root.find("output")->section().refuse("sensitivities", "true with rule = \"series\" in [network]",
+                                            "false, because derivatives are not available for this rule");
+    }
+  }
   const auto require_density = [&](bool generated, double density, const std::string& phase) {
     if (generated && density == 0) {
       root.refuse("materials", "no density of the " + phase + " that [specimen] generates",
@@ -129,7 +134,7 @@ void check_together(const Scene& scene, const Section& root) {
   require_density(!scene.specimen.aggregate.empty(), scene.materials.aggregate, "aggregate");
   require_density(scene.specimen.mastic.has_value(), scene.materials.mastic, "mastic");
   const auto require_law = [&](PairType pair) {
-    if (!scene.laws[static_cast<std::size_t>(pair)]) {
+    if (scene.network.rule == ContactRule::centres && !scene.laws[static_cast<std::size_t>(pair)]) {
       root.refuse("contacts", std::string("no law for ") + to_string(pair) + ", which [specimen] generates",
                   std::string("[[contacts]] with pair = \"") + to_string(pair) + "\"");
     }
@@ -194,12 +199,16 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   const std::filesystem::path folder = file.parent_path();
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   std::optional<SolverSpec> solver;
+  PhaseLaws phases;
+  const ContactRule rule = rule_of(root);
+  const bool series = rule == ContactRule::series;
   root.read({{"specimen", Need::required, section_by(read_the_specimen),
               "the specimen, which is read from a file or generated"},
              {"materials", densities,
-              section_by([&](const Value& v) { out.materials = read_materials(v.section(), densities); }),
+              section_by([&](const Value& v) { out.materials = read_materials(v.section(), densities, rule, phases); }),
               "densities, and the temperature", "computed from [specimen.recipe] if that is given"},
-             {"contacts", Need::required, sections_by([&](const Value& v) {
+             {"contacts", series ? Need::optional : Need::required, sections_by([&](const Value& v) {
+                if (series) return read_limits_of_pairs(v.sections(), out.network);
                 out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network);
               }),
               "contact law of a pair of materials; one section per pair"},
@@ -214,6 +223,7 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
               "files that are written besides the results", "the defaults of its keys"}});
   out.solver = solver.value_or(usual_solver(out.experiment));
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
+  set_laws_of_phases(out, phases, root);
   check_together(out, root);
   apply_temperature(out, root);
   return out;

@@ -50,8 +50,10 @@ void apply_temperature(Scene& scene, const Section& root) {
   const auto check = [&](const std::string& in, const std::string& key, double temperature) {
     const Section section = root.find(in)->section();
     if (std::none_of(scene.shifts.begin(), scene.shifts.end(), shifts)) {
-      section.refuse(key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
-                     "shift = \"wlf\", \"arrhenius\" or \"table\" in at least one section [[contacts]]");
+      section.refuse(
+          key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
+          std::string("shift = \"wlf\", \"arrhenius\" or \"table\" in ") +
+              (scene.network.rule == ContactRule::series ? "[materials.mastic]" : "at least one section [[contacts]]"));
     }
     LawTable at = laws_at(scene, temperature);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {

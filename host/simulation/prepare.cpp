@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // prepare.cpp  Makes specimen, tessellation and contact network of a scene, in this order.
+#include <span>
 #include <system_error>
+#include <unordered_map>
 
 #include "host/fields/field_output.hpp"
 #include "host/network/clusters.hpp"
+#include "host/network/rock_lengths.hpp"
 #include "host/files/result_files.hpp"
 #include "host/files/result_folder.hpp"
 #include "host/base/seconds_of.hpp"
@@ -11,6 +14,8 @@
 #include "host/simulation/run_scene.hpp"
 #include "host/simulation/summary.hpp"
 #include "host/specimen/generate.hpp"
+#include "host/specimen/known_aggregates.hpp"
+#include "host/spheres/size_law.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
 #include "macadam/tessellation.hpp"
@@ -42,13 +47,54 @@ void make_cells(const Progress& progress, Preparation& out) {
   out.seconds_tessellation = seconds_of([&] { out.tessellation = tessellate(out.specimen); });
 }
 
-/// Makes the contacts between particles whose cells exist. \throws InputError if no path of contacts joins bottom and
-/// top wall.
-void make_contacts(const Scene& scene, const Progress& progress, Preparation& out) {
+/// Returns the volume of the true aggregates over the box; nothing if it is unknown.
+std::optional<double> rock_fraction(const Specimen& specimen, std::span<const Aggregate> aggregates) {
+  std::unordered_map<std::int32_t, double> volume;
+  for (const Aggregate& a : aggregates)
+    if (a.volume > 0) volume[a.body] = a.volume;
+  std::unordered_map<std::int32_t, std::size_t> unknown;  // number of spheres of each body without a known volume
+  double sum = 0;
+  for (const auto& [body, of_one] : volume) sum += of_one;
+  for (std::size_t i = 0; i < specimen.size(); ++i) {
+    if (specimen.phase[i] != Phase::aggregate || volume.contains(specimen.body[i])) continue;
+    if (++unknown[specimen.body[i]] > 1) return {};
+    sum += sphere_volume(2 * specimen.radius[i]);
+  }
+  return sum / specimen.box.volume();
+}
+
+/// Gives the contacts their lengths by the rule "series", and reports on the rock.
+void make_series(const Scene& scene, const std::vector<Surface>& surfaces, Preparation& out) {
+  RockReport report;
+  KnownAggregates read;
+  if (scene.specimen.aggregate_file) read = read_aggregates_csv(*scene.specimen.aggregate_file, out.specimen);
+  const bool from_file = scene.specimen.aggregate_file.has_value();
+  const std::vector<Aggregate>& aggregates = from_file ? read.aggregates : out.aggregates;
+  const Specimen& specimen = out.specimen;
+  const RockSurfaces rock(specimen, aggregates, from_file ? read.surfaces : surfaces);
+  apply_series(out.network, specimen, rock, scene.materials.rock_modulus.value_or(0),
+               scene.materials.mastic_poisson_ratio.value_or(0));
+  report.mastic_centres_in_rock = mastic_centres_in_rock(specimen, rock);
+  for (std::size_t cell = 0; cell < specimen.cells(); ++cell) {
+    const Phase phase = specimen.phase_of(static_cast<std::int32_t>(cell));
+    const double fraction = out.tessellation.cell_volume[cell] / specimen.box.volume();
+    if (phase == Phase::aggregate) report.rock_cells += fraction;
+    if (phase == Phase::air_void) report.void_cells += fraction;
+  }
+  for (const VoidSphere& v : specimen.voids) report.void_nominal += sphere_volume(2 * v.radius) / specimen.box.volume();
+  report.rock_nominal = rock_fraction(specimen, aggregates);
+  out.rock = report;
+}
+
+/// Makes the contacts between particles whose cells exist. `surfaces` are those of the generated aggregates. \throws
+/// InputError if no path of contacts joins bottom and top wall.
+void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, const Progress& progress,
+                   Preparation& out) {
   if (progress) progress(network_stage, 0);
   out.seconds_network = seconds_of([&] {
     out.network = build_network(out.specimen, out.tessellation, scene.network);
     require_laws(scene, out.specimen, out.network);
+    if (scene.network.rule == ContactRule::series) make_series(scene, surfaces, out);
     for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
       if (cluster.spans()) {
         ++out.spanning_clusters;
@@ -72,6 +118,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
     if (progress) progress(stage, share);
   };
   std::optional<Tessellation> cells;
+  std::vector<Surface> surfaces;
   out.seconds_specimen = seconds_of([&] {
     if (scene.specimen.file) {
       report("reading the specimen", 0);
@@ -81,6 +128,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
       out.specimen = std::move(generated.made.specimen);
       out.composition = std::move(generated.made.composition);
       out.aggregates = std::move(generated.made.aggregates);
+      surfaces = std::move(generated.made.surfaces);
       out.relaxation_iterations = generated.made.relaxation_iterations;
       cells = std::move(generated.tessellation);
       out.seconds_tessellation = generated.seconds_tessellation;
@@ -92,7 +140,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
   } else {
     make_cells(progress, out);
   }
-  make_contacts(scene, progress, out);
+  make_contacts(scene, surfaces, progress, out);
   return out;
 }
 
@@ -102,7 +150,7 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
   validate(specimen, specimen.source);
   out.specimen = std::move(specimen);
   make_cells(progress, out);
-  make_contacts(scene, progress, out);
+  make_contacts(scene, {}, progress, out);
   return out;
 }
 

@@ -69,6 +69,25 @@ std::string status_of(const std::exception& error) {
   return std::string("failed: ") + error.what();
 }
 
+/// Checks that contacts which were made for another scene have the rule of this scene. \throws InputError.
+void require_same_rule(const Scene& scene, const ContactNetwork& network) {
+  if (network.rule != scene.network.rule)
+    throw InputError(scene.file.string(), 0, "rule in [network]",
+                     std::string("\"") + to_string(scene.network.rule) + '"',
+                     std::string("\"") + to_string(network.rule) + "\", the rule of the given contacts");
+}
+
+/// Returns what a run with the rule "series" reports about the rock of its specimen.
+std::string words_of(const RockReport& rock, const Specimen& specimen) {
+  std::string out = fmt::format("rule \"series\": cells of aggregates fill {:.2f} % of the box", 100 * rock.rock_cells);
+  out += rock.rock_nominal ? fmt::format(" and the aggregates {:.2f} %", 100 * *rock.rock_nominal)
+                           : " (the aggregates' own volume is unknown)";
+  if (!specimen.voids.empty())
+    out += fmt::format("; cells of voids fill {:.2f} % and the voids {:.2f} %", 100 * rock.void_cells,
+                       100 * rock.void_nominal);
+  return out + fmt::format("; the centres of {} mastic spheres lie in aggregates", rock.mastic_centres_in_rock);
+}
+
 /// The backend that runs the scene. Another thread looks for it: the devices are counted and start up while the
 /// specimen is made.
 class FoundBackend {
@@ -108,6 +127,7 @@ class SceneRun {
   RunResult run() {
     begin();
     if (!given_) made_ = make_preparation();
+    if (given_) require_same_rule(scene_, given_->network);
     if (given_) require_laws(scene_, given_->specimen, given_->network);
     const Backend backend = wait_for_backend();
     const std::vector<std::string> warnings = checkpoint_warnings(backend);
@@ -122,6 +142,7 @@ class SceneRun {
       list.insert(list.end(), more.begin(), more.end());
     };
     append(result.decisions, decisions);
+    if (prepared().rock) result.decisions.push_back(words_of(*prepared().rock, prepared().specimen));
     append(result.warnings, warnings);
     append(result.warnings, packing);
     if (scene_.network.lateral_walls) {

@@ -71,6 +71,15 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["second_moment_difference"] = prepared.network.second_moment_difference;
   out["dropped"] = {{"gap", prepared.network.dropped_gap}, {"area", prepared.network.dropped_area}};
   out["volume_fractions"] = volume_fractions(prepared.specimen, prepared.tessellation);
+  if (prepared.rock) {
+    const RockReport& rock = *prepared.rock;
+    out["rule"] = {{"name", to_string(scene.network.rule)},
+                   {"rock_fraction_cells", rock.rock_cells},
+                   {"rock_fraction_nominal", rock.rock_nominal ? Json(*rock.rock_nominal) : Json()},
+                   {"void_fraction_cells", rock.void_cells},
+                   {"void_fraction_nominal", rock.void_nominal},
+                   {"mastic_centres_in_rock", rock.mastic_centres_in_rock}};
+  }
   for (const CompositionRow& row : prepared.composition) {
     out["composition"].push_back({{"class", row.name},
                                   {"count_asked", row.count_asked},

@@ -3,6 +3,7 @@
 // same double.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "host/files/result_files.hpp"
@@ -14,12 +15,18 @@ void write_aggregates_csv(const std::filesystem::path& file, const std::vector<A
                           const std::vector<CompositionRow>& classes) {
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);
-  fmt::format_to(to, "body,size_class,class,shape,size,d_long,d_short,axis_x,axis_y,axis_z,volume,spheres,x,y,z\n");
+  const bool turned =
+      std::any_of(aggregates.begin(), aggregates.end(), [](const Aggregate& a) { return a.surface >= 0; });
+  fmt::format_to(to, "body,size_class,class,shape,size,d_long,d_short,axis_x,axis_y,axis_z,volume,spheres,x,y,z{}\n",
+                 turned ? ",qw,qx,qy,qz" : "");
   for (const Aggregate& a : aggregates) {
-    fmt::format_to(to, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", a.body, a.size_class,
+    fmt::format_to(to, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", a.body, a.size_class,
                    classes.at(static_cast<std::size_t>(a.size_class)).name, csv_field(a.shape), a.size, a.d_long,
                    a.d_short, a.axis_long.x, a.axis_long.y, a.axis_long.z, a.volume, a.spheres, a.centre.x, a.centre.y,
                    a.centre.z);
+    const auto& q = a.pose.turn;
+    if (turned) fmt::format_to(to, ",{},{},{},{}", q[0], q[1], q[2], q[3]);
+    fmt::format_to(to, "\n");
   }
   write_whole(file, fmt::to_string(text));
 }

@@ -27,6 +27,12 @@ const char* to_string(PairType pair);
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
+/// The way in which a contact gets its stiffness (docs/model/contacts.md, section 5). `centres`: each pair of materials
+/// has a law, which acts over the distance of the centres; `series`: each phase has a law, and mastic and rock act in
+/// series over the parts of the line of centres that lie in them.
+enum class ContactRule : std::uint8_t { centres, series };
+const char* to_string(ContactRule);
+
 /// Limits within which a facet between two particles becomes a contact. Without limits, every facet becomes a contact.
 struct FacetLimits {
   std::optional<double> gap_max;   ///< largest surface gap, over the mean of the two radii
@@ -38,8 +44,9 @@ struct NetworkSpec : FacetLimits {
   /// Limits of single pair types between particles; a limit given here replaces the limit for all pairs.
   std::array<FacetLimits, particle_pair_types> of_pair;
   Quadrature quadrature = Quadrature::lumped;
-  bool bottom_top_walls = true;  ///< facets on −z and +z are contacts
-  bool lateral_walls = false;    ///< facets on ±x and ±y are contacts
+  bool bottom_top_walls = true;             ///< facets on −z and +z are contacts
+  bool lateral_walls = false;               ///< facets on ±x and ±y are contacts
+  ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; apply_series() changes the contacts
 };
 
 /// Area moments of a facet: Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t², in local coordinates about x0:
@@ -79,6 +86,7 @@ struct ContactNetwork {
   double dropped_share = 0;
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;  ///< of the moment ss + tt, over all contacts: Σ|lumped − exact| / Σ exact
+  ContactRule rule = ContactRule::centres;  ///< `series` once the lengths of the contacts are set by this rule
 
   /// Returns the numbers of a particle's contacts, in rising order.
   std::span<const std::uint32_t> row(std::size_t particle) const {
@@ -95,8 +103,8 @@ void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 /// \throws InputError if a particle has no cell (names its number) or if no contact remains.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});
 
-/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. \throws
-/// RunError.
+/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. With the rule
+/// "series" the columns `length,series` follow. \throws RunError.
 void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network);
 
 }  // namespace macadam

@@ -20,11 +20,21 @@ namespace macadam {
 
 class Stepper;
 
+/// Rock and air in the cells of a specimen whose contacts follow the rule "series", beside their nominal amounts. All
+/// fractions are of the volume of the box.
+struct RockReport {
+  double rock_cells = 0;               ///< cells of aggregates
+  std::optional<double> rock_nominal;  ///< true aggregates; empty if their volumes are unknown
+  double void_cells = 0, void_nominal = 0;
+  std::int64_t mastic_centres_in_rock = 0;  ///< number of mastic spheres whose centres lie in aggregates
+};
+
 /// Particles, cells and contacts of a scene, and the wall time in which they were made.
 struct Preparation {
   Specimen specimen;
   std::vector<CompositionRow> composition;  ///< empty for a specimen read from a file, as is `aggregates`
   std::vector<Aggregate> aggregates;
+  std::optional<RockReport> rock;  ///< with rule "series"
   Tessellation tessellation;
   ContactNetwork network;
   std::int64_t loose_particles = 0;  ///< particles in clusters that do not touch both walls; they carry no load

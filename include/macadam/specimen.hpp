@@ -167,6 +167,8 @@ inline constexpr const char* given_particles = "particles given in Python";
 /// Everything needed to obtain a specimen: a file, or a recipe for the generator.
 struct SpecimenSpec {
   std::optional<std::filesystem::path> file;
+  /// With `file`: the true surfaces of its aggregates, for the rule "series" of contacts.
+  std::optional<std::filesystem::path> aggregate_file = {};
   Box box;
   std::uint64_t seed = 1;
   std::vector<AggregateClass> aggregate;  ///< in any order; placed largest first
@@ -225,7 +227,8 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
                                     const std::function<void(const char* stage, double share)>& progress = {});
 
 /// Writes `body,size_class,class,shape,size,d_long,d_short,axis_x,axis_y,axis_z,volume,spheres,x,y,z` (SI units), one
-/// line per aggregate; `classes` are the names of the composition. \throws RunError if the file cannot be written.
+/// line per aggregate, and the rotation `qw,qx,qy,qz` of its shape if one of them has a shape; `classes` are the names
+/// of the composition. \throws RunError if the file cannot be written.
 void write_aggregates_csv(const std::filesystem::path& file, const std::vector<Aggregate>& aggregates,
                           const std::vector<CompositionRow>& classes);
 

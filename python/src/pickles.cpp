@@ -9,6 +9,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <optional>
 #include <tuple>
 
 #include "python/src/arrays.hpp"
@@ -46,7 +47,31 @@ Aggregate aggregate_of(const AggregateState& state) {
   return a;
 }
 
-/// Returns the data of a generated specimen other than its spheres: composition, aggregates, iterations, times.
+/// Returns what the rule "series" sets: length and compliance of each contact, and the report of the rock. The true
+/// surfaces of aggregates, from which this follows, are not part of a specimen. Empty lists with the rule "centres".
+nb::tuple series_of(const Preparation& made) {
+  std::vector<double> lengths, compliances, rock;
+  if (made.rock) {
+    for (const Contact& c : made.network.contacts) lengths.push_back(c.length), compliances.push_back(c.series);
+    rock = {made.rock->rock_cells, made.rock->rock_nominal.value_or(-1), made.rock->void_cells, made.rock->void_nominal,
+            static_cast<double>(made.rock->mastic_centres_in_rock)};
+  }
+  return nb::make_tuple(lengths, compliances, rock);
+}
+
+/// Restores in `made` what series_of() returned.
+void put_series(const nb::tuple& state, Preparation& made) {
+  const auto lengths = nb::cast<std::vector<double>>(state[0]), compliances = nb::cast<std::vector<double>>(state[1]),
+             rock = nb::cast<std::vector<double>>(state[2]);
+  if (rock.empty()) return;
+  for (std::size_t k = 0; k < made.network.contacts.size(); ++k)
+    made.network.contacts[k].length = lengths.at(k), made.network.contacts[k].series = compliances.at(k);
+  made.rock = RockReport{rock[0], rock[1] < 0 ? std::nullopt : std::optional(rock[1]), rock[2], rock[3],
+                         static_cast<std::int64_t>(rock[4])};
+}
+
+/// Returns the data of a generated specimen other than its spheres: composition, aggregates, iterations, times, and
+/// what the rule "series" sets.
 nb::tuple report_of(const Preparation& made) {
   std::vector<Row> composition;
   for (const CompositionRow& r : made.composition)
@@ -54,7 +79,7 @@ nb::tuple report_of(const Preparation& made) {
   std::vector<AggregateState> aggregates;
   for (const Aggregate& a : made.aggregates) aggregates.push_back(state_of(a));
   const std::array<double, 3> seconds{made.seconds_specimen, made.seconds_tessellation, made.seconds_network};
-  return nb::make_tuple(composition, aggregates, made.relaxation_iterations, seconds);
+  return nb::make_tuple(composition, aggregates, made.relaxation_iterations, seconds, series_of(made));
 }
 
 /// Restores in `made` what report_of() returned.
@@ -66,6 +91,7 @@ void put_report(const nb::tuple& report, Preparation& made) {
   made.relaxation_iterations = nb::cast<int>(report[2]);
   const auto seconds = nb::cast<std::array<double, 3>>(report[3]);
   made.seconds_specimen = seconds[0], made.seconds_tessellation = seconds[1], made.seconds_network = seconds[2];
+  put_series(nb::cast<nb::tuple>(report[4]), made);
 }
 
 /// Returns box, particles, voids and source of a specimen, the arrays as NumPy arrays.

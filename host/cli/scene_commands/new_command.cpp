@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_command.cpp  Implements `macadam new [--kind recipe] [--test cyclic] [FILE]`.
+// new_command.cpp  Implements `macadam new [--kind recipe] [--test cyclic] [--rule centres] [FILE]`.
 #include "host/cli/scene_commands/new_command.hpp"
 
 #include <fcntl.h>
@@ -22,6 +22,7 @@ namespace {
 struct NewArguments {
   std::string file = "scene.toml", test = "cyclic";
   scene::NewKind kind = scene::NewKind::recipe;
+  ContactRule rule = ContactRule::centres;
 };
 
 /// Writes a new file. \throws InputError if a file of this name exists, even if it was made a moment ago.
@@ -47,7 +48,10 @@ void write_new(const std::string& file, const std::string& text) {
 }
 
 void new_command(const NewArguments& arguments) {
-  write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test));
+  if (arguments.rule == ContactRule::series && arguments.test != "cyclic" && arguments.test != "sweep")
+    throw InputError("--rule series: cannot be used with --test " + arguments.test +
+                     ", whose response without time steps is not available for this rule; use cyclic or sweep");
+  write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test, arguments.rule));
   say("{} is written. Edit it, then run:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)
     say("  put specimen.csv (id,x,y,z,radius,phase,body) into the same folder, and write the edge lengths of its box "
@@ -71,7 +75,11 @@ void add_new_command(CLI::App& app) {
   std::vector<std::pair<std::string, std::string>> tests;
   for (const std::string& kind : scene::tests_of_new_scenes()) tests.emplace_back(kind, kind);
   add_choice(command, "--test", arguments->test, "the test of the specimen", tests);
-  add_examples(command, {"macadam new mix.toml", "macadam new --kind shapes --test sweep mix.toml"});
+  add_choice(command, "--rule", arguments->rule,
+             "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow",
+             {{"centres", ContactRule::centres}, {"series", ContactRule::series}});
+  add_examples(command, {"macadam new mix.toml", "macadam new --kind shapes --test sweep mix.toml",
+                         "macadam new --rule series mix.toml"});
   command.callback([arguments] { new_command(*arguments); });
 }
 

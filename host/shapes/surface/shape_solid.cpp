@@ -6,7 +6,10 @@
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "host/shapes/surface/facet_tree.hpp"
 
@@ -59,6 +62,24 @@ bool ShapeSolid::contains(const Vec3d& point) const { return tree_->side(point_o
 
 bool ShapeSolid::touches(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
   return tree_->facets.do_intersect(Kernel::Triangle_3(point_of(a), point_of(b), point_of(c)));
+}
+
+void ShapeSolid::crossings(const Vec3d& a, const Vec3d& b, std::vector<double>& fractions) const {
+  std::vector<Mesh::Face_index> met;
+  tree_->facets.all_intersected_primitives(Kernel::Segment_3(point_of(a), point_of(b)), std::back_inserter(met));
+  const Mesh& mesh = tree_->mesh;
+  for (const Mesh::Face_index facet : met) {
+    std::array<Vec3d, 3> corner;
+    Mesh::Halfedge_index at = mesh.halfedge(facet);
+    for (Vec3d& c : corner) {
+      const Kernel::Point_3& p = mesh.point(mesh.target(at));
+      c = {p.x(), p.y(), p.z()};
+      at = mesh.next(at);
+    }
+    const Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double rise = dot(normal, b - a);
+    if (rise != 0) fractions.push_back(std::clamp(dot(normal, corner[0] - a) / rise, 0.0, 1.0));
+  }
 }
 
 }  // namespace macadam

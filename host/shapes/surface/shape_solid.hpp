@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "macadam/shape.hpp"
 
@@ -28,6 +29,11 @@ class ShapeSolid {
 
   /// Returns whether a triangle touches or intersects the surface. Uses exact predicates.
   bool touches(const Vec3d& a, const Vec3d& b, const Vec3d& c) const;
+
+  /// Appends the fractions of the segment from a to b, 0 … 1 and in any order, at which it meets a facet. The tests for
+  /// the facets are exact, so no crossing is missed; the fractions are rounded. A facet that contains a part of the
+  /// segment adds nothing, because the facets around it do.
+  void crossings(const Vec3d& a, const Vec3d& b, std::vector<double>& fractions) const;
 
  private:
   struct Tree;

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file read_materials.cpp  Reads `[materials]`: densities, the temperature and, for the rule "series", the laws of
+/// mastic and rock. Derives the laws of all pairs from them.
+#include <fmt/format.h>
+
+#include "host/scene/law_keys.hpp"
+#include "host/scene/sections.hpp"
+#include "host/scene/shift_keys.hpp"
+
+namespace macadam::scene {
+namespace {
+
+/// Range of a density that is given as a number without a unit, in kg/m³. No solid is lighter than the lower limit, so
+/// a smaller number was probably meant in g/cm³.
+constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
+                        "10 to 30000 kg/m3; a density in another unit is text with the unit"};
+constexpr Rule of_poisson{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
+
+/// Appends the names of the laws that a phase may have, each with an empty value. Only linear laws can be in series
+/// with rock.
+template <std::size_t I = 0>
+void list_linear_laws(std::vector<std::string>& names, std::vector<Law>& laws) {
+  if constexpr (I < std::variant_size_v<Law>) {
+    using Alternative = std::variant_alternative_t<I, Law>;
+    if constexpr (has_stiffness<Alternative>) {
+      names.emplace_back(Alternative::name);
+      laws.emplace_back(Alternative{});
+    }
+    list_linear_laws<I + 1>(names, laws);
+  }
+}
+
+Key density_key(double& target, Need need) {
+  return {"density", need, positive_into(target, density, in_kg_m3), "density of the spheres",
+          "computed from [specimen.recipe] if that is given"};
+}
+
+Key poisson_key(std::optional<double>& target, const char* usual) {
+  return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson), "Poisson's ratio, for rule \"series\"",
+          usual};
+}
+
+const char* const without_law = "the laws of [[contacts]]";
+
+/// Refuses the law of a phase in a scene whose rule has no use for it.
+void require_rule(const Section& section, ContactRule rule) {
+  if (rule == ContactRule::series) return;
+  for (const char* key : {"law", "E", "poisson_ratio"}) {
+    if (section.has(key))
+      section.refuse(
+          key, "this key with rule = \"centres\" in [network]",
+          "rule = \"series\" there, or no law of a phase, because with \"centres\" each pair has its own law "
+          "in [[contacts]]");
+  }
+}
+
+void read_aggregate(const Section& section, Need need, ContactRule rule, Materials& materials, PhaseLaws& phases) {
+  const auto law = [](const Value& value) {
+    if (value.text() != laws::Elastic::name) value.refuse(value.shown(), "\"elastic\"");
+  };
+  const auto modulus_of_rock = [&phases](const Value& value) {
+    double E = 0;
+    positive_into(E, modulus, in_pascals).read(value);
+    phases.rock_modulus = E;
+  };
+  section.read({density_key(materials.aggregate, need),
+                {"law",
+                 Need::optional,
+                 {law, {"text", nullptr, "\"elastic\""}},
+                 "law of the rock, for rule \"series\"",
+                 without_law},
+                {"E",
+                 Need::optional,
+                 {modulus_of_rock, {"number", &modulus, in_pascals.words}},
+                 "modulus of the rock",
+                 "none; required with law"},
+                poisson_key(materials.aggregate_poisson_ratio, "none")});
+  require_rule(section, rule);
+  if (section.has("law") != section.has("E")) {
+    section.refuse("E", section.has("E") ? "this key without law" : "nothing",
+                   section.has("E") ? "law = \"elastic\" beside it" : "this key, which law = \"elastic\" needs");
+  }
+}
+
+void read_mastic(const Section& section, Need need, ContactRule rule, Materials& materials, PhaseLaws& phases) {
+  std::vector<std::string> names;
+  std::vector<Law> empty;
+  list_linear_laws(names, empty);
+  std::vector<Key> keys{density_key(materials.mastic, need),
+                        {"law",
+                         Need::optional,
+                         {[](const Value&) {}, {"one of"}},
+                         "law of the mastic, for rule \"series\"; it determines the other keys",
+                         without_law},
+                        poisson_key(materials.mastic_poisson_ratio, "none; required with law")};
+  const auto name = section.find("law");
+  if (!name) {
+    section.read(keys);
+    return require_rule(section, rule);
+  }
+  Law of_mastic = empty[name->choice(names)];
+  ShiftKeys shift;
+  std::visit(
+      [&](auto& law) {
+        for (Key& key : keys_of(law)) keys.push_back(std::move(key));
+        const bool flows = laws::flows(law);
+        if (flows)
+          for (Key& key : shift.keys()) keys.push_back(std::move(key));
+        section.read(keys);
+        require_rule(section, rule);
+        if (flows) phases.shift = shift.shift(section);
+        check(law, section);
+        law.alpha = 1;
+      },
+      of_mastic);
+  if (!materials.mastic_poisson_ratio)
+    section.refuse("poisson_ratio", "nothing", "this key, which the law of the mastic needs");
+  phases.mastic = std::move(of_mastic);
+}
+
+/// Returns a law with another ratio of shear to normal stiffness.
+Law with_alpha(Law law, double alpha) {
+  std::visit([alpha](auto& l) { l.alpha = alpha; }, law);
+  return law;
+}
+
+}  // namespace
+
+Materials read_materials(const Section& section, Need need, ContactRule rule, PhaseLaws& phases) {
+  Materials materials;
+  section.read({{"aggregate", Need::optional,
+                 section_by([&](const Value& v) { read_aggregate(v.section(), need, rule, materials, phases); }),
+                 "material of the aggregates", "none"},
+                {"mastic", Need::optional,
+                 section_by([&](const Value& v) { read_mastic(v.section(), need, rule, materials, phases); }),
+                 "material of the mastic", "none"},
+                {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
+                 "temperature of the whole specimen; laws that have a shift change with it",
+                 "the laws' reference temperatures"}});
+  materials.rock_modulus = phases.rock_modulus;
+  return materials;
+}
+
+void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& root) {
+  if (scene.network.rule == ContactRule::centres) return;
+  const auto require = [&](bool needed, bool given, const char* phase, const char* example) {
+    if (needed && !given)
+      root.refuse("materials", std::string("no law of the ") + phase + ", which rule = \"series\" in [network] needs",
+                  std::string("[materials.") + phase + "] with " + example);
+  };
+  const bool file = scene.specimen.file.has_value(), mastic = phases.mastic.has_value(),
+             rock = phases.rock_modulus.has_value();
+  require(scene.specimen.mastic.has_value() || (file && !rock), mastic, "mastic",
+          "law = \"generalised_kelvin\" or \"elastic\", and poisson_ratio");
+  require(!scene.specimen.aggregate.empty(), rock, "aggregate", "law = \"elastic\" and E");
+  const auto set = [&](PairType pair, const Law& law, const laws::Shift& shift) {
+    scene.laws[static_cast<std::size_t>(pair)] = law;
+    scene.shifts[static_cast<std::size_t>(pair)] = shift;
+  };
+  if (mastic) {
+    const double nu = *scene.materials.mastic_poisson_ratio;
+    set(PairType::mm, *phases.mastic, phases.shift);
+    set(PairType::mw, *phases.mastic, phases.shift);
+    if (rock) {
+      set(PairType::ma, *phases.mastic, phases.shift);
+      // A film between two aggregates is held at its faces: λ + 2μ resists its opening and μ its slip.
+      set(PairType::aa, with_alpha(*phases.mastic, (1 - 2 * nu) / (2 * (1 - nu))), phases.shift);
+    }
+  }
+  if (rock) {
+    const laws::Elastic law{*phases.rock_modulus, 1};
+    set(PairType::inner, law, laws::NoShift{});
+    set(PairType::aw, law, laws::NoShift{});
+  }
+}
+
+}  // namespace macadam::scene
