@@ -1,43 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// extrapolation.cpp  Fits polynomials in the edge of the voxels that share their value at zero.
+// extrapolation.cpp  Evaluates polynomials in the difference of the mixing rules where this difference is zero.
 #include "bench/continuum/extrapolation.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace continuum {
 namespace {
 
-/// Returns the common value at h = 0 of polynomials through the finest degree + 1 sizes of each rule, for the modulus
-/// (first) and Poisson's ratio.
-Eigen::RowVector2cd limit(const std::vector<const Sizes*>& rules, int degree) {
-  const Eigen::Index rows = Eigen::Index(rules.size()) * (degree + 1),
-                     unknowns = 1 + Eigen::Index(rules.size()) * degree;
-  Eigen::MatrixXd powers = Eigen::MatrixXd::Zero(rows, unknowns);
-  Eigen::MatrixX2cd values(rows, 2);
-  Eigen::Index row = 0;
-  for (std::size_t rule = 0; rule < rules.size(); ++rule)
-    for (auto at = rules[rule]->end() - degree - 1; at != rules[rule]->end(); ++at, ++row) {
-      powers(row, 0) = 1;
-      const double h = at->voxel / rules[rule]->back().voxel;
-      for (int p = 0; p < degree; ++p) powers(row, 1 + Eigen::Index(rule) * degree + p) = std::pow(h, p + 1);
-      values.row(row) << at->modulus, at->poisson;
+/// Returns the modulus and Poisson's ratio at g = 0 of Lagrange polynomials through the `count` finest sizes.
+std::array<Complex, 2> limit(const Sizes& stiff, const Sizes& soft, std::size_t count) {
+  const std::size_t first = soft.size() - count;
+  std::array<Complex, 2> out{};
+  for (std::size_t a = first; a < soft.size(); ++a) {
+    Complex weight = 1;
+    for (std::size_t b = first; b < soft.size(); ++b) {
+      const Complex ga = stiff[a].modulus - soft[a].modulus, gb = stiff[b].modulus - soft[b].modulus;
+      if (b != a) weight *= gb / (gb - ga);
     }
-  const Eigen::MatrixXcd fit = powers.cast<Complex>().colPivHouseholderQr().solve(values);
-  return fit.row(0);
+    out[0] += weight * soft[a].modulus, out[1] += weight * soft[a].poisson;
+  }
+  return out;
 }
 
 }  // namespace
 
 Limit extrapolated(const Sizes& stiff, const Sizes& soft) {
-  const int degree = stiff.size() > 2 ? 2 : 1;
-  const auto common = limit({&stiff, &soft}, degree);
-  Limit out{common[0], common[1]};
-  for (const Complex& other : {limit({&stiff}, degree)[0], limit({&soft}, degree)[0], limit({&stiff, &soft}, 1)[0]}) {
-    out.uncertainty = std::max(out.uncertainty, std::abs(std::abs(other) - std::abs(out.modulus)));
-    out.phase_uncertainty = std::max(out.phase_uncertainty, std::abs(std::arg(other / out.modulus)));
-  }
-  return out;
+  const std::size_t last = soft.size() - 1;
+  const auto gap = [&](std::size_t a) { return std::abs(stiff[a].modulus - soft[a].modulus); };
+  const SizeResult& finest = soft[last];
+  Limit out{finest.modulus, finest.poisson, gap(last), gap(last) / std::abs(finest.modulus)};
+  if (gap(last) > 0.8 * gap(last - 1) || gap(last) < 1e-9 * std::abs(finest.modulus)) return out;
+  const bool three = last > 1 && gap(last - 1) <= 0.8 * gap(last - 2);
+  const Complex line = limit(stiff, soft, 2)[0];
+  const auto best = limit(stiff, soft, three ? 3 : 2);
+  const auto apart = [](Complex a, Complex b) { return std::abs(std::abs(a) - std::abs(b)); };
+  const auto turned = [](Complex a, Complex b) { return std::abs(std::arg(a / b)); };
+  return {best[0], best[1], std::max(apart(best[0], line), apart(line, finest.modulus)),
+          std::max(turned(best[0], line), turned(line, finest.modulus))};
 }
 
 }  // namespace continuum

@@ -24,9 +24,11 @@ struct Limit {
 
 /// Returns the common limit of both mixing rules for two or more voxel sizes, the same for both rules.
 ///
-/// The value of a rule is e + a·h (two sizes) or e + a·h + b·h² (three, the finest ones) for edge h, with the same e
-/// for both rules: least squares. The uncertainty is the largest difference from the limits of each rule alone, and
-/// from the common limit by straight lines through the two finest sizes.
+/// The difference g of the rules' moduli tends to zero with the voxels, at a rate that depends on the films between
+/// the aggregates. So the results are extrapolated in g instead of the edge: a polynomial through the results of the
+/// three finest sizes (two, if there are only two), evaluated at g = 0. The uncertainty is the larger of two
+/// differences: from the straight line through the two finest sizes, and from this line to the finest soft result. If
+/// g does not fall to 0.8 between the two finest sizes, the limit is the finest soft result, and the uncertainty is g.
 Limit extrapolated(const Sizes& stiff, const Sizes& soft);
 
 }  // namespace continuum
