@@ -4,6 +4,7 @@
 #include "bench/continuum/compression.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "bench/continuum/multigrid.hpp"
@@ -13,60 +14,78 @@ namespace {
 
 using Vector = Field<double>;
 
+<<<<<<< HEAD
 /// Returns Σ a·b without complex conjugation. Layers are summed one by one, so that the sum does not depend on the
 /// number of threads.
 Complex product(const Size& n, const Vector& a, const Vector& b) {
   const std::size_t layer = std::size_t(n.x + 1) * (n.y + 1);
   std::vector<Complex> sums(std::size_t(n.z) + 1);
 #pragma omp parallel for
+=======
+/// Calls f(component, first node) for every layer of nodes, in parallel, and returns the sum of the results. Layers are
+/// summed in their order, so that the sum does not depend on the number of threads.
+template <class Sum, class F>
+Sum sum_of_layers(const Size& n, F&& f) {
+  std::vector<Sum> sums(std::size_t(n.z) + 1);
+#pragma omp parallel for schedule(static) if (n.is_large())
+>>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
   for (int k = 0; k <= n.z; ++k)
-    for (int i = 0; i < 3; ++i)
-      for (std::size_t at = k * layer; at < (k + 1) * layer; ++at) sums[k] += a.of[i][at] * b.of[i][at];
-  Complex out;
-  for (const Complex& sum : sums) out += sum;
-  return out;
+    for (int i = 0; i < 3; ++i) sums[std::size_t(k)] += f(i, n.layer() * std::size_t(k));
+  return std::accumulate(sums.begin(), sums.end(), Sum{});
 }
 
-double norm(const Vector& a) {
-  double sum = 0;
-  for (const auto& component : a.of)
-    for (const Complex& value : component) sum += std::norm(value);
-  return std::sqrt(sum);
+/// Returns the sum of products without conjugation.
+Complex product(const Size& n, const Vector& a, const Vector& b) {
+  return sum_of_layers<Complex>(n, [&](int i, std::size_t begin) {
+    Complex sum;
+    for (std::size_t at = begin; at < begin + n.layer(); ++at) sum += a.of[i][at] * b.of[i][at];
+    return sum;
+  });
+}
+
+double norm(const Size& n, const Vector& a) {
+  return std::sqrt(sum_of_layers<double>(n, [&](int i, std::size_t begin) {
+    double sum = 0;
+    for (std::size_t at = begin; at < begin + n.layer(); ++at) sum += std::norm(a.of[i][at]);
+    return sum;
+  }));
 }
 
 /// Removes translations along x and y and the rotation about z, which no boundary holds.
 void remove_rigid_motions(const Size& n, Vector& u) {
-  const double nodes = double(n.nodes()), cx = n.x / 2.0, cy = n.y / 2.0;
-  Complex mean_x, mean_y, turn;
-  double inertia = 0;
-  for (int k = 0; k <= n.z; ++k)
+  struct Motion {
+    Complex x, y, turn;
+    Motion operator+(const Motion& b) const { return {x + b.x, y + b.y, turn + b.turn}; }
+  };
+  const double cx = n.x / 2.0, cy = n.y / 2.0;
+  std::vector<Motion> layers(std::size_t(n.z) + 1);
+#pragma omp parallel for schedule(static) if (n.is_large())
+  for (int k = 0; k <= n.z; ++k) {
+    Motion sum{};
     for (int j = 0; j <= n.y; ++j)
       for (int i = 0; i <= n.x; ++i) {
         const std::size_t at = n.node(i, j, k);
-        mean_x += u.of[0][at], mean_y += u.of[1][at];
-        turn += (i - cx) * u.of[1][at] - (j - cy) * u.of[0][at];
-        inertia += (i - cx) * (i - cx) + (j - cy) * (j - cy);
+        sum.x += u.of[0][at], sum.y += u.of[1][at];
+        sum.turn += (i - cx) * u.of[1][at] - (j - cy) * u.of[0][at];
       }
-  mean_x /= nodes, mean_y /= nodes, turn /= inertia;
-#pragma omp parallel for
-  for (int k = 0; k <= n.z; ++k)
-    for (int j = 0; j <= n.y; ++j)
-      for (int i = 0; i <= n.x; ++i) {
-        const std::size_t at = n.node(i, j, k);
-        u.of[0][at] -= mean_x - (j - cy) * turn;
-        u.of[1][at] -= mean_y + (i - cx) * turn;
-      }
-}
-
-/// Adds `factor`·b to a.
-void add(Vector& a, Complex factor, const Vector& b) {
-  for (int i = 0; i < 3; ++i) {
-    const auto n = std::ptrdiff_t(a.of[i].size());
-#pragma omp parallel for
-    for (std::ptrdiff_t at = 0; at < n; ++at) a.of[i][at] += factor * b.of[i][at];
+    layers[std::size_t(k)] = sum;
   }
+  double inertia = 0;  // of one layer
+  for (int j = 0; j <= n.y; ++j)
+    for (int i = 0; i <= n.x; ++i) inertia += (i - cx) * (i - cx) + (j - cy) * (j - cy);
+  Motion mean = std::accumulate(layers.begin(), layers.end(), Motion{});
+  mean.x /= double(n.nodes()), mean.y /= double(n.nodes()), mean.turn /= inertia * (n.z + 1);
+#pragma omp parallel for schedule(static) if (n.is_large())
+  for (int k = 0; k <= n.z; ++k)
+    for (int j = 0; j <= n.y; ++j)
+      for (int i = 0; i <= n.x; ++i) {
+        const std::size_t at = n.node(i, j, k);
+        u.of[0][at] -= mean.x - (j - cy) * mean.turn;
+        u.of[1][at] -= mean.y + (i - cx) * mean.turn;
+      }
 }
 
+<<<<<<< HEAD
 /// Returns the mean lateral strain along one axis: the difference between the mean displacements of the two side faces
 /// at the ends of this axis, divided by the width. `width`, `other`: elements along the axis and along the other
 /// lateral axis.
@@ -79,43 +98,116 @@ Complex lateral_strain(const Size& n, const Vector& u, int axis, int width, int 
       const auto at = [&](int end) { return axis == 0 ? n.node(end, j, k) : n.node(j, end, k); };
       sum += weight * (u.of[axis][at(width)] - u.of[axis][at(0)]);
       weights += weight;
+=======
+/// Returns the mean lateral strain between the free sides along one axis (0 or 1): the sum over rows of elements of
+/// the elongation between the first and the last element with material, over the sum of the rows' lengths.
+Complex lateral_strain(const Grid<double>& grid, const Vector& u, int axis) {
+  const Size& n = grid.size;
+  Complex elongation;
+  double length = 0;
+  for (int k = 0; k < n.z; ++k)
+    for (int j = 0; j < (axis == 0 ? n.y : n.x); ++j) {
+      int first = -1, last = -1;
+      for (int i = 0; i < (axis == 0 ? n.x : n.y); ++i)
+        if (grid.mu[axis == 0 ? n.element(i, j, k) : n.element(j, i, k)] != Complex{})
+          first = first < 0 ? i : first, last = i + 1;
+      if (first < 0) continue;
+      for (int c = 0; c < 4; ++c) {
+        const int jj = j + (c & 1), kk = k + (c >> 1);
+        const auto at = [&](int i) { return axis == 0 ? n.node(i, jj, kk) : n.node(jj, i, kk); };
+        elongation += (u.of[axis][at(last)] - u.of[axis][at(first)]) / 4.0;
+      }
+      length += last - first;
+>>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
     }
-  return sum / (weights * width);
+  return elongation / length;
+}
+
+/// Returns the displacement of a strain of 1 along z alone.
+Vector axial_strain(const Size& n) {
+  Vector u(n.nodes());
+  for (int k = 0; k <= n.z; ++k)
+    std::fill_n(u.of[2].begin() + std::ptrdiff_t(n.layer() * std::size_t(k)), n.layer(), double(k));
+  return u;
 }
 
 }  // namespace
 
-Compression compress(const Grid<double>& grid, int x, int y, double tolerance) {
+Compression compress(const Grid<double>& grid, double area, double tolerance, Vector& u) {
   const Size n = grid.size;
   Multigrid multigrid(grid);
-  Vector u(n.nodes()), r(n.nodes()), z(n.nodes()), p(n.nodes()), q(n.nodes());
-  for (int k = 0; k <= n.z; ++k)  // a strain of 1 along z alone
-    for (int j = 0; j <= n.y; ++j)
-      for (int i = 0; i <= n.x; ++i) u.of[2][n.node(i, j, k)] = k;
-  grid.apply(u, r);
+  Vector r(n.nodes()), z(n.nodes()), p(n.nodes()), q(n.nodes());
+  const bool guessed = u.of[0].size() == r.of[0].size();
+  if (!guessed) u = axial_strain(n);
+  grid.apply(guessed ? axial_strain(n) : u, r);
+  const double first = norm(n, r);
+  if (guessed) grid.apply(u, r);
   for (auto& component : r.of)
     for (auto& value : component) value = -value;
-  const double first = norm(r);
   Compression out;
   Complex rho_before = 1;
-  for (out.residual = first > 0 ? 1 : 0; out.residual > tolerance; ++out.iterations) {
+  for (out.residual = first > 0 ? norm(n, r) / first : 0; out.residual > tolerance; ++out.iterations) {
     if (out.iterations == 500) throw std::runtime_error("500 iterations: residual " + std::to_string(out.residual));
     multigrid.apply(r, z);
     remove_rigid_motions(n, z);
     const Complex rho = product(n, r, z);
     const Complex beta = out.iterations == 0 ? 0 : rho / rho_before;
-    for (int i = 0; i < 3; ++i)
-      for (std::size_t at = 0; at < n.nodes(); ++at) p.of[i][at] = z.of[i][at] + beta * p.of[i][at];
+    sum_of_layers<double>(n, [&](int i, std::size_t begin) {
+      for (std::size_t at = begin; at < begin + n.layer(); ++at) p.of[i][at] = z.of[i][at] + beta * p.of[i][at];
+      return 0.0;
+    });
     grid.apply(p, q);
     const Complex alpha = rho / product(n, p, q);
-    add(u, alpha, p), add(r, -alpha, q);
+    out.residual = std::sqrt(sum_of_layers<double>(n,
+                                                   [&](int i, std::size_t begin) {
+                                                     double sum = 0;
+                                                     for (std::size_t at = begin; at < begin + n.layer(); ++at) {
+                                                       u.of[i][at] += alpha * p.of[i][at];
+                                                       sum += std::norm(r.of[i][at] -= alpha * q.of[i][at]);
+                                                     }
+                                                     return sum;
+                                                   })) /
+                   first;
     rho_before = rho;
-    out.residual = norm(r) / first;
   }
   grid.apply(u, q, true);
-  out.modulus = product(n, u, q) / (double(x) * y * n.z);  // twice the energy over volume and strain²
-  out.poisson = -(lateral_strain(n, u, 0, x, y) + lateral_strain(n, u, 1, y, x)) / 2.0;
+  out.modulus = product(n, u, q) / (area * n.z);  // twice the energy over volume and strain²
+  out.poisson = -(lateral_strain(grid, u, 0) + lateral_strain(grid, u, 1)) / 2.0;
   return out;
+}
+
+std::size_t remove_loose_pieces(Grid<double>& grid) {
+  const Size n = grid.size;
+  enum : unsigned char { bottom = 1, top = 2 };
+  std::vector<unsigned char> reached(n.elements());
+  std::vector<std::size_t> open;
+  for (const unsigned char from : {bottom, top}) {
+    const auto visit = [&](int i, int j, int k) {
+      if (i < 0 || j < 0 || k < 0 || i >= n.x || j >= n.y || k >= n.z) return;
+      const std::size_t e = n.element(i, j, k);
+      if ((reached[e] & from) != 0 || grid.mu[e] == Complex{}) return;
+      reached[e] |= from, open.push_back(e);
+    };
+    for (int j = 0; j < n.y; ++j)
+      for (int i = 0; i < n.x; ++i) visit(i, j, from == bottom ? 0 : n.z - 1);
+    while (!open.empty()) {
+      const std::size_t e = open.back();
+      open.pop_back();
+      const int i = int(e % n.x), j = int(e / n.x % n.y), k = int(e / n.x / n.y);
+      visit(i - 1, j, k), visit(i + 1, j, k), visit(i, j - 1, k);
+      visit(i, j + 1, k), visit(i, j, k - 1), visit(i, j, k + 1);
+    }
+  }
+  std::size_t removed = 0, kept = 0;
+  for (std::size_t e = 0; e < n.elements(); ++e) {
+    if (reached[e] == (bottom | top)) {
+      ++kept;
+    } else if (grid.mu[e] != Complex{}) {
+      grid.mu[e] = grid.lambda[e] = 0, ++removed;
+    }
+  }
+  if (kept == 0) throw std::runtime_error("no material connects the bottom of the specimen with its top");
+  return removed;
 }
 
 }  // namespace continuum

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grid.cpp  Multiplies the stiffness of a grid with a vector, and moves vectors between grids.
+// grid.cpp  Multiplies the stiffness of a grid with a vector, without a matrix.
 #include "bench/continuum/grid.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
 namespace continuum {
 namespace {
 
+<<<<<<< HEAD
 const ElementStiffness unit;
 
 template <class T>
@@ -20,139 +20,106 @@ void clear_held(const Size& n, Field<T>& f) {
 /// Adds the forces of one row of elements along x. The loops over elements are innermost, so that the compiler
 /// vectorises them. They run over real numbers, in which real and imaginary parts alternate, because loops over
 /// std::complex are not vectorised.
+=======
+/// Adds the forces of one row of elements along x. Packets are computed first; the forces at the left and at the right
+/// end of the elements are then added to the nodes. An addition of packets would wait for the packet before, because
+/// both change the node between them.
+>>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
 template <class T>
 class RowOfElements {
  public:
   explicit RowOfElements(const Grid<T>& grid)
-      : grid_(grid), n_(grid.size), part_(2 * std::size_t(n_.x)), all_(2 * dofs * part_.size()) {
-    for (int a = 0; a < dofs; ++a)
-      for (int b = 0; b < dofs; ++b) lambda_[a][b] = T(unit.lambda[a][b]), mu_[a][b] = T(unit.mu[a][b]);
-  }
+      : grid_(grid), n_(grid.size), stride_(std::size_t(n_.x) + padding), forces_(dofs * stride_) {}
 
   void add(int j, int k, const Field<T>& u, Field<T>& f) {
-    const std::size_t words = part_.size();
-    T* const volumetric = all_.data();
-    T* const shear = volumetric + dofs * words;
-    for (int b = 0; b < dofs; ++b) {
-      const T* from = displacement(b, j, k, u);
-      for (int a = 0; a < dofs; ++a) {
-        const T l = lambda_[a][b], m = mu_[a][b];
-        T *const va = volumetric + a * words, *const sa = shear + a * words;
-        if (b == 0)
-          for (std::size_t w = 0; w < words; ++w) va[w] = l * from[w], sa[w] = m * from[w];
-        else
-          for (std::size_t w = 0; w < words; ++w) va[w] += l * from[w], sa[w] += m * from[w];
-      }
-    }
+    using P = Packet<T>;
     const std::complex<T>* const lambda = grid_.lambda.data() + n_.element(0, j, k);
     const std::complex<T>* const mu = grid_.mu.data() + n_.element(0, j, k);
-    for (int a = 0; a < dofs; ++a) {
-      const T *const va = volumetric + a * words, *const sa = shear + a * words;
-      T* const to = force(a, j, k, f);
-      for (int i = 0; i < n_.x; ++i) {
-        const T lr = lambda[i].real(), li = lambda[i].imag(), mr = mu[i].real(), mi = mu[i].imag();
-        const T vr = va[2 * i], vi = va[2 * i + 1], sr = sa[2 * i], si = sa[2 * i + 1];
-        to[2 * i] += lr * vr - li * vi + mr * sr - mi * si;
-        to[2 * i + 1] += lr * vi + li * vr + mr * si + mi * sr;
-      }
+    const T height = T(grid_.height[std::size_t(k)]);
+    for (int i = 0; i < n_.x; i += int(P::numbers)) {
+      P packet[3][corners];
+      for (int a = 0; a < 3; ++a)
+        for (int c = 0; c < corners; ++c) packet[a][c] = P::load(u.of[a].data() + corner(c, j, k) + i);
+      multiply_stiffness(packet, PacketFactor<T>(P::load(lambda + i)), PacketFactor<T>(P::load(mu + i)), height);
+      for (int a = 0; a < 3; ++a)
+        for (int c = 0; c < corners; ++c) packet[a][c].store(&forces_[(3 * c + a) * stride_ + i]);
     }
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < corners; c += 2) {
+        T* const to = reinterpret_cast<T*>(f.of[a].data() + corner(c, j, k));
+        const T* const left = reinterpret_cast<const T*>(&forces_[(3 * c + a) * stride_]);
+        const T* const right = reinterpret_cast<const T*>(&forces_[(3 * (c + 1) + a) * stride_]);
+        const int words = 2 * n_.x;
+        to[0] += left[0], to[1] += left[1];
+        for (int w = 2; w < words; ++w) to[w] += left[w] + right[w - 2];
+        to[words] += right[words - 2], to[words + 1] += right[words - 1];
+      }
   }
 
  private:
-  std::size_t corner(int a, int j, int k) const {
-    const int c = a / 3;
-    return n_.node(c & 1, j + (c >> 1 & 1), k + (c >> 2 & 1));
-  }
-  const T* displacement(int b, int j, int k, const Field<T>& u) const {
-    return reinterpret_cast<const T*>(u.of[b % 3].data() + corner(b, j, k));
-  }
-  T* force(int a, int j, int k, Field<T>& f) const {
-    return reinterpret_cast<T*>(f.of[a % 3].data() + corner(a, j, k));
-  }
+  std::size_t corner(int c, int j, int k) const { return n_.node(c & 1, j + (c >> 1 & 1), k + (c >> 2 & 1)); }
 
   const Grid<T>& grid_;
   Size n_;
-  std::vector<T> part_, all_;
-  T lambda_[dofs][dofs], mu_[dofs][dofs];
+  std::size_t stride_;
+  std::vector<std::complex<T>> forces_;  ///< [unknown][element]
 };
-
-/// Weights with which a fine node takes the values of the coarse nodes left and right of it along one axis.
-struct Neighbours {
-  int left, right;
-  double left_weight, right_weight;
-};
-Neighbours neighbours(int fine) {
-  if (fine % 2 == 0) return {fine / 2, fine / 2, 1, 0};
-  return {fine / 2, fine / 2 + 1, 0.5, 0.5};
-}
-
-template <class F>
-void each_pair(const Size& fine, const Size& coarse, int k, F&& f) {
-  const Neighbours z = neighbours(k);
-  for (int j = 0; j <= fine.y; ++j) {
-    const Neighbours y = neighbours(j);
-    for (int i = 0; i <= fine.x; ++i) {
-      const Neighbours x = neighbours(i);
-      for (int c = 0; c < corners; ++c) {
-        const double weight = ((c & 1) != 0 ? x.right_weight : x.left_weight) *
-                              ((c & 2) != 0 ? y.right_weight : y.left_weight) *
-                              ((c & 4) != 0 ? z.right_weight : z.left_weight);
-        if (weight == 0) continue;
-        f(fine.node(i, j, k),
-          coarse.node((c & 1) != 0 ? x.right : x.left, (c & 2) != 0 ? y.right : y.left,
-                      (c & 4) != 0 ? z.right : z.left),
-          weight);
-      }
-    }
-  }
-}
 
 }  // namespace
 
 template <class T>
+void clear_held(const Size& n, Field<T>& f) {
+  std::fill_n(f.of[2].begin(), n.layer(), std::complex<T>{});
+  std::fill_n(f.of[2].begin() + std::ptrdiff_t(n.layer() * n.z), n.layer(), std::complex<T>{});
+}
+
+template <class T>
 void Grid<T>::apply(const Field<T>& u, Field<T>& f, bool faces) const {
-  for (auto& component : f.of) std::fill(component.begin(), component.end(), std::complex<T>{});
-  for (int odd = 0; odd < 2; ++odd) {  // layers of one parity share no nodes
-#pragma omp parallel
-    {
-      RowOfElements<T> row(*this);
-#pragma omp for
-      for (int k = odd; k < size.z; k += 2)
-        for (int j = 0; j < size.y; ++j) row.add(j, k, u, f);
-    }
+#pragma omp parallel if (size.is_large())
+  {
+    RowOfElements<T> row(*this);
+    for (int odd = 0; odd < 2; ++odd)  // layers of one parity share no nodes
+#pragma omp for schedule(static)
+      for (int k = odd; k < size.z + 1; k += 2) {
+        if (odd == 0)  // the layers of nodes k and k + 1 get their first forces here
+          for (auto& component : f.of) {
+            const auto begin = component.begin() + std::ptrdiff_t(size.layer() * k);
+            std::fill_n(begin, size.layer() * std::size_t(k < size.z ? 2 : 1), std::complex<T>{});
+          }
+        for (int j = 0; k < size.z && j < size.y; ++j) row.add(j, k, u, f);
+      }
   }
   if (!faces) clear_held(size, f);
 }
 
 template <class T>
-std::vector<std::array<std::complex<T>, 9>> Grid<T>::inverse_diagonal() const {
-  std::vector<std::array<std::complex<T>, 9>> out(size.nodes());
-#pragma omp parallel for
+Field<T> Grid<T>::inverse_diagonal() const {
+  Field<T> out(size.nodes());
+  std::vector<std::array<double, 6>> unit;  // per layer: the diagonal of lambda and of mu, equal at all corners
+  for (const double h : height) {
+    const ElementStiffness of(h);
+    unit.push_back({of.lambda[0][0], of.lambda[1][1], of.lambda[2][2], of.mu[0][0], of.mu[1][1], of.mu[2][2]});
+  }
+#pragma omp parallel for schedule(static) if (size.is_large())
   for (int k = 0; k <= size.z; ++k)
     for (int j = 0; j <= size.y; ++j)
       for (int i = 0; i <= size.x; ++i) {
-        Eigen::Matrix3cd sum = Eigen::Matrix3cd::Zero();
+        Complex sum[3];
         for (int c = 0; c < corners; ++c) {  // the element in which the node is corner c
           const int x = i - (c & 1), y = j - (c >> 1 & 1), z = k - (c >> 2 & 1);
           if (x < 0 || y < 0 || z < 0 || x >= size.x || y >= size.y || z >= size.z) continue;
           const std::size_t e = size.element(x, y, z);
-          for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < 3; ++b)
-              sum(a, b) += Complex(lambda[e]) * unit.lambda[3 * c + a][3 * c + b] +
-                           Complex(mu[e]) * unit.mu[3 * c + a][3 * c + b];
+          const auto& factor = unit[std::size_t(z)];
+          for (int a = 0; a < 3; ++a) sum[a] += Complex(lambda[e]) * factor[a] + Complex(mu[e]) * factor[3 + a];
         }
-        const bool held = k == 0 || k == size.z;
-        if (held) sum.row(2).setZero(), sum.col(2).setZero(), sum(2, 2) = 1;
-        if (std::abs(sum(0, 0)) == 0) continue;
-        Eigen::Matrix3cd inverse = sum.inverse();
-        if (held) inverse(2, 2) = 0;
-        auto& to = out[size.node(i, j, k)];
         for (int a = 0; a < 3; ++a)
-          for (int b = 0; b < 3; ++b) to[3 * a + b] = std::complex<T>(inverse(a, b));
+          if (sum[a] != Complex{}) out.of[a][size.node(i, j, k)] = std::complex<T>(1.0 / sum[a]);
       }
+  clear_held(size, out);
   return out;
 }
 
+<<<<<<< HEAD
 template <class T>
 Grid<T> coarser(const Grid<T>& fine) {
   Grid<T> out;
@@ -193,10 +160,11 @@ void restrict_to(const Size& fine, const Field<T>& from, const Size& coarse, Fie
   clear_held(coarse, to);
 }
 
+=======
+>>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
 template struct Grid<float>;
 template struct Grid<double>;
-template Grid<float> coarser(const Grid<float>&);
-template void add_interpolated(const Size&, const Field<float>&, const Size&, Field<float>&);
-template void restrict_to(const Size&, const Field<float>&, const Size&, Field<float>&);
+template void clear_held(const Size&, Field<float>&);
+template void clear_held(const Size&, Field<double>&);
 
 }  // namespace continuum

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file grid.hpp  Defines a grid of cubic elements with complex moduli, and the product of its stiffness with a
-/// vector.
+/// \file grid.hpp  Defines a grid of elements with complex moduli, and the product of its stiffness with a vector.
 #pragma once
 
 #include <complex>
@@ -13,21 +12,28 @@ namespace continuum {
 
 using Complex = std::complex<double>;
 
+/// Entries behind the last one of an array, so that a packet can be read from any entry. They stay zero.
+constexpr std::size_t padding = packet_bytes / sizeof(std::complex<float>);
+
 /// Number of elements along the axes.
 struct Size {
   int x = 0, y = 0, z = 0;
   std::size_t elements() const { return std::size_t(x) * y * z; }
-  std::size_t nodes() const { return std::size_t(x + 1) * (y + 1) * (z + 1); }
+  std::size_t nodes() const { return layer() * (z + 1); }
+  std::size_t layer() const { return std::size_t(x + 1) * (y + 1); }  ///< nodes of equal z
   std::size_t element(int i, int j, int k) const { return (std::size_t(k) * y + j) * x + i; }
   std::size_t node(int i, int j, int k) const { return (std::size_t(k) * (y + 1) + j) * (x + 1) + i; }
+  /// Returns whether several threads are worth their start and their wait for each other.
+  bool is_large() const { return nodes() > 20000; }
+  bool operator==(const Size&) const = default;
 };
 
-/// A displacement or force for each node: one array per component. T: float or double.
+/// A displacement or force for each node: one array per component, with `padding`. T: float or double.
 template <class T>
 struct Field {
   std::vector<std::complex<T>> of[3];
   explicit Field(std::size_t nodes = 0) {
-    for (auto& component : of) component.assign(nodes, {});
+    for (auto& component : of) component.assign(nodes + padding, {});
   }
 };
 
@@ -36,25 +42,31 @@ struct Field {
 template <class T>
 struct Grid {
   Size size;
-  std::vector<std::complex<T>> lambda, mu;  ///< [element]
+  std::vector<std::complex<T>> lambda, mu;  ///< [element], with `padding`
+  std::vector<double> height;               ///< of each layer of elements, over the edges along x and y
 
+<<<<<<< HEAD
   /// Computes f = K·u for edge length 1. At nodes of the bottom and top faces, the z component of f is the force of the
   /// face on the node if `faces` is true; otherwise it is set to zero.
+=======
+  /// Makes a grid of cubes without material.
+  explicit Grid(const Size& of = {})
+      : size(of), lambda(of.elements() + padding), mu(of.elements() + padding), height(std::size_t(of.z), 1.0) {}
+  /// Computes f = K·u for edge length 1. `u` must be zero where the faces hold it; f is set to zero there, and at the
+  /// end holds the forces of the faces if `faces` is true.
+>>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
   void apply(const Field<T>& u, Field<T>& f, bool faces = false) const;
-  /// Returns the inverses of the 3 × 3 blocks on the diagonal, row by row; zero for nodes without material.
-  std::vector<std::array<std::complex<T>, 9>> inverse_diagonal() const;
+  /// Returns the inverses of the diagonal elements of K; zero for nodes without material, and for held components.
+  Field<T> inverse_diagonal() const;
 };
 
+<<<<<<< HEAD
 /// Returns the grid with edges twice as long. An element has twice the mean of the constants of the eight elements that
 /// it replaces, because its edge is twice as long.
+=======
+/// Sets the components to zero that the faces hold.
+>>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
 template <class T>
-Grid<T> coarser(const Grid<T>& fine);
-
-/// Adds the coarse displacement, interpolated, to the fine one.
-template <class T>
-void add_interpolated(const Size& coarse, const Field<T>& from, const Size& fine, Field<T>& to);
-/// Sums fine forces into the coarse nodes: the transpose of add_interpolated().
-template <class T>
-void restrict_to(const Size& fine, const Field<T>& from, const Size& coarse, Field<T>& to);
+void clear_held(const Size& size, Field<T>& f);
 
 }  // namespace continuum

@@ -9,7 +9,7 @@
 namespace continuum {
 
 /// A V-cycle in single precision. Levels are smoothed by Chebyshev polynomials of the matrix preconditioned by its
-/// 3 × 3 diagonal blocks; the coarsest level has a direct solver. The cycle is a complex symmetric operator, as the
+/// diagonal; the coarsest level has a direct solver. The cycle is a complex symmetric operator, as the
 /// solver needs.
 class Multigrid {
  public:

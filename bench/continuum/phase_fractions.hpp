@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file phase_fractions.hpp  Computes the volume fractions of rock and voids in each voxel of a specimen.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/continuum/grid.hpp"
+
+namespace continuum {
+
+using Point = std::array<double, 3>;  ///< [m]
+
+/// Volume fractions of rock and of voids in each voxel; the remainder is mastic.
+struct PhaseFractions {
+  Size size;
+  std::vector<float> rock, voids;  ///< [voxel]; `voids` includes the volume outside the specimen
+  double area = 0;                 ///< mean cross-section of the specimen, in faces of voxels
+
+  /// Returns the fraction of a phase in the volume of the specimen.
+  double mean_rock() const;
+  double mean_voids() const;
+};
+
+/// Returns mastic without rock and voids. `box`: edges [m]; `voxel`: edge [m]. \throws std::runtime_error for edges of
+/// the box that are not multiples of the voxel to 1e-6.
+PhaseFractions mastic_in(const Point& box, double voxel);
+
+/// A body of rock or a void, as the parts of vertical lines that lie in it.
+struct Body {
+  Point low, high;  ///< corners of a box around it [m]
+  /// Returns the sorted heights [m] at which the vertical line through (x, y) enters and leaves the body, in turn.
+  std::function<std::vector<double>(double x, double y)> crossings;
+};
+
+/// Sets the fractions of bodies of rock and of voids. Each voxel has 8 × 8 vertical lines, along which lengths are
+/// exact. Volume in several bodies counts once; volume in a void is void.
+void place_bodies(PhaseFractions& to, double voxel, const std::vector<Body>& rock, const std::vector<Body>& voids);
+
+/// Returns the bodies of a file of balls: columns x,y,z,radius [m]. \throws std::runtime_error naming the line.
+std::vector<Body> read_balls(const std::string& file);
+
+/// Returns the bodies of a file of aggregates: columns body,shape,size,x,y,z,qw,qx,qy,qz in any order, and others. A
+/// shape is a file in the folder `library`, without its ending. It is centred at the centroid of its volume, scaled
+/// so that its intermediate dimension is `size` [m], rotated by the quaternion, and moved to x,y,z [m]. The shape
+/// `sphere` has the diameter `size` and needs no quaternion. \throws std::runtime_error naming the line.
+std::vector<Body> read_aggregates(const std::string& file, const std::string& library);
+
+/// Returns the fractions of the Laguerre cells of a specimen file: each cell has the phase of its sphere. Cut voxels
+/// are sampled at 6 × 6 × 6 points. \throws std::runtime_error as mastic_in(), and for files that cannot be read.
+PhaseFractions of_cells(const std::string& file, const Point& box, double voxel);
+
+/// Returns two layers normal to an axis: the one with larger coordinates is rock.
+PhaseFractions of_layers(int axis, const Point& box, double voxel);
+
+/// A segmented scan: one phase per voxel of the scan.
+struct Scan {
+  Size size;
+  double edge = 0;                   ///< of a voxel [m]
+  std::vector<unsigned char> phase;  ///< 0 void, 1 mastic, 2 rock, 255 outside the specimen
+};
+
+/// Reads a MetaImage of `macadam ct segment`, packed or not: phases.mha, or labels.mha, in which every grain is rock
+/// and the remainder is mastic. Cuts it to the specimen. \throws std::runtime_error naming the file and the fault.
+Scan read_scan(const std::string& file);
+
+/// Returns the fractions of blocks of a scan's voxels. Layers at the top that fill no block are left out. \throws
+/// std::runtime_error for a `voxel` [m] that is not a multiple of the scan's to 1e-3.
+PhaseFractions of_scan(const Scan& scan, double voxel);
+
+}  // namespace continuum
