@@ -145,8 +145,9 @@ def orientation(runs):
     return ["## Orientation (Fig. 9)", "",
             *wrapped(f"""In an isotropic distribution every component of the direction of D^L (the longest dimension) is
             uniformly distributed. We compared the three components in the four specimens of clusters
-            ({data.listed(clusters)} clusters of all seeds) with this distribution by Kolmogorov–Smirnov tests. The
-            smallest of the {n} probabilities p of a larger distance by chance is {least:.3f}. Among {n} independent
+            ({data.listed(clusters)} clusters of all seeds) with this distribution by Kolmogorov–Smirnov tests. Each
+            test gives the probability that an isotropic distribution has a larger distance by chance. The smallest of
+            these {n} probabilities is {least:.3f}. Among {n} independent
             probabilities, at least one is this small in {100 * (1 - (1 - least) ** n):.0f} % of all cases. The
             directions therefore do not contradict an isotropic distribution."""), "",
             "![Cumulative distribution of the components of the direction of D^L, four specimens; all lie on the diagonal"

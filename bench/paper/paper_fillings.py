@@ -64,8 +64,8 @@ def hints(facts):
             coarse radii are not uniform (ᶜ)."""]
     return [row for e in entries for row in wrapped(e, "- ")] + ["", *wrapped(
         f"""The estimates from the mastic and from the number of aggregates are nearly independent, because they have
-        only ΣV_s in common. For Ico they differ by {apart:.2f} at most. The estimate from the spheres disagrees with
-        both."""), ""]
+        only ΣV_s in common. For Ico these two estimates differ by {apart:.2f} at most. The
+        estimate from the spheres disagrees with both of them."""), ""]
 
 
 def fillings(facts):

@@ -43,7 +43,7 @@ def detail(title, of):
         paper, ss, j = PAPER[name], PAPER["SS"], of[name]
         ratios = [f"{r:.2f} ({a / b:.2f})" for r, a, b in zip(j.ratios, paper.contacts, ss.contacts)]
         lines.append([name, *ratios, *[minus(f"{d:+.0f} ({p:+d})") for d, p in zip(j.deviations, DEVIATION[name])]])
-    return [f"{title}, with the values of the paper in brackets:", "",
+    return [*wrapped(f"{title}; the values of the paper are in brackets:"), "",
             *table(["divided by SS", *QUANTITIES[:4], "\\|E*\\| (%)", "φ (%)"], lines)]
 
 
@@ -86,4 +86,4 @@ def section():
                 The other columns are the root mean squares of the single misfits. In the first table one choice at a
                 time is changed:"""), "",
             *ranking([f for f in found if single(f[1])]), f"The best {SHOWN} of {len(found)} sets:", "",
-            *ranking(found[:SHOWN]), *detail(f"The best set, {best.label} (merit {merit:.1f})", of)]
+            *ranking(found[:SHOWN]), *detail(f"The best set is {best.label} (merit {merit:.1f})", of)]

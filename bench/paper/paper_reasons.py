@@ -149,8 +149,8 @@ def aggregate_contacts(f):
         clusters they differ. An exact test of their surfaces keeps our clusters apart, and mastic lies between most of
         them. The paper does not state how it tests that aggregates do not overlap. If only the spheres are tested,
         clusters interlock. In the order of the table, our numbers of A-A contacts are {ours}; {voids} with voids;
-        {spheres} if only the spheres are tested; and {together} with voids and this test, which differs from the paper
-        by {between(off, '{:+.0f}')} %. *Inferred:* voids, this test, and
+        {spheres} if only the spheres are tested; and {together} with voids and this test. The
+        last four numbers differ from the paper's by {between(off, '{:+.0f}')} %. *Inferred:* voids, this test, and
         [further choices](#choices-that-the-paper-does-not-state)."""
 
 
@@ -169,8 +169,9 @@ def deviation(f):
     _, best, of = merits(f.variants.values())[0]
     e, phi = (max(abs(of[n].deviations[k] - DEVIATION[n][k]) for n in CLUSTERS) for k in (0, 1))
     return f"""*|E\\*| and φ against SS.* [Other choices](#choices-that-the-paper-does-not-state) reproduce the paper
-        more closely. With the best set ({best.label}) |E\\*| differs from the paper's by at most {e:.0f} points, and φ
-        by at most {phi:.0f} points."""
+        more closely. With the best set ({best.label}) |E\\*| differs from the paper's by at most {e:.0f} percentage
+        points, and φ
+        by at most {phi:.0f} percentage points."""
 
 
 def shape(f):

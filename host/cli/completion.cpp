@@ -108,7 +108,8 @@ std::string bash_completion(const CLI::App& app) {
 }
 
 std::string zsh_completion(const CLI::App& app) {
-  return "#compdef macadam\n# made by macadam completion zsh. zsh loads bashcompinit to use the same functions as bash.\n"
+  return "#compdef macadam\n# made by macadam completion zsh. bashcompinit makes the bash functions below work in "
+         "zsh.\n"
          "autoload -Uz bashcompinit && bashcompinit\n" +
          bash_completion(app) + "_bash_complete -F _macadam macadam\n";
 }

@@ -27,7 +27,7 @@ void check_limits(const FacetLimits& limits, const std::string& of) {
 void check_input(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec) {
   if (tessellation.cell_volume.size() != specimen.cells())
     throw InputError("network", 0, "cells of the tessellation", std::to_string(tessellation.cell_volume.size()),
-                     std::to_string(specimen.cells()) + ", the specimen's particles and voids");
+                     std::to_string(specimen.cells()) + ", one for each particle and void of the specimen");
   check_limits(spec, "");
   for (int k = 0; k < particle_pair_types; ++k)
     check_limits(spec.of_pair[k], std::string(" of ") + to_string(static_cast<PairType>(k)));

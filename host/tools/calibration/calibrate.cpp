@@ -244,8 +244,8 @@ class Calibrator {
       const FreeParameter& asked = options_.free[i];
       const bool lower = p.value * p.value < p.low * p.high;
       if (p.at_bound && !(lower ? asked.low : asked.high))
-        ends.push_back(fmt::format("{} ran to {:.3g}, four decades from its value in the scene, {:.3g}", p.name,
-                                   p.value, p.start));
+        ends.push_back(fmt::format("the search moved {} to {:.3g}, four decades from its value in the scene, {:.3g}",
+                                   p.name, p.value, p.start));
     }
     const bool modulus = options_.misfit != Misfit::phase && e.e_star_rms > worst_modulus;
     const bool phase = options_.misfit != Misfit::modulus && e.phase_rms_deg > worst_phase;

@@ -237,7 +237,7 @@ Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   if (fit.deviations && fit.misfit > 2 * fit.degrees_of_freedom + 10) {
     fit.warnings.push_back(
         fmt::format("the misfit is {:.3g} times the misfit that the standard deviations of the data allow: "
-                    "the model or the deviations are wrong, and the bands are too narrow",
+                    "the model or the deviations are wrong, and the confidence bands are too narrow",
                     fit.misfit / fit.degrees_of_freedom));
   }
   return fit;

@@ -106,10 +106,10 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
     throw InputError(
         "the scan", 0, "grey levels",
         fmt::format("two grey levels, {:.5g} and {:.5g}", levels.mastic, levels.aggregate),
-        fmt::format("three grey levels, because the given air voids are {:.3g} % of the specimen. If these voids have "
-                    "no grey level "
-                    "of their own in the histogram, give --air-voids 0, and the voids are taken for mastic",
-                    100 * *options.air_voids));
+        fmt::format(
+            "three grey levels, because the given air voids are {:.3g} % of the specimen. If these voids have "
+            "no grey level of their own in the histogram, give --air-voids 0, and the voids are taken for mastic",
+            100 * *options.air_voids));
   }
   // if the region is given by coordinates, more of the specimen may lie around it
   const std::optional<double> around = options.given ? std::nullopt : level_around(scan, region);
@@ -120,8 +120,7 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
             "two grey levels, {:.5g} and {:.5g}, of which the lower is the level of the air around the specimen",
             levels.mastic, levels.aggregate),
         "a grey level each of air, mastic and aggregate; a phase is missing, or has the grey value of another phase "
-        "(if the grains lie in "
-        "air without mastic, give --air-voids 0, and the air is taken for mastic)");
+        "(if the grains lie in air without mastic, give --air-voids 0, and the air is taken for mastic)");
   }
   warnings.push_back("the scan has two grey levels: they were taken for mastic and aggregate, without air voids");
   if (around) return 1;  // the air around the specimen has another level, so neither phase is air
