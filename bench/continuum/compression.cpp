@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// compression.cpp  Solves the uniaxial test by conjugate gradients for complex symmetric matrices (COCG), with a
-// multigrid cycle as preconditioner.
+// compression.cpp  Conjugate gradients for complex symmetric matrices (COCG), with a multigrid cycle as preconditioner.
 #include "bench/continuum/compression.hpp"
 
 #include <cmath>
@@ -14,21 +13,12 @@ namespace {
 
 using Vector = Field<double>;
 
-<<<<<<< HEAD
-/// Returns Σ a·b without complex conjugation. Layers are summed one by one, so that the sum does not depend on the
-/// number of threads.
-Complex product(const Size& n, const Vector& a, const Vector& b) {
-  const std::size_t layer = std::size_t(n.x + 1) * (n.y + 1);
-  std::vector<Complex> sums(std::size_t(n.z) + 1);
-#pragma omp parallel for
-=======
 /// Calls f(component, first node) for every layer of nodes, in parallel, and returns the sum of the results. Layers are
 /// summed in their order, so that the sum does not depend on the number of threads.
 template <class Sum, class F>
 Sum sum_of_layers(const Size& n, F&& f) {
   std::vector<Sum> sums(std::size_t(n.z) + 1);
 #pragma omp parallel for schedule(static) if (n.is_large())
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
   for (int k = 0; k <= n.z; ++k)
     for (int i = 0; i < 3; ++i) sums[std::size_t(k)] += f(i, n.layer() * std::size_t(k));
   return std::accumulate(sums.begin(), sums.end(), Sum{});
@@ -85,20 +75,6 @@ void remove_rigid_motions(const Size& n, Vector& u) {
       }
 }
 
-<<<<<<< HEAD
-/// Returns the mean lateral strain along one axis: the difference between the mean displacements of the two side faces
-/// at the ends of this axis, divided by the width. `width`, `other`: elements along the axis and along the other
-/// lateral axis.
-Complex lateral_strain(const Size& n, const Vector& u, int axis, int width, int other) {
-  Complex sum;
-  double weights = 0;
-  for (int k = 0; k <= n.z; ++k)
-    for (int j = 0; j <= other; ++j) {
-      const double weight = (k == 0 || k == n.z ? 0.5 : 1) * (j == 0 || j == other ? 0.5 : 1);
-      const auto at = [&](int end) { return axis == 0 ? n.node(end, j, k) : n.node(j, end, k); };
-      sum += weight * (u.of[axis][at(width)] - u.of[axis][at(0)]);
-      weights += weight;
-=======
 /// Returns the mean lateral strain between the free sides along one axis (0 or 1): the sum over rows of elements of
 /// the elongation between the first and the last element with material, over the sum of the rows' lengths.
 Complex lateral_strain(const Grid<double>& grid, const Vector& u, int axis) {
@@ -118,7 +94,6 @@ Complex lateral_strain(const Grid<double>& grid, const Vector& u, int axis) {
         elongation += (u.of[axis][at(last)] - u.of[axis][at(first)]) / 4.0;
       }
       length += last - first;
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
     }
   return elongation / length;
 }

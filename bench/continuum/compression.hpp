@@ -9,21 +9,11 @@ namespace continuum {
 /// Result of a uniaxial test.
 struct Compression {
   Complex modulus;  ///< axial stress over axial strain, in units of the grid's constants
-<<<<<<< HEAD
-  Complex poisson;  ///< minus the mean lateral strain, divided by the axial strain
-=======
   Complex poisson;  ///< minus the lateral strain between the free sides over the axial strain
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
   int iterations = 0;
   double residual = 0;  ///< norm of the last residual over the norm of the first
 };
 
-<<<<<<< HEAD
-/// Compresses the prism that consists of the first `x` × `y` columns of elements; all other elements are empty. The top
-/// is displaced along z, and the sides are free. `tolerance`: largest accepted Compression::residual. \throws
-/// std::runtime_error after 500 iterations.
-Compression compress(const Grid<double>& grid, int x, int y, double tolerance);
-=======
 /// Solves K·u = 0: the top is displaced along z, and the sides are free. `area`: cross-section of the specimen, in
 /// faces of elements. `tolerance`: of the residual, over that of a strain along z alone. `u`: the displacement of a
 /// similar problem, from which the solver starts; a field without nodes if there is none. At the end it is the
@@ -33,6 +23,5 @@ Compression compress(const Grid<double>& grid, double area, double tolerance, Fi
 /// Removes elements whose faces do not connect them with both platens: pieces in a void cannot carry a load.
 /// Returns the number of removed elements.
 std::size_t remove_loose_pieces(Grid<double>& grid);
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
 
 }  // namespace continuum

@@ -7,24 +7,9 @@
 namespace continuum {
 namespace {
 
-<<<<<<< HEAD
-const ElementStiffness unit;
-
-template <class T>
-void clear_held(const Size& n, Field<T>& f) {
-  const std::size_t layer = std::size_t(n.x + 1) * (n.y + 1), top = layer * n.z;
-  std::fill_n(f.of[2].begin(), layer, std::complex<T>{});
-  std::fill_n(f.of[2].begin() + std::ptrdiff_t(top), layer, std::complex<T>{});
-}
-
-/// Adds the forces of one row of elements along x. The loops over elements are innermost, so that the compiler
-/// vectorises them. They run over real numbers, in which real and imaginary parts alternate, because loops over
-/// std::complex are not vectorised.
-=======
 /// Adds the forces of one row of elements along x. Packets are computed first; the forces at the left and at the right
 /// end of the elements are then added to the nodes. An addition of packets would wait for the packet before, because
 /// both change the node between them.
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
 template <class T>
 class RowOfElements {
  public:
@@ -119,49 +104,6 @@ Field<T> Grid<T>::inverse_diagonal() const {
   return out;
 }
 
-<<<<<<< HEAD
-template <class T>
-Grid<T> coarser(const Grid<T>& fine) {
-  Grid<T> out;
-  out.size = {(fine.size.x + 1) / 2, (fine.size.y + 1) / 2, fine.size.z / 2};
-  out.lambda.assign(out.size.elements(), {});
-  out.mu = out.lambda;
-  for (int k = 0; k < fine.size.z; ++k)
-    for (int j = 0; j < fine.size.y; ++j)
-      for (int i = 0; i < fine.size.x; ++i) {
-        const std::size_t from = fine.size.element(i, j, k), to = out.size.element(i / 2, j / 2, k / 2);
-        out.lambda[to] += fine.lambda[from] / T(4);  // 1/4: the mean of 8 elements, times 2 for twice the edge
-        out.mu[to] += fine.mu[from] / T(4);
-      }
-  return out;
-}
-
-template <class T>
-void add_interpolated(const Size& coarse, const Field<T>& from, const Size& fine, Field<T>& to) {
-#pragma omp parallel for
-  for (int k = 0; k <= fine.z; ++k)
-    each_pair(fine, coarse, k, [&](std::size_t at, std::size_t source, double weight) {
-      for (int i = 0; i < 3; ++i) to.of[i][at] += T(weight) * from.of[i][source];
-    });
-  clear_held(fine, to);
-}
-
-template <class T>
-void restrict_to(const Size& fine, const Field<T>& from, const Size& coarse, Field<T>& to) {
-  for (auto& component : to.of) std::fill(component.begin(), component.end(), std::complex<T>{});
-    // A coarse layer takes from the fine layers 2k − 1, 2k and 2k + 1, in this order.
-#pragma omp parallel for
-  for (int layer = 0; layer <= coarse.z; ++layer)
-    for (int k = std::max(0, 2 * layer - 1); k <= std::min(fine.z, 2 * layer + 1); ++k)
-      each_pair(fine, coarse, k, [&](std::size_t source, std::size_t at, double weight) {
-        if (at / (std::size_t(coarse.x + 1) * (coarse.y + 1)) != std::size_t(layer)) return;
-        for (int i = 0; i < 3; ++i) to.of[i][at] += T(weight) * from.of[i][source];
-      });
-  clear_held(coarse, to);
-}
-
-=======
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
 template struct Grid<float>;
 template struct Grid<double>;
 template void clear_held(const Size&, Field<float>&);

@@ -37,35 +37,25 @@ struct Field {
   }
 };
 
-/// Cubic elements with Lamé's constants, each divided by a reference modulus. In elements without material the
-/// constants are zero. The bottom and top faces cannot move along z.
+/// Elements with Lamé's constants [Pa], divided by a reference modulus. Elements without material have zeros. The
+/// bottom and top faces cannot move along z.
 template <class T>
 struct Grid {
   Size size;
   std::vector<std::complex<T>> lambda, mu;  ///< [element], with `padding`
   std::vector<double> height;               ///< of each layer of elements, over the edges along x and y
 
-<<<<<<< HEAD
-  /// Computes f = K·u for edge length 1. At nodes of the bottom and top faces, the z component of f is the force of the
-  /// face on the node if `faces` is true; otherwise it is set to zero.
-=======
   /// Makes a grid of cubes without material.
   explicit Grid(const Size& of = {})
       : size(of), lambda(of.elements() + padding), mu(of.elements() + padding), height(std::size_t(of.z), 1.0) {}
   /// Computes f = K·u for edge length 1. `u` must be zero where the faces hold it; f is set to zero there, and at the
   /// end holds the forces of the faces if `faces` is true.
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
   void apply(const Field<T>& u, Field<T>& f, bool faces = false) const;
   /// Returns the inverses of the diagonal elements of K; zero for nodes without material, and for held components.
   Field<T> inverse_diagonal() const;
 };
 
-<<<<<<< HEAD
-/// Returns the grid with edges twice as long. An element has twice the mean of the constants of the eight elements that
-/// it replaces, because its edge is twice as long.
-=======
 /// Sets the components to zero that the faces hold.
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
 template <class T>
 void clear_held(const Size& size, Field<T>& f);
 

@@ -29,33 +29,6 @@ struct Options {
   double tolerance = 1e-6;
 };
 
-<<<<<<< HEAD
-/// Returns a constant of a voxel that both phases share. `stiff`: the mean of the constants of the phases (upper
-/// bound); otherwise the inverse of the mean of their inverses (lower bound).
-Complex mixed(Complex a, Complex b, double fraction_of_b, bool stiff) {
-  if (stiff) return (1 - fraction_of_b) * a + fraction_of_b * b;
-  return 1.0 / ((1 - fraction_of_b) / a + fraction_of_b / b);
-}
-
-continuum::Grid<double> grid_of(const continuum::RockFractions& rock, const Material& mastic, const Material& stone,
-                                bool stiff) {
-  continuum::Grid<double> out;
-  // Empty columns are added at the sides, so that the numbers of columns along x and y are multiples of 8, as the
-  // coarser grids require.
-  const auto rounded = [](int n) { return (n + 7) / 8 * 8; };
-  out.size = {rounded(rock.size.x), rounded(rock.size.y), rock.size.z};
-  out.lambda.assign(out.size.elements(), {});
-  out.mu = out.lambda;
-  const auto bulk = [](const Material& m) { return m.lambda() + 2.0 / 3 * m.mu(); };
-  for (int k = 0; k < rock.size.z; ++k)
-    for (int j = 0; j < rock.size.y; ++j)
-      for (int i = 0; i < rock.size.x; ++i) {
-        const double f = rock.fraction[rock.size.element(i, j, k)];
-        const Complex mu = mixed(mastic.mu(), stone.mu(), f, stiff);
-        const Complex lambda = mixed(bulk(mastic), bulk(stone), f, stiff) - 2.0 / 3 * mu;
-        out.mu[out.size.element(i, j, k)] = mu / mastic.modulus;
-        out.lambda[out.size.element(i, j, k)] = lambda / mastic.modulus;
-=======
 void add_options(CLI::App& app, Options& o) {
   auto* source = app.add_option_group("specimen")->require_option(1);
   source->add_option("--balls", o.balls, "balls of rock in mastic: CSV with x,y,z,radius [m]");
@@ -151,7 +124,6 @@ void run(const Options& o) {
         print(mastics[m], fmt::format("{:g}", voxel), stiff ? "stiff" : "soft", fractions, result.modulus,
               result.poisson, fmt::format("{},{:.1f},,", result.iterations, seconds));
         values[m][stiff ? 0 : 1].push_back({voxel, result.modulus, result.poisson});
->>>>>>> a5b3d19f36508167e03a66651ea42d25c24dce39
       }
     }
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// multigrid.cpp  Implements the levels of a multigrid cycle: smoothing, restriction and interpolation, and the coarsest
-// solution.
+// multigrid.cpp  The levels of a multigrid cycle: smoothing, restriction and interpolation, and the coarsest solution.
 #include "bench/continuum/multigrid.hpp"
 
 #include <Eigen/Sparse>
@@ -17,9 +16,8 @@ namespace {
 
 using Single = std::complex<float>;
 
-/// Degree of the smoother's polynomial, and the smallest eigenvalue that it damps, divided by the largest eigenvalue.
-/// With these values a specimen of 41 balls with voxels of 0.5 mm (ratio of moduli 14) needs 12 to 13 iterations. Other
-/// values were not tried.
+/// Degree of the smoother, and the part of the spectrum that it does not damp. With these values 41 balls at voxels of
+/// 0.5 mm (ratio of moduli 14) need 12 to 13 iterations. Other values were not tried.
 constexpr int smoothing_degree = 3;
 constexpr float smoothed_part = 0.12F;
 
