@@ -124,8 +124,9 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
 
   std::string description() const {
     const bool series = std::ranges::any_of(this->layout_.groups, [](const GroupLayout& g) { return g.series; });
-    return this->described(series ? "two kernels a step, because tiles cannot step contacts with rock in series"
-                                  : "two kernels a step");
+    return this->described(series && this->team_.ranks()
+                               ? "two kernels a step, because tiles of several ranks cannot step rock in series"
+                               : "two kernels a step");
   }
   std::vector<KernelUse> kernels() const {
     std::vector<KernelUse> out = contacts_.front().kernels();
