@@ -48,7 +48,8 @@ struct SeriesFactors<laws::NoFactor> {
 
 /// Functor that steps the contacts of one group. Everything that may branch (form, geometry, law, units) is a template
 /// argument. `Units`: exact number of Kelvin units; 5 means at most five, all in registers; −1 means any number.
-template <class P, class LawStep, int Units, ContactForm form, Geometry geometry>
+/// `with_series`: whether the group may have contacts with rock in series; if false, there is no code for them.
+template <class P, class LawStep, int Units, ContactForm form, Geometry geometry, bool with_series = true>
 struct ContactForces {
   using Policy = P;
   static constexpr ContactForm form_of = form;
@@ -66,6 +67,9 @@ struct ContactForces {
   ContactView<P> view;
   LawStep law;
   typename P::State dt;  ///< [s]
+
+  /// Returns the functor for a group without rock in series.
+  ContactForces<P, LawStep, Units, form, geometry, false> without_series() const { return {view, law, dt}; }
 
   /// Steps the contacts of `item` and returns their loads.
   template <class Item>
@@ -102,7 +106,7 @@ struct ContactForces {
 
     // Without rock in series, the factors compile to nothing
     const auto with_factors = [&](auto&& f) {
-      if constexpr (takes_factor<LawStep>) {
+      if constexpr (with_series && takes_factor<LawStep>) {
         if (view.series != 0) {
           const auto factors = SeriesFactors<T>::of(word(view.series), T(static_cast<Work>(law.step_stiffness())),
                                                     T(static_cast<Work>(view.alpha)));
