@@ -26,7 +26,7 @@ const char* to_string(PairType pair);
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
-/// The way in which a contact gets its stiffness (docs/model/contacts.md, section 5). `centres`: each pair of materials
+/// The way in which a contact gets its stiffness (docs/model/contacts.md, section 25). `centres`: each pair of materials
 /// has a law, which acts over the distance of the centres; `series`: each phase has a law, and mastic and rock act in
 /// series over the parts of the line of centres that lie in them.
 enum class ContactRule : std::uint8_t { centres, series };
@@ -60,7 +60,7 @@ struct Contact {
   PairType pair = PairType::mm;
   double distance = 0;  ///< d: distance between the centres, or from the centre to the wall [m]
   /// Length of the law's material [m]: a contact whose law has the stiffness k resists an opening with k·area/length.
-  /// It equals `distance` unless the network has the rule "series" (docs/model/contacts.md).
+  /// It equals `distance` unless the network has the rule "series" (docs/model/contacts.md, section 25).
   double length = 0;
   /// Compliance of the rock in series with the law [1/Pa]: the stiffness of the contact is k/(1 + series·k) in place of
   /// k, in shear α·k/(1 + series·α·k). Zero unless the network has the rule "series".

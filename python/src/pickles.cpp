@@ -47,7 +47,7 @@ Aggregate aggregate_of(const AggregateState& state) {
   return a;
 }
 
-/// Returns what the rule "series" sets: length and compliance of each contact, and the report of the rock. The true
+/// Returns the length and compliance of each contact and the report of the rock, which the rule "series" sets. The true
 /// surfaces of aggregates, from which this follows, are not part of a specimen. Empty lists with the rule "centres".
 nb::tuple series_of(const Preparation& made) {
   std::vector<double> lengths, compliances, rock;
@@ -71,7 +71,7 @@ void put_series(const nb::tuple& state, Preparation& made) {
 }
 
 /// Returns the data of a generated specimen other than its spheres: composition, aggregates, iterations, times, and
-/// what the rule "series" sets.
+/// the lengths that the rule "series" sets.
 nb::tuple report_of(const Preparation& made) {
   std::vector<Row> composition;
   for (const CompositionRow& r : made.composition)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // series_scene_test.cpp  Tests scenes with rule "series": the keys, the laws of the pairs that follow from the laws of
-// the phases, what is refused, and the modulus of a specimen that is all mastic.
+// the phases, the refused scenes, and the modulus of a specimen that is all mastic.
 #include <cmath>
 #include <numbers>
 

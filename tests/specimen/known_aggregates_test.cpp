@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// known_aggregates_test.cpp  Tests the file of aggregates beside the file of a specimen: what a generated specimen
-// writes is read back, and faults are named with their line.
+// known_aggregates_test.cpp  Tests the file of aggregates beside the file of a specimen: the file of a generated
+// specimen is read back, and faults are named with their line.
 #include <gtest/gtest.h>
 
 #include <fstream>
