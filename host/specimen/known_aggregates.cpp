@@ -20,7 +20,8 @@
 namespace macadam {
 namespace {
 
-/// Splits a line into its fields, which commas separate. Text in double quotes may contain commas, and a double quote as two of them.
+/// Splits a line into its fields, which commas separate. Text in double quotes may contain commas, and a double quote
+/// as two of them.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> out(1);
   bool quoted = false;
@@ -122,7 +123,8 @@ class AggregatesReader {
   std::array<double, 4> turn() const {
     for (const char* name : {"qw", "qx", "qy", "qz"})
       if (!column_.contains(name))
-        fail("first line", std::string("no column ") + name, "the columns qw,qx,qy,qz, because a shape is not a sphere");
+        fail("first line", std::string("no column ") + name,
+             "the columns qw,qx,qy,qz, because a shape is not a sphere");
     std::array<double, 4> q{number("qw"), number("qx"), number("qy"), number("qz")};
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (!(std::abs(length - 1) < 1e-3))

@@ -26,9 +26,9 @@ const char* to_string(PairType pair);
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
-/// The way in which a contact gets its stiffness (docs/model/contacts.md, section 25). `centres`: each pair of materials
-/// has a law, which acts over the distance of the centres; `series`: each phase has a law, and mastic and rock act in
-/// series over the parts of the line of centres that lie in them.
+/// The way in which a contact gets its stiffness (docs/model/contacts.md, section 25). `centres`: each pair of
+/// materials has a law, which acts over the distance of the centres; `series`: each phase has a law, and mastic and
+/// rock act in series over the parts of the line of centres that lie in them.
 enum class ContactRule : std::uint8_t { centres, series };
 const char* to_string(ContactRule);
 
