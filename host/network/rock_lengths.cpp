@@ -240,6 +240,7 @@ void apply_series(ContactNetwork& network, const Specimen& specimen, const RockS
     if (mastic < d) c.series = (d - mastic) / (c.length * rock_modulus);
   }
   network.rule = ContactRule::series;
+  network.rock_modulus = rock_modulus, network.mastic_poisson_ratio = mastic_poisson_ratio;
 }
 
 std::int64_t mastic_centres_in_rock(const Specimen& specimen, const RockSurfaces& rock) {

@@ -86,6 +86,8 @@ struct ContactNetwork {
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
   ContactRule rule = ContactRule::centres;       ///< `series` once the lengths of the contacts are set by this rule
+  double rock_modulus = 0;                       ///< with rule "series": E of the rock in Contact::series [Pa]
+  double mastic_poisson_ratio = 0;               ///< with rule "series": ν in Contact::length of A-A contacts
 
   /// Returns the numbers of a particle's contacts, in rising order.
   std::span<const std::uint32_t> row(std::size_t particle) const {

@@ -91,7 +91,7 @@ void put_report(const nb::tuple& report, Preparation& made) {
   made.relaxation_iterations = nb::cast<int>(report[2]);
   const auto seconds = nb::cast<std::array<double, 3>>(report[3]);
   made.seconds_specimen = seconds[0], made.seconds_tessellation = seconds[1], made.seconds_network = seconds[2];
-  put_series(nb::cast<nb::tuple>(report[4]), made);
+  if (report.size() > 4) put_series(nb::cast<nb::tuple>(report[4]), made);
 }
 
 /// Returns box, particles, voids and source of a specimen, the arrays as NumPy arrays.
