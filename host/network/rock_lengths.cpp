@@ -18,7 +18,7 @@ namespace macadam {
 namespace {
 
 /// Smallest and largest length of the mastic, as a fraction of the distance, and smallest thickness of a film between
-/// two aggregates (section 5 of docs/model/contacts.md).
+/// two aggregates (section 25 of docs/model/contacts.md).
 constexpr double least_mastic = 0.05, most_mastic = 0.95, least_film = 1e-9;
 /// Intervals of a line that are shorter than this fraction of it are not looked at.
 constexpr double least_interval = 1e-13;
@@ -240,6 +240,7 @@ void apply_series(ContactNetwork& network, const Specimen& specimen, const RockS
     if (mastic < d) c.series = (d - mastic) / (c.length * rock_modulus);
   }
   network.rule = ContactRule::series;
+  network.rock_modulus = rock_modulus, network.mastic_poisson_ratio = mastic_poisson_ratio;
 }
 
 std::int64_t mastic_centres_in_rock(const Specimen& specimen, const RockSurfaces& rock) {

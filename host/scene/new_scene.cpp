@@ -90,7 +90,7 @@ std::string written(const std::vector<KnownKey>& keys, const Part& part) {
   return out;
 }
 
-const std::vector<std::string> of_generator = {"file"};
+const std::vector<std::string> of_generator = {"file", "aggregate_file"};
 const std::vector<Given> box = {{"box", R"(["20 mm", "20 mm", "30 mm"])"}, {"seed", "1"}};
 
 std::vector<Part> specimen_by_volume(bool shapes) {

@@ -160,7 +160,7 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   if (mastic) {
     const double nu = *scene.materials.mastic_poisson_ratio;
     set(PairType::mm, *phases.mastic, phases.shift);
-    set(PairType::mw, *phases.mastic, phases.shift);
+    set(PairType::mw, with_alpha(*phases.mastic, 0), phases.shift);  // frictionless platens, as in [1]
     if (rock) {
       set(PairType::ma, *phases.mastic, phases.shift);
       // A film between two aggregates is held at its faces: λ + 2μ resists its opening and μ its slip.
@@ -170,7 +170,7 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   if (rock) {
     const laws::Elastic law{*phases.rock_modulus, 1};
     set(PairType::inner, law, laws::NoShift{});
-    set(PairType::aw, law, laws::NoShift{});
+    set(PairType::aw, with_alpha(law, 0), laws::NoShift{});
   }
 }
 

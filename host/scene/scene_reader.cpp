@@ -58,18 +58,6 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
   }
 }
 
-Reader rule_into(ContactRule& rule) {
-  return into<ContactRule>(rule, {{"centres", ContactRule::centres}, {"series", ContactRule::series}});
-}
-
-/// Returns the rule of a scene before `[network]` is read, because it decides how `[[contacts]]` is read.
-ContactRule rule_of(const Section& root) {
-  ContactRule rule = ContactRule::centres;
-  if (!root.has("network")) return rule;
-  if (const auto value = root.find("network")->section().find("rule")) rule_into(rule).read(*value);
-  return rule;
-}
-
 void read_network(const Section& section, NetworkSpec& spec) {
   std::vector<Key> keys = keys_of(spec);
   keys.push_back({"quadrature", Need::optional,
@@ -79,10 +67,18 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   "area moments of a contact: from its points, from its polygon, or from one point at the centroid"});
   keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
                   "whether the four sides are walls too; |E*| is then a confined modulus"});
-  keys.push_back({"rule", Need::optional, rule_into(spec.rule),
+  keys.push_back({"rule", Need::optional,
+                  into<ContactRule>(spec.rule, {{"centres", ContactRule::centres}, {"series", ContactRule::series}}),
                   "stiffness of a contact: the law of its pair over the distance of the centres, or the laws of mastic "
                   "and rock in series over their parts of the line of centres"});
   section.read(keys);
+}
+
+/// Returns the rule of a scene before its other sections are read, because it decides what they may contain.
+ContactRule rule_of(const Section& root) {
+  NetworkSpec spec;
+  if (root.has("network")) read_network(root.find("network")->section(), spec);
+  return spec.rule;
 }
 
 void read_output(const Section& section, OutputSpec& spec) {

@@ -75,6 +75,15 @@ void require_same_rule(const Scene& scene, const ContactNetwork& network) {
     throw InputError(scene.file.string(), 0, "rule in [network]",
                      std::string("\"") + to_string(scene.network.rule) + '"',
                      std::string("\"") + to_string(network.rule) + "\", the rule of the given contacts");
+  if (network.rule == ContactRule::centres) return;
+  const auto require = [&](const char* key, double found, double expected) {
+    if (found != expected)
+      throw InputError(scene.file.string(), 0, key, fmt::format("{}", found),
+                       fmt::format("{}, with which the lengths of the given contacts were computed", expected));
+  };
+  require("E in [materials.aggregate]", scene.materials.rock_modulus.value_or(0), network.rock_modulus);
+  require("poisson_ratio in [materials.mastic]", scene.materials.mastic_poisson_ratio.value_or(0),
+          network.mastic_poisson_ratio);
 }
 
 /// Returns what a run with the rule "series" reports about the rock of its specimen.

@@ -20,7 +20,8 @@
 namespace macadam {
 namespace {
 
-/// Divides a line at its commas. Text in double quotes may contain commas, and a double quote as two of them.
+/// Splits a line into its fields, which commas separate. Text in double quotes may contain commas, and a double quote
+/// as two of them.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> out(1);
   bool quoted = false;
@@ -67,7 +68,7 @@ class AggregatesReader {
   /// The surface of a shape in the list of surfaces, and its measures.
   struct Shape {
     std::int32_t surface = -1;
-    double size = 0, volume = 0;  ///< D^I [m] and volume [m³] of the surface as it is listed
+    double size = 0, volume = 0;  ///< D^I [m] and volume [m³] of the listed surface
   };
 
   [[noreturn]] void fail(const std::string& what, const std::string& found, const std::string& expected) const {
@@ -122,7 +123,8 @@ class AggregatesReader {
   std::array<double, 4> turn() const {
     for (const char* name : {"qw", "qx", "qy", "qz"})
       if (!column_.contains(name))
-        fail("first line", std::string("no column ") + name, "the columns qw,qx,qy,qz, because a shape is no sphere");
+        fail("first line", std::string("no column ") + name,
+             "the columns qw,qx,qy,qz, because a shape is not a sphere");
     std::array<double, 4> q{number("qw"), number("qx"), number("qy"), number("qz")};
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (!(std::abs(length - 1) < 1e-3))
