@@ -12,6 +12,7 @@
 #include "kernels/contact/carried_frame.hpp"
 #include "kernels/contact/contact_data.hpp"
 #include "kernels/contact/contact_kinematics.hpp"
+#include "kernels/contact/series_factors.hpp"
 #include "macadam/laws/law.hpp"
 
 namespace macadam::kernels {
@@ -24,27 +25,6 @@ struct MotionView {
 };
 inline constexpr int velocity_words = 8;
 inline constexpr int displacement_words = 8;
-
-/// Factors 1/(1 + r·k) and 1/(1 + r·α·k) by which rock in series reduces the change of f in a step (model (6.12)), for
-/// the normal components of a contact (opening, bending) and for its shear components (slips, twist).
-template <class T>
-struct SeriesFactors {
-  T normal, shear;
-
-  /// `series`: compliance r of the rock [1/Pa]; `stiffness`: k, change of f per displacement [Pa].
-  MACADAM_HD static SeriesFactors of(const T& series, const T& stiffness, const T& alpha) {
-    const T weakened = series * stiffness;
-    return {T(1) / (T(1) + weakened), T(1) / (T(1) + alpha * weakened)};
-  }
-  /// Returns the factor of one of the six components.
-  MACADAM_HD const T& of_component(int c) const { return c < 3 ? normal : shear; }
-};
-/// The factors of a contact without rock in series.
-template <>
-struct SeriesFactors<laws::NoFactor> {
-  laws::NoFactor normal, shear;
-  MACADAM_HD laws::NoFactor of_component(int) const { return {}; }
-};
 
 /// Functor that steps the contacts of one group. Everything that may branch (form, geometry, law, units) is a template
 /// argument. `Units`: exact number of Kelvin units; 5 means at most five, all in registers; −1 means any number.
