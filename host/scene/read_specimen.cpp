@@ -249,10 +249,12 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
         section.refuse(key, "this key of the generator together with the key file", "only one of the two");
     }
   } else if (spec.aggregate_file) {
-    section.refuse("aggregate_file", "this key without file",
-                   "file beside it: a generated specimen knows its aggregates");
+    section.refuse(
+        "aggregate_file", "this key without file",
+        "the key file as well, because a generated specimen already contains the surfaces of its aggregates");
   } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
-    section.refuse("file", "neither a specimen file nor the sections aggregate or mastic", "one of the two");
+    section.refuse("file", "neither this key nor a section of particles",
+                   "a specimen file, [[specimen.aggregate]], [specimen.mastic] or [specimen.recipe]");
   } else {
     if (recipe) follow_recipe(section, *recipe, spec);
     require_possible(section, spec);
@@ -264,9 +266,10 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                      "gap in [specimen.shapes], or placement = \"insertion\" there");
     if (spec.shapes && !spec.fix_aggregates)
       section.refuse("fix_aggregates", "false with shapes",
-                     "true: otherwise the spheres of one shape would move apart");
+                     "true, because otherwise the spheres of one shape would move apart");
     if (spec.voids && !spec.fix_aggregates)
-      section.refuse("fix_aggregates", "false with voids", "true: otherwise the voids would move with the aggregates");
+      section.refuse("fix_aggregates", "false with voids",
+                     "true, because otherwise the voids would move with the aggregates");
   }
   return spec;
 }

@@ -122,7 +122,8 @@ class AggregatesReader {
   std::array<double, 4> turn() const {
     for (const char* name : {"qw", "qx", "qy", "qz"})
       if (!column_.contains(name))
-        fail("first line", std::string("no column ") + name, "the columns qw,qx,qy,qz, because a shape is no sphere");
+        fail("first line", std::string("no column ") + name,
+             "the columns qw,qx,qy,qz, because not every shape is \"sphere\"");
     std::array<double, 4> q{number("qw"), number("qx"), number("qy"), number("qz")};
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (!(std::abs(length - 1) < 1e-3))

@@ -52,7 +52,8 @@ class Lines {
       if (line.empty()) ++number_;
       line.append(begin, static_cast<std::size_t>(length));
       if (line.size() > longest)
-        throw InputError(name_, number_, "line", "more than " + std::to_string(longest) + " bytes", "a record");
+        throw InputError(name_, number_, "line", "more than " + std::to_string(longest) + " bytes",
+                         "a record of at most " + std::to_string(longest) + " bytes");
       at_ += static_cast<int>(length) + (end ? 1 : 0);
       if (!end) continue;
       if (line.ends_with('\r')) line.pop_back();

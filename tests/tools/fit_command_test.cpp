@@ -126,7 +126,7 @@ TEST_F(FitCommand, AModelBecomesAChain) {
   EXPECT_HAS(read(folder_ / "law" / "law.toml"), "activation_energy = 210000.0");
   EXPECT_HAS(macadam(convert).err, "--from and --to");
   for (const auto& [key, value, said] : {std::tuple{"k = 0.18", "k = 0.6", "less than h"},
-                                         {"beta = 250", "", "which 2s2p1d takes"},
+                                         {"beta = 250", "", "because the model is \"2s2p1d\""},
                                          {"tau = 0.08", "tau = -1", "a positive number"},
                                          {"E_00 = 8e7", "E_00 = 9e10", "less than E_0"},
                                          {"beta = 250", "betta = 250", "beta (the nearest"},

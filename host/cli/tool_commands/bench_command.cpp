@@ -119,9 +119,9 @@ void bench_command(BenchArguments arguments) {
   if (!team) return time_scenes(std::move(arguments));
   as_rank(*team, [&](bool&) {
     if (!arguments.only.empty() && arguments.only != "step")
-      throw InputError("--only together with --ranks: found " + arguments.only + ", expected step");
+      throw InputError("--only together with --ranks: found \"" + arguments.only + "\", expected \"step\"");
     if (arguments.axes.backend == Backend::cpu)
-      throw InputError("--backend together with --ranks: found cpu, expected cuda");
+      throw InputError("--backend together with --ranks: found \"cpu\", expected \"cuda\"");
     arguments.only = "step";
     arguments.axes.devices = device_of(*team, arguments.axes.devices);
     if (team->number() > 0) arguments.json.clear(), arguments.against.clear();

@@ -54,10 +54,10 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
                    !kernels::blocks_are_exact(plan.geometry, facts_of(scene.laws));
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
-  plan.decisions.push_back(
-      fmt::format("viscoelastic states are not updated in every step but {:.0f} times within the shortest time of the "
-                  "load and the laws; the error that the rarer updates cause is at most {:.1e}",
-                  std::ceil(blocks), block_error(blocks)));
+  plan.decisions.push_back(fmt::format(
+      "viscoelastic states are not updated in every step but {:.0f} times within the shortest characteristic time of "
+      "the load and the laws; the error that the rarer updates cause is at most {:.1e}",
+      std::ceil(blocks), block_error(blocks)));
 }
 
 /// Returns the stepper of one frequency. If `from`, the state in a checkpoint, is not empty, the stepper continues from

@@ -154,7 +154,8 @@ class DataReader {
     using enum Quantity;
     if (has(deviation_ == e_star_std ? g_star_std : e_star_std))
       complain_of_header(deviation_ == e_star_std ? "g_star_std" : "e_star_std",
-                         "the standard deviation of the modulus that is there");
+                         deviation_ == e_star_std ? "e_star_std, because the moduli are |E*|"
+                                                  : "g_star_std, because the moduli are |G*|");
     const bool modulus = has(deviation_), angle = has(phase_std);
     data_.deviations = (modulus || !needs_modulus_) && (angle || !needs_phase_);
     if (!data_.deviations && (modulus || angle))

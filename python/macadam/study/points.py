@@ -117,7 +117,7 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise StudyError(f"latin_hypercube: seed: found {seed!r}, expected a whole number, at least 0")
     if not block:
-        raise StudyError("latin_hypercube: found no key with a range")
+        raise StudyError("latin_hypercube: found no key with a range, expected at least one")
     try:
         from scipy.stats import qmc
     except ImportError:

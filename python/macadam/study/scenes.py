@@ -69,7 +69,7 @@ def _index(entries: list[Any], part: str, key: str) -> int:
         return int(part)
     named = [str(p) for p in pairs if p]
     have = f"the pairs {', '.join(named)}" if named else f"{len(entries)} entries, numbered from 0"
-    raise StudyError(f"key {key}: found no {part!r} in the scene; it has {have}")
+    raise StudyError(f"key {key}: found no {part!r} in the scene; the scene has {have}")
 
 
 def merged(scene: Table, more: Table) -> Table:

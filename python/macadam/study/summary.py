@@ -301,8 +301,8 @@ def _seeds(page: Page, values: list[Quantity]) -> None:
             ["quantity", "standard deviation", "of the mean over seeds", "points with several seeds", "seeds per point"],
             rows,
             "Deviation of single specimens of a mix from the mean of its point, relative to this mean, pooled over the "
-            "points. The third column is for a point with the fewest seeds. Differences between points that are "
-            "smaller than this may be chance.",
+            "points. The third column is the standard deviation of the mean of a point with the fewest seeds. "
+            "Smaller differences between points may be chance.",
             words=1,
         )
 

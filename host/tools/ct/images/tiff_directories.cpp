@@ -130,7 +130,7 @@ struct Directory {
     if (const std::uint64_t meaning = page.at(tags::meaning, 1); meaning > 1 && meaning != palette)
       refuse(tags::meaning, fmt::format("PhotometricInterpretation {}", meaning),
              std::string("grey values, 0 or 1") + to_grey);
-    const char* known = "8 or 16 as a whole number, or 32 as a float";
+    const char* known = "8 or 16 bits per voxel for whole numbers, or 32 bits for floats";
     if (!page.contains(tags::bits)) refuse(tags::bits, "no bits of a voxel", known);
     // sample format 2: signed; 4: undefined, which is read as a whole number too (TIFF 6.0)
     constexpr std::uint64_t whole = 1, floating = 3;
