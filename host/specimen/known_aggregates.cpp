@@ -100,7 +100,7 @@ class AggregatesReader {
     Aggregate a;
     const double body = number("body");
     if (body != std::floor(body) || std::abs(body) > 2e9 || !bodies_.contains(static_cast<std::int32_t>(body)))
-      fail("column body", in_quotes(text("body")), "the body of aggregate spheres in the specimen");
+      fail("column body", in_quotes(text("body")), "a body of the specimen that consists of aggregate spheres");
     a.body = static_cast<std::int32_t>(body);
     if (!seen_.insert(a.body).second) fail("column body", in_quotes(text("body")) + " again", "each body once");
     a.shape = text("shape");

@@ -167,7 +167,7 @@ class CsvReader {
     if (id < 0) fail("column id", in_quotes(field[0]), "an integer of 0 or more");
     if (const auto [earlier, is_new] = line_of_id_.try_emplace(id, lines_.number()); !is_new)
       fail("column id", in_quotes(field[0]) + ", which is already the id in line " + std::to_string(earlier->second),
-           "a number that occurs once");
+           "an id that no other line has");
     const Vec3d centre{number<double>(field[1], "x", finite), number<double>(field[2], "y", finite),
                        number<double>(field[3], "z", finite)};
     const auto radius = number<double>(field[4], "radius", "a finite positive number");

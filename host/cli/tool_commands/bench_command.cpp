@@ -184,11 +184,11 @@ void add_bench_command(CLI::App& app) {
               {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}});
   add_choices(command, "--geometry", axes.geometries, "fixed,updated",
               {{"fixed", Geometry::fixed}, {"updated", Geometry::updated}});
-  add_list(
-      command, "--blocks", axes.blocks,
-      "number of updates of the viscoelastic states within the shortest time of the load and the laws, in place of "
-      "an update in every step; 4000 is usual",
-      1.0, 1e18);
+  add_list(command, "--blocks", axes.blocks,
+           "number of updates of the viscoelastic states within the shortest characteristic time of the load and the "
+           "laws, in place of "
+           "an update in every step; 4000 is usual",
+           1.0, 1e18);
   add_list(command, "--units", axes.units, "number of Kelvin units that every law gets; -1: as in the scene", -1, 16);
   command.add_flag("--elastic", axes.elastic, "replace every law by its instantaneous spring");
   add_list(command, "--multiprocessors", axes.multiprocessors,

@@ -104,7 +104,7 @@ struct Directory {
     if (tag >= tags::first_of_tiles && tag <= tags::last_of_tiles)
       refuse(tag, "tiles", "rows of voxels (strips), as ImageJ and ITK write them");
     // ITK reserves memory for one pointer for tag 336 (DotRange), but libtiff writes both numbers of the tag there
-    if (tag == 336) refuse(tag, "a range of dots", "none, as in a scan");
+    if (tag == 336) refuse(tag, "a range of dots", "no such range, because a scan has none");
     if (std::ranges::count(of_page, tag) > 0) {
       if (tag == tags::bits && values > 1)
         refuse(tag, fmt::format("bits for {} values per voxel", values),
