@@ -81,7 +81,8 @@ class PlannedMaterial : public PlannedExperiment {
     write_material(out, material, poisson_ratio_);
     if (material.confined) {
       result.warnings.emplace_back(
-          "no tables for finite-element programs are written: they need uniaxial moduli, but the sides are held");
+          "no tables for finite-element programs are written, because such tables need uniaxial moduli, and the sides "
+          "are held");
     }
     responds_(out, std::move(material), result);
   }

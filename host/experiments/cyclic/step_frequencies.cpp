@@ -341,10 +341,10 @@ std::unique_ptr<PlannedExperiment> plan_steps(const Scene& scene, const Preparat
     at.cracks.resize(at.plan.frequencies.size());
     decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
-      at.warnings.push_back(
-          fmt::format("law {} of {} has no complex stiffness: |E*| and phi describe the fundamental of the measured "
-                      "loops at this amplitude and after these cycles, and no harmonic solution can check them",
-                      without->law, to_string(without->pair)));
+      at.warnings.push_back(fmt::format(
+          "law {} of {} has no complex stiffness: |E*| and phi describe the fundamental of the stepped loops at this "
+          "strain amplitude and after this number of cycles, and no harmonic solution can check these values",
+          without->law, to_string(without->pair)));
     }
     at.seconds_planning = seconds_since(start);
   }
