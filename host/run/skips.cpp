@@ -69,7 +69,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
         {"contact states",
          fmt::format("the forces of {} elastic contacts ({}) with fixed geometry follow from the displacements",
                      elastic_count, elastic),
-         "rounding: forces are not summed over the steps"});
+         "rounding, because forces are not summed over the steps"});
   }
   const auto [smooth, smooth_count] =
       pairs_that(scene, prepared, []<class L>(const L& law) { return law.alpha == 0 && !coupled_law<L>; });

@@ -21,7 +21,7 @@ Reader box_into(Box& box) {
     if (edges.size() != 3) value.refuse(fmt::format("{} entries", edges.size()), "three, [x, y, z]");
     box.size = {edges[0], edges[1], edges[2]};
     if (!(box.volume() > 0 && std::isfinite(box.volume()))) {
-      value.refuse(fmt::format("a volume of {} m3", box.volume()), "a volume within the range of a double");
+      value.refuse(fmt::format("a volume of {} m3", box.volume()), "a volume within the range of double precision");
     }
   };
   return {read, {"list of three numbers", &length, positive.words}};
@@ -212,12 +212,14 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
        {"file",
         Need::optional,
         {read_file, {"text"}},
-        "an existing specimen: CSV id,x,y,z,radius,phase,body; the path is relative to the scene's folder",
+        "CSV file of an existing specimen, with the columns id,x,y,z,radius,phase,body; the path is relative to the "
+        "scene's folder",
         "the specimen is generated"},
        {"aggregate_file",
         Need::optional,
         {read_aggregate_file, {"text"}},
-        "with file, for rule \"series\": true surfaces of the aggregates, CSV body,shape,size,x,y,z and qw,qx,qy,qz",
+        "for a specimen from a file with rule \"series\": CSV file of the true surfaces of the aggregates, with the "
+        "columns body,shape,size,x,y,z and qw,qx,qy,qz",
         "surfaces of the spheres"},
        {"seed", Need::optional, into(spec.seed, 0),
         "seed of the generator: another seed gives another specimen of the same mixture"},

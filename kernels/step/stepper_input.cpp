@@ -49,7 +49,7 @@ void require_start(std::size_t particles, const ContactNetwork& network, const F
   for (const WallMotionSpec& wall : options.boundary.wall) {
     for (const WallAxis& axis : wall.axis) {
       if (axis.by == DrivenBy::force)
-        throw InputError("start state: found a wall under a force, expected displacements");
+        throw InputError("start state: found a wall under a force, expected walls with given displacements");
       if (axis.drive && axis.drive->begins())
         throw InputError(
             "start state: found a drive that begins at step 0, such as a drive with a ramp, expected a drive that is "
