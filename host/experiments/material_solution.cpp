@@ -67,7 +67,7 @@ class PlannedMaterial : public PlannedExperiment {
         const InPhase in(result.phases, &PhaseSeconds::harmonic);
         material.spectrum = spectrum_of(prepared_.specimen, prepared_.network, scene_.laws, options_);
       } catch (const InterruptedError&) {
-        throw InterruptedError("interrupted while the spectrum was computed, which writes no checkpoints");
+        throw InterruptedError("interrupted while the spectrum was computed; this computation writes no checkpoints");
       }
     });
     material.shortest_s = options_.shortest, material.longest_s = options_.longest;

@@ -229,7 +229,8 @@ TEST_F(FitCommand, FaultyDataAreNamedByLineAndColumn) {
   EXPECT_HAS(refused("frequency_hz,phase_deg\n"), "e_star_pa or g_star_pa with phase_deg, or e_prime_pa");
   EXPECT_HAS(refused("frequency_hz,e_star_pa,phase_deg,phase_std\n"), "of both modulus and phase");
   EXPECT_HAS(refused("frequency_hz,g_star_pa,phase_deg\n1,1,1\n"), "--poisson");
-  EXPECT_HAS(refused(header + "1,1e9,10\n", "--poisson 0.3"), "expected none, because the columns have |E*| already");
+  EXPECT_HAS(refused(header + "1,1e9,10\n", "--poisson 0.3"),
+             "expected no Poisson's ratio, because the file already has |E*|");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--shift wlf"), "no column temperature_c");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--units -1"), "--units");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--flow --no-flow"), "--no-flow");

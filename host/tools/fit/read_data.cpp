@@ -137,7 +137,7 @@ class DataReader {
                       "a ratio in --poisson, because |E*| = 2 (1 + ratio) |G*|");
     if (!shear && poisson_) {
       complaints_.add(table_.header_line, "column e_star_pa", "a Poisson's ratio",
-                      "none, because the columns have |E*| already");
+                      "no Poisson's ratio, because the file already has |E*|");
     } else if (poisson_ && !(*poisson_ > -1 && *poisson_ <= 0.5)) {
       complaints_.add(table_.header_line, "Poisson's ratio", fmt::format("{}", *poisson_),
                       "a number above -1, at most 0.5");

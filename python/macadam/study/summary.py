@@ -180,8 +180,8 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
         for row, e in zip(rows, found, strict=True):
             row.append(_chance(q, e) + (": the effect is within the scatter" if e.within_scatter else ""))
         notes.append(
-            "The scatter of seeds is the change between these two values that other seeds alone may cause: half the "
-            "95 % interval of seeds that are independent of each other. An F-test over all values of the factor decides "
+            "The scatter of seeds is the change between these two values that other seeds alone may cause. It is half the "
+            "width of a 95 % interval, for seeds that are independent of each other. An F-test over all values of the factor decides "
             "whether its effect is within the scatter. Such an effect may be chance."
         )
     if len(found) > 1:
