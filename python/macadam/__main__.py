@@ -26,8 +26,9 @@ def _check(command: str) -> None:
         found, expected = "no Python package " + ", ".join(missing), f"{'it' if len(missing) == 1 else 'them'}"
     else:
         return
-    print(f"macadam {command}: {sys.executable}: found {found}, expected {expected}: `scripts/python report` in the source tree "
-          f"or `pip install 'macadam[{command}]'` installs it; MACADAM_PYTHON names another Python", file=sys.stderr)
+    print(f"macadam {command}: {sys.executable}: found {found}, expected {expected}; install with `scripts/python report` "
+          f"in the source tree or with `pip install 'macadam[{command}]'`, or let MACADAM_PYTHON name another Python",
+          file=sys.stderr)
     sys.exit(2)
 
 

@@ -39,10 +39,10 @@ fs::path package_folder() {
   const std::string look =
       fmt::format("import sys, importlib.util as u; sys.exit(u.find_spec('macadam.{}') is None)", command);
   if (!runs({python, "-c", look})) {
-    throw InputError(
-        fmt::format("macadam {0}: found no Python package macadam.{0} with the interpreter {1}, expected the package: "
-                    "install it with pip, or set MACADAM_PYTHON to an interpreter that has it",
-                    command, python));
+    throw InputError(fmt::format(
+        "macadam {0}: found no Python package macadam.{0} with the interpreter {1}, expected this package; install the "
+        "package \"macadam\" with pip, or set MACADAM_PYTHON to an interpreter that has the package",
+        command, python));
   }
   std::vector<std::string> words{python, "-m", "macadam", command};
   words.insert(words.end(), arguments.begin(), arguments.end());

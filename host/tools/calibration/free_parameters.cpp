@@ -32,7 +32,7 @@ void require_valid_input(const Scene& scene, const ModulusData& data, const Cali
   const bool counts_modulus = options.misfit != Misfit::phase, counts_phase = options.misfit != Misfit::modulus;
   if ((counts_modulus && !data.moduli) || (counts_phase && !data.phases)) {
     throw InputError(data.source, 0, "measurements", data.moduli ? "no phase angles" : "no moduli",
-                     fmt::format("{}, which the misfit {} needs", data.moduli ? "phase angles" : "moduli",
+                     fmt::format("{}, because misfit is \"{}\"", data.moduli ? "phase angles" : "moduli",
                                  to_string(options.misfit)));
   }
   for (std::size_t i = 0; i < data.points.size(); ++i) {

@@ -130,11 +130,13 @@ double Specimens::density_scaling_at(double frequency) const {
   const std::vector<double> known = loading_of(scene_).frequencies;
   const auto at = std::find(known.begin(), known.end(), frequency);
   if (at == known.end()) {
-    throw InputError(data_.source, 0, "column frequency_hz",
-                     fmt::format("{}, for which density_scaling of the scene has no entry", frequency),
-                     fmt::format("frequencies of the scene ({}), one density_scaling for all, or method = \"harmonic\" "
-                                 "without inertia",
-                                 fmt::join(known, ", ")));
+    throw InputError(
+        data_.source, 0, "column frequency_hz",
+        fmt::format("{} Hz, for which density_scaling of the scene has no entry", frequency),
+        fmt::format(
+            "frequencies of the scene ({} Hz), one density_scaling for all frequencies, or method = \"harmonic\" "
+            "without inertia",
+            fmt::join(known, ", ")));
   }
   return density_scaling_of(scene_.solver, static_cast<std::size_t>(at - known.begin()));
 }
