@@ -31,7 +31,7 @@ constexpr double rounding = 1e-14;
 constexpr double no_unit = 1e-14;
 /// few_units() uses y at values of s from `below` times the lowest rate 1/τ of a law to `above` times the highest one.
 constexpr double below = 1e-4, above = 10;
-constexpr int per_decade = 3;
+constexpr int per_decade = 6;
 /// A vector is not used if its part outside the span of the others is shorter than this fraction of it.
 constexpr double nothing_new = 1e-9;
 
@@ -139,8 +139,9 @@ PronySeries Decay::all_units() const {
   return series_of(e.instantaneous, eigen.eigenvalues(), eigen.eigenvectors().transpose() * e.drive);
 }
 
-// H is restricted to the span of (s + H)⁻¹·c at several s (a rational Krylov space). The projection is exact at these s,
-// and its error is about exp(−2π²/h) between them, where h = ln 10/per_decade is the distance of ln s.
+// H is restricted to the span of (s + H)⁻¹·c at several real s (a rational Krylov space). The projection is exact at these
+// s. With the distance h = ln 10/per_decade of ln s, its relative error is about exp(−2π²/h) between them and exp(−π²/h),
+// 7e-12, for imaginary s.
 PronySeries Decay::few_units() const {
   const Equations e = equations();
   if (e.rate.size() == 0) return {e.instantaneous, {}};

@@ -23,7 +23,7 @@ class Decay {
   PronySeries all_units() const;
 
   /// Returns the same force with fewer exponentials, for systems with very many dashpots. Its Laplace transform is that
-  /// of the system at values of s with three per decade, and differs from it elsewhere by less than about 1e-10.
+  /// of the system at six values of s per decade, and differs from it elsewhere by less than about 1e-10 of it.
   PronySeries few_units() const;
 
  private:
