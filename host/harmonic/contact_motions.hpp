@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_motions.hpp  Computes the relative displacements of a contact for several motions of the particles, and
-/// the matrices that turn relative displacements into forces.
+/// \file contact_motions.hpp  Computes the relative displacements of a contact for several motions of the particles,
+/// and the matrices that turn relative displacements into forces.
 #pragma once
 
 #include <Eigen/Dense>

@@ -46,10 +46,10 @@ class ReducedModel {
   /// Returns the motion of the particles, [6·particles], as a start for an iteration (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;
 
-  /// Returns the matrix F of the contacts of a pair type without rock in series, [motions][motions], with entries vᵢᵀ·(N + α·S)·vⱼ. If the motion of the
-  /// particles is the sum of the vⱼ with coefficients cⱼ, then k*·cᵀ·F·c is what this pair type adds to uᵀ·K*·u, where
-  /// u is that motion and k* the complex stiffness of the pair type's law. The caller multiplies this by height /
-  /// cross-section to get the pair type's part of E*.
+  /// Returns the matrix F of the contacts of a pair type without rock in series, [motions][motions], with entries
+  /// vᵢᵀ·(N + α·S)·vⱼ. If the motion of the particles is the sum of the vⱼ with coefficients cⱼ, then k*·cᵀ·F·c is what
+  /// this pair type adds to uᵀ·K*·u, where u is that motion and k* the complex stiffness of the pair type's law. The
+  /// caller multiplies this by height / cross-section to get the pair type's part of E*.
   Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
 
   /// The classes of the contacts with rock in series, and their matrices.

@@ -143,8 +143,7 @@ std::vector<RockForms> RockClasses::columns(const MatrixXd& basis, Index from) c
   });
   std::vector<RockForms> out(classes_.size(), {MatrixXd::Zero(count, added), MatrixXd::Zero(count, added)});
   for (const auto& of_piece : sums)
-    for (const auto& [number, forms] : of_piece)
-      out[number].normal += forms.normal, out[number].shear += forms.shear;
+    for (const auto& [number, forms] : of_piece) out[number].normal += forms.normal, out[number].shear += forms.shear;
   return out;
 }
 

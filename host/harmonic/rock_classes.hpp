@@ -4,8 +4,8 @@
 ///
 /// A contact with the compliance r has the stiffness 1/(r + z) times a constant matrix, with z = 1/k* in normal and
 /// z = 1/(α·k*) in shear direction. The contact is divided between two classes of neighbouring compliances r₁ ≤ r ≤ r₂:
-/// the fraction w belongs to r₁, the fraction 1 − w to r₂. So both fractions are at least 0, and the classes are again a
-/// network of springs and dashpots. w is chosen so that the sum has the stiffness of the contact at z = z₀, the
+/// the fraction w belongs to r₁, the fraction 1 − w to r₂. So both fractions are at least 0, and the classes are again
+/// a network of springs and dashpots. w is chosen so that the sum has the stiffness of the contact at z = z₀, the
 /// instantaneous compliance of the law, and for z → ∞. For real z ≥ z₀ the stiffness is then too small by at most the
 /// fraction tanh²(δ/4), if r₁ + z₀ and r₂ + z₀ differ by the factor e^δ.
 #pragma once
@@ -35,8 +35,8 @@ struct RockForms {
 /// The classes of the contacts of one network. Contacts without rock in series belong to no class.
 class RockClasses {
  public:
-  /// The network must outlive this object, but its lengths and compliances may change. \throws InputError if a pair with
-  /// rock in series has no law.
+  /// The network must outlive this object, but its lengths and compliances may change. \throws InputError if a pair
+  /// with rock in series has no law.
   RockClasses(const ContactNetwork& network, const RockClassing& classing);
 
   struct Class {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// decay.cpp  Computes relaxation times from the eigenvalues of one symmetric matrix, with the strains of the dashpots as
-// additional variables.
+// decay.cpp  Computes relaxation times from the eigenvalues of one symmetric matrix, with the strains of the dashpots
+// as additional variables.
 //
 // For a law p, k*(s) = k_p + Σ g_j·s·τ_j/(1 + s·τ_j): a spring k_p beside Maxwell units. At a strain u the spring of
 // unit j has the strain u − x_j. Its dashpot has the strain x_j, with ẋ_j = (u − x_j)/τ_j.
@@ -139,9 +139,9 @@ PronySeries Decay::all_units() const {
   return series_of(e.instantaneous, eigen.eigenvalues(), eigen.eigenvectors().transpose() * e.drive);
 }
 
-// H is restricted to the span of (s + H)⁻¹·c at several real s (a rational Krylov space). The projection is exact at these
-// s. With the distance h = ln 10/per_decade of ln s, its relative error is about exp(−2π²/h) between them and exp(−π²/h),
-// 7e-12, for imaginary s.
+// H is restricted to the span of (s + H)⁻¹·c at several real s (a rational Krylov space). The projection is exact at
+// these s. With the distance h = ln 10/per_decade of ln s, its relative error is about exp(−2π²/h) between them and
+// exp(−π²/h), 7e-12, for imaginary s.
 PronySeries Decay::few_units() const {
   const Equations e = equations();
   if (e.rate.size() == 0) return {e.instantaneous, {}};
@@ -155,10 +155,8 @@ PronySeries Decay::few_units() const {
     // (s + H)⁻¹·c by the formula of Woodbury, with K(s), the stiffness of the motions at s, as a sum of positive terms
     const MatrixXd resistance = e.at_rest + weighted_square(e.of_free, s * weight);
     const VectorXd plain = weight.cwiseProduct(e.drive);
-    const VectorXd motion =
-        Eigen::LDLT<MatrixXd>(resistance).solve(e.of_free.transpose() * e.rate.cwiseProduct(plain));
-    states.col(static_cast<Index>(i)) =
-        plain + weight.cwiseProduct(e.rate).cwiseProduct(e.of_free * motion);
+    const VectorXd motion = Eigen::LDLT<MatrixXd>(resistance).solve(e.of_free.transpose() * e.rate.cwiseProduct(plain));
+    states.col(static_cast<Index>(i)) = plain + weight.cwiseProduct(e.rate).cwiseProduct(e.of_free * motion);
   });
   const MatrixXd basis = orthonormal(std::move(states));
   // yᵀ·H·y is the energy of the springs for the strains y of the dashpots. It is computed as a sum of squares, in which

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_spectrum.cpp  Collects the laws and matrices of a reduced model: those of the pair types and, for contacts with
-// rock in series, those of their classes.
+// reduced_spectrum.cpp  Collects the laws and matrices of a reduced model: those of the pair types and, for contacts
+// with rock in series, those of their classes.
 #include "host/spectrum/reduced_spectrum.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 /// Units of a class with a modulus below this fraction of its instantaneous modulus are left out.
 constexpr double no_unit = 1e-14;
 
-/// Returns the relaxation of a law with a spring of compliance `series` [1/Pa] in series: the stiffness of the law's own
-/// spring is reduced.
+/// Returns the relaxation of a law with a spring of compliance `series` [1/Pa] in series: the stiffness of the law's
+/// own spring is reduced.
 PronySeries relaxation_in_series(Law law, double series) {
   std::visit(
       [&]<class L>(L& l) {

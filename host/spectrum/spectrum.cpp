@@ -181,11 +181,11 @@ Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
                      "at least 1e-10, because the solutions are not more accurate");
   }
   const auto has_rock = [](const Contact& c) { return c.series > 0; };
-  if (options.tolerance < least_with_rock &&
-      std::any_of(network.contacts.begin(), network.contacts.end(), has_rock)) {
-    throw InputError("spectrum", 0, "tolerance", fmt::format("{:g} for contacts with rock in series", options.tolerance),
-                     fmt::format("at least {:g}, because these contacts are divided between a limited number of classes",
-                                 least_with_rock));
+  if (options.tolerance < least_with_rock && std::any_of(network.contacts.begin(), network.contacts.end(), has_rock)) {
+    throw InputError(
+        "spectrum", 0, "tolerance", fmt::format("{:g} for contacts with rock in series", options.tolerance),
+        fmt::format("at least {:g}, because these contacts are divided between a limited number of classes",
+                    least_with_rock));
   }
   require_stiffness(laws);
   for (const auto& law : laws)

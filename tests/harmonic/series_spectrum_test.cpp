@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// series_spectrum_test.cpp  Relaxation of networks whose contacts have rock in series with their laws: a closed form, the
-// error of the classes to which the contacts belong, and comparisons with solutions of the whole network.
+// series_spectrum_test.cpp  Relaxation of networks whose contacts have rock in series with their laws: a closed form,
+// the error of the classes to which the contacts belong, and comparisons with solutions of the whole network.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -100,9 +100,9 @@ TEST(SeriesSpectrum, ErrorOfTheClassesIsAsStated) {
   }
 }
 
-// At the laws of a solution the parts of E* agree as well, with a change of the rock too. The stated error holds for real
-// s. A tolerance of four times this error allows for complex stiffnesses and for the rock's parts, which are of second
-// degree in the stiffness.
+// At the laws of a solution the parts of E* agree as well, with a change of the rock too. The stated error holds for
+// real s. A tolerance of four times this error allows for complex stiffnesses and for the rock's parts, which are of
+// second degree in the stiffness.
 TEST(SeriesSpectrum, PartsOfTheReducedModelAreThoseOfTheSolution) {
   TestScene scene = scene_with_rock(4);
   ReducedModel model(scene.specimen, scene.network, {}, {scene.laws, 0.01, 4});
@@ -110,8 +110,9 @@ TEST(SeriesSpectrum, PartsOfTheReducedModelAreThoseOfTheSolution) {
     TestScene changed = scene;
     for (Contact& c : changed.network.contacts) c.series *= rock;
     const HarmonicLoad load{.frequency_hz = 2};
-    const HarmonicResult solved =
-        Harmonic(changed.specimen, changed.network, changed.laws, changed.inertia, {}, 2).solve(std::vector{load}).front();
+    const HarmonicResult solved = Harmonic(changed.specimen, changed.network, changed.laws, changed.inertia, {}, 2)
+                                      .solve(std::vector{load})
+                                      .front();
     model.add({solved.motion});
     const ModulusParts found = model.solve(scene.laws, load, rock).parts;
     const double tolerance = 4 * model.rock().error() * std::abs(solved.parts.modulus());
@@ -133,8 +134,12 @@ TEST(SeriesSpectrum, AgreesWithSolutionsWithinTheStatedError) {
     const double stated = std::max(found.error, found.checked);
     EXPECT_LE(stated, tolerance);
     EXPECT_GT(found.error, 0.1 * tolerance) << "it contains the error of the classes";
-    for (const HarmonicLoad& load : {HarmonicLoad{.growth = 0.01}, {.growth = 1}, {.growth = 100},
-                                     {.frequency_hz = 0.003}, {.frequency_hz = 0.2}, {.frequency_hz = 10}}) {
+    for (const HarmonicLoad& load : {HarmonicLoad{.growth = 0.01},
+                                     {.growth = 1},
+                                     {.growth = 100},
+                                     {.frequency_hz = 0.003},
+                                     {.frequency_hz = 0.2},
+                                     {.frequency_hz = 10}}) {
       EXPECT_LT(std::abs(found.relaxation.stiffness(load.s()) / modulus(scene, load) - 1.0), stated) << load.s();
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// series_calibration_test.cpp  Calibration of scenes with the rule "series", whose free parameters are those of mastic and
-// rock: known parameters are recovered from the moduli that they give.
+// series_calibration_test.cpp  Calibration of scenes with the rule "series", whose free parameters are those of mastic
+// and rock: known parameters are recovered from the moduli that they give.
 #include <cmath>
 #include <numbers>
 

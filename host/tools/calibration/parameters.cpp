@@ -14,8 +14,8 @@ using laws::ValueKind;
 
 namespace {
 
-/// Returns the factor by which the temperature of the scene multiplies the viscosities of a pair's law. The scene's laws
-/// are at the scene's temperature, but the file gives them at the reference temperature.
+/// Returns the factor by which the temperature of the scene multiplies the viscosities of a pair's law. The scene's
+/// laws are at the scene's temperature, but the file gives them at the reference temperature.
 double shift_of(const Scene& scene, std::size_t pair) {
   return scene.materials.temperature
              ? std::pow(10.0, laws::log10_shift(scene.shifts[pair], *scene.materials.temperature))
@@ -42,8 +42,8 @@ std::vector<Parameter> parameters_of_phases(const Scene& scene) {
   }
   constexpr auto inner = static_cast<std::size_t>(PairType::inner);
   if (scene.laws[inner])
-    out.push_back({"aggregate.E", "Pa", Phase::aggregate, PairType::inner, "E",
-                   std::get<laws::Elastic>(*scene.laws[inner]).E});
+    out.push_back(
+        {"aggregate.E", "Pa", Phase::aggregate, PairType::inner, "E", std::get<laws::Elastic>(*scene.laws[inner]).E});
   return out;
 }
 
@@ -56,8 +56,12 @@ std::vector<Parameter> parameters_of(const Scene& scene) {
     if (!scene.laws[pair]) continue;
     const auto add = [&](const std::string& key, const char* unit, double value) {
       if (value > 0 && std::isfinite(value))
-        out.push_back({std::string(to_string(static_cast<PairType>(pair))) + "." + key, unit, {},
-                       static_cast<PairType>(pair), key, value});
+        out.push_back({std::string(to_string(static_cast<PairType>(pair))) + "." + key,
+                       unit,
+                       {},
+                       static_cast<PairType>(pair),
+                       key,
+                       value});
     };
     const double delta = scene.deltas[pair], shift = shift_of(scene, pair);
     add("delta", "", delta);

@@ -21,15 +21,15 @@ struct Parameter {
   double value = 0;  ///< as in the scene's file
 };
 
-/// Returns all parameters that the scene's laws have, except an α of 0 and an infinite C_m. With the rule "series" these
-/// are the parameters of the laws of mastic and rock.
+/// Returns all parameters that the scene's laws have, except an α of 0 and an infinite C_m. With the rule "series"
+/// these are the parameters of the laws of mastic and rock.
 std::vector<Parameter> parameters_of(const Scene& scene);
 
 /// Multiplies a parameter of the laws by a factor; a parameter of a phase in the laws of all its pairs.
 void multiply(LawTable& laws, const Parameter& parameter, double factor);
 
-/// Returns the compliance of the rock in series with the laws over its compliance in the scene. `laws`: the scene's laws
-/// with other values. Returns 1 with the rule "centres", or without rock.
+/// Returns the compliance of the rock in series with the laws over its compliance in the scene. `laws`: the scene's
+/// laws with other values. Returns 1 with the rule "centres", or without rock.
 double rock_compliance(const Scene& scene, const LawTable& laws);
 
 }  // namespace macadam::calibration

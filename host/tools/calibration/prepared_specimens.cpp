@@ -179,13 +179,13 @@ Specimens::Specimens(const Scene& scene, const ModulusData& data, int seeds, con
     }
     Preparation prepared = prepare(scene_, watcher.progress);
     Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
-    bodies_.push_back(std::make_unique<Body>(
-        Body{std::move(prepared.specimen), std::move(prepared.network), std::move(inertia), nullptr,
-             std::vector<Complex>(places_.size(), 1.0), 1}));
+    bodies_.push_back(
+        std::make_unique<Body>(Body{std::move(prepared.specimen), std::move(prepared.network), std::move(inertia),
+                                    nullptr, std::vector<Complex>(places_.size(), 1.0), 1}));
     Body& body = *bodies_.back();
-    body.seen = std::make_unique<harmonic::ReducedModel>(
-        body.specimen, body.network, inertia_ ? body.inertia : Inertia{},
-        harmonic::RockClassing{scene.laws, class_spacing, class_reserve});
+    body.seen =
+        std::make_unique<harmonic::ReducedModel>(body.specimen, body.network, inertia_ ? body.inertia : Inertia{},
+                                                 harmonic::RockClassing{scene.laws, class_spacing, class_reserve});
   }
 }
 
@@ -193,8 +193,7 @@ Specimens::Answer Specimens::answer_of(const ModulusParts& parts, const LawTable
                                        const std::vector<Parameter>& free) const {
   Answer out{parts.modulus(), {}};
   const bool of_phases = scene_.network.rule == ContactRule::series;
-  const auto all =
-      of_phases ? phase_sensitivities(parts, laws, load.s()) : sensitivities(parts, laws, load.s());
+  const auto all = of_phases ? phase_sensitivities(parts, laws, load.s()) : sensitivities(parts, laws, load.s());
   for (const Parameter& parameter : free) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.parameter == parameter.name; });
