@@ -254,7 +254,7 @@ class Harmonic::Implementation {
     out.residual = w.residual;
     out.iterations = task.iterations;
     out.why_factors = w.why_factors.empty() ? why_factors_ : w.why_factors;
-    for (auto* part : {&out.parts.normal, &out.parts.shear}) {
+    for (auto* part : {&out.parts.normal, &out.parts.shear, &out.parts.normal_rock, &out.parts.shear_rock}) {
       for (Complex& e : *part) e *= to_modulus;
     }
     out.parts.inertia *= to_modulus;

@@ -239,8 +239,6 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule) {
             {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
   if (!series) append(contacts_of(kind));
-  std::vector<std::string> not_in_output{"every", "format"};
-  if (series) not_in_output.emplace_back("sensitivities");
   append({{"[network]", series ? std::vector<Given>{{"rule", R"("series")"}} : std::vector<Given>{}},
           loading_of(test),
           {"[solver]",
@@ -249,7 +247,7 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule) {
            true,
            {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",
             "precision"}},
-          {"[output]", {}, "", true, not_in_output}});
+          {"[output]", {}, "", true, {"every", "format"}}});
   std::string out =
       "# A scene of Macadam. Numbers are in SI units, or text with a unit, such as \"12.5 mm\". docs/scene.md explains "
       "scenes,\n"

@@ -110,19 +110,6 @@ void check_together(const Scene& scene, const Section& root) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
                                           "kind = \"cyclic\" or \"sweep\", or method = \"explicit\" in [solver]");
   }
-  if (scene.network.rule == ContactRule::series) {
-    if (scene.solver.method == SolverMethod::harmonic && frequencies_of(scene.experiment).empty()) {
-      root.find("loading")->section().refuse(
-          "kind",
-          fmt::format("\"{}\" without time steps and rule = \"series\" in [network]", kind_of(scene.experiment)),
-          "method = \"explicit\" in [solver], or kind = \"cyclic\" or \"sweep\", because the response without time "
-          "steps is not available for this rule");
-    }
-    if (scene.output.sensitivities) {
-      root.find("output")->section().refuse("sensitivities", "true with rule = \"series\" in [network]",
-                                            "false, because derivatives are not available for this rule");
-    }
-  }
   const auto require_density = [&](bool generated, double density, const std::string& phase) {
     if (generated && density == 0) {
       root.refuse("materials", "no density of the " + phase + " that [specimen] generates",
