@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// Units of a class with a modulus below this fraction of its instantaneous modulus are left out.
-constexpr double no_unit = 1e-14;
+constexpr double no_modulus = 1e-14;
 
 /// Returns the relaxation of a law with a spring of compliance `series` [1/Pa] in series: the stiffness of the law's
 /// own spring is reduced.
@@ -29,7 +29,7 @@ PronySeries relaxation_in_series(Law law, double series) {
       },
       law);
   PronySeries out = prony_series(law);
-  const double least = no_unit * out.instantaneous();
+  const double least = no_modulus * out.instantaneous();
   std::erase_if(out.units, [&](const PronySeries::Unit& u) { return !(u.modulus > least); });
   return out;
 }
