@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 /// Compliances whose relative difference is below this number are the same.
 constexpr double same = 1e-12;
 /// Number of parts in which matrices are summed. So the result does not depend on the number of threads.
-constexpr std::size_t pieces = 16;
+constexpr std::size_t contact_pieces = 16;
 /// Number of contacts whose products are computed as one matrix product.
 constexpr Index stack = 48;
 
@@ -122,16 +122,16 @@ void RockClasses::add_pair(std::size_t pair, const std::vector<std::uint32_t>& c
 
 std::vector<RockForms> RockClasses::columns(const MatrixXd& basis, Index from) const {
   const Index count = basis.cols(), added = count - from;
-  std::vector<std::map<std::uint32_t, RockForms>> sums(pieces);
-  for_each_in_parallel(pieces, [&](std::size_t piece) {
+  std::vector<std::map<std::uint32_t, RockForms>> sums(contact_pieces);
+  for_each_in_parallel(contact_pieces, [&](std::size_t piece) {
     Stack filling(count, added);
     const auto forms_of = [&](std::uint32_t number) -> RockForms& {
       const auto [entry, fresh] = sums[piece].try_emplace(number);
       if (fresh) entry->second = {MatrixXd::Zero(count, added), MatrixXd::Zero(count, added)};
       return entry->second;
     };
-    const std::size_t end = (piece + 1) * contacts_.size() / pieces;
-    for (std::size_t i = piece * contacts_.size() / pieces; i < end; ++i) {
+    const std::size_t end = (piece + 1) * contacts_.size() / contact_pieces;
+    for (std::size_t i = piece * contacts_.size() / contact_pieces; i < end; ++i) {
       const Divided& d = contacts_[i];
       filling.push(network_.contacts[d.contact], basis, d.normal, d.shear);
       const bool last = i + 1 == end || contacts_[i + 1].low != d.low || contacts_[i + 1].high != d.high;
