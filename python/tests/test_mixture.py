@@ -11,7 +11,6 @@ import tomllib
 import numpy as np
 import pytest
 from conftest import ROOT
-
 from macadam.mixture import MixtureError, binder, design, laws, predictions, scenes, stiffening, volumes
 from macadam.mixture import __main__ as command
 from macadam.study import scenes as study_scenes
@@ -52,14 +51,21 @@ def test_rules_end_at_the_matrix_and_at_equal_phases(rule):
 def test_rules_are_between_the_bounds():
     for seed in range(200):
         random = np.random.default_rng(seed)
-        c, contrast, nu, nu_i = random.uniform(0.1, 0.6), 10 ** random.uniform(0.3, 4), random.uniform(0, 0.49), random.uniform(0, 0.4)
+        c, contrast, nu, nu_i = (
+            random.uniform(0.1, 0.6),
+            10 ** random.uniform(0.3, 4),
+            random.uniform(0, 0.49),
+            random.uniform(0, 0.4),
+        )
         matrix, inclusion = stiffening.bulk_and_shear(1.0, nu), stiffening.bulk_and_shear(contrast, nu_i)
         low, high = stiffening.bounds([(1 - c, *matrix), (c, *inclusion)])
         if matrix[0] > inclusion[0] or matrix[1] > inclusion[1]:
             continue  # the two phases are not ordered, so the expressions are not bounds
         # the lower bound is the expression with the softer matrix
         assert stiffening.young_of(*stiffening.hashin_shtrikman(matrix, inclusion, c)) == pytest.approx(low, rel=1e-10)
-        assert stiffening.young_of(*stiffening.hashin_shtrikman(inclusion, matrix, 1 - c)) == pytest.approx(high, rel=1e-10)
+        assert stiffening.young_of(*stiffening.hashin_shtrikman(inclusion, matrix, 1 - c)) == pytest.approx(
+            high, rel=1e-10
+        )
         assert low < stiffening.young_of(*stiffening.differential(matrix, inclusion, c)) < high
         reuss, voigt = 1 / (1 - c + c / contrast), 1 - c + c * contrast
         assert reuss * (1 - 1e-12) <= low <= high
@@ -89,17 +95,17 @@ def test_a_complex_modulus_without_loss_is_the_real_one():
 
 
 def test_hirsch_by_hand():
-    # 3|G*| = 1e5 psi, VMA 15 %, VFA 70 %: x = 466,667, P = 466,687^0.58 / (650 + 466,667^0.58) = 1941.2/2591.1 = 0.74916;
-    # parallel 3,580,500 psi, series 426,396 psi; |E*| = 2,789,300 psi; phase −21·0.12543² + 55·0.12543 = 6.568°.
-    # The hand computation has four digits.
+    # 3|G*| = 1e5 psi, VMA 15 %, VFA 70 %: x = 466,667, P = 466,687^0.58 / (650 + 466,667^0.58) = 1941.2/2591.1 =
+    # 0.74916; parallel 3,580,500 psi, series 426,396 psi; |E*| = 2,789,300 psi; phase −21·0.12543² + 55·0.12543 =
+    # 6.568°. The hand computation has four digits.
     e, phase = predictions.hirsch(1e5 / 3 * predictions.PSI, 0.15, 0.70)
     assert e == pytest.approx(2.7893e6 * 6894.757, rel=1e-3)
     assert phase == pytest.approx(6.568, abs=0.01)
 
 
 def test_witczak_by_hand():
-    # 10 Hz, 1e6 poise = 1e5 Pa s; retained 0 / 10 / 40 %, filler 5 %, air 5 %, binder 10 %: 2.913558 + 3.825857/1.399850 =
-    # 5.646606, so |E*| = 443,210 psi. The hand computation has five digits.
+    # 10 Hz, 1e6 poise = 1e5 Pa s; retained 0 / 10 / 40 %, filler 5 %, air 5 %, binder 10 %: 2.913558 +
+    # 3.825857/1.399850 = 5.646606, so |E*| = 443,210 psi. The hand computation has five digits.
     e = predictions.witczak(10.0, 1e5, predictions.Retained(0, 10, 40, 5), 0.05, 0.10)
     assert e == pytest.approx(4.4321e5 * 6894.757, rel=1e-4)
     assert predictions.viscosity(1e6, 90.0) == pytest.approx(1e5, rel=1e-12)  # eta = |G*|/10 at 90 degrees
@@ -118,8 +124,23 @@ def test_retained_is_interpolated():
 
 def ac14(**more):
     """The mix design that docs/mix-design.md computes step by step."""
-    curve = [(19, 1), (12.5, 0.837), (9.5, 0.712), (4.75, 0.478), (2, 0.325), (0.425, 0.169), (0.18, 0.094), (0.075, 0.053)]
-    given = {"binder": 0.052, "binder_of": "mix", "aggregate_density": [2630.0], "binder_density": 1030.0, "air_voids": 0.05}
+    curve = [
+        (19, 1),
+        (12.5, 0.837),
+        (9.5, 0.712),
+        (4.75, 0.478),
+        (2, 0.325),
+        (0.425, 0.169),
+        (0.18, 0.094),
+        (0.075, 0.053),
+    ]
+    given = {
+        "binder": 0.052,
+        "binder_of": "mix",
+        "aggregate_density": [2630.0],
+        "binder_density": 1030.0,
+        "air_voids": 0.05,
+    }
     return volumes.Recipe([(1e-3 * s, p) for s, p in curve], **{**given, **more})
 
 
@@ -135,11 +156,15 @@ def test_volumes_of_the_documented_mix():
 
 def as_recipe(part):
     keys = {k: v for k, v in part.recipe.items() if k not in ("cut", "gradation")}
-    keys["aggregate_density"] = keys["aggregate_density"] if isinstance(keys["aggregate_density"], list) else [keys["aggregate_density"]]
+    keys["aggregate_density"] = (
+        keys["aggregate_density"] if isinstance(keys["aggregate_density"], list) else [keys["aggregate_density"]]
+    )
     return volumes.Recipe([tuple(e) for e in part.recipe["gradation"]], **keys)
 
 
-@pytest.mark.parametrize("more", [{}, {"absorbed_binder": 0.006}, {"aggregate_density": [2600.0 + 20 * k for k in range(7)]}])
+@pytest.mark.parametrize(
+    "more", [{}, {"absorbed_binder": 0.006}, {"aggregate_density": [2600.0 + 20 * k for k in range(7)]}]
+)
 def test_the_recipe_of_a_scale_has_its_volumes(more):
     recipe = ac14(**more)
     whole = volumes.volumes(recipe)
@@ -152,7 +177,9 @@ def test_the_recipe_of_a_scale_has_its_volumes(more):
         assert part.c == pytest.approx(asked, rel=1e-12)
         # the same fraction by the recipe that the scene gets
         kept = volumes.index_of(as_recipe(part), lower)
-        assert sum(found.classes[:kept]) / (sum(found.classes) + found.effective_binder) == pytest.approx(asked, rel=1e-12)
+        assert sum(found.classes[:kept]) / (sum(found.classes) + found.effective_binder) == pytest.approx(
+            asked, rel=1e-12
+        )
         assert found.air_voids == (0.05 if air else 0)
         assert found.absorbed == pytest.approx(whole.absorbed, abs=1e-15)
     fine = volumes.filler_fraction(recipe, 0.000425)
@@ -161,7 +188,9 @@ def test_the_recipe_of_a_scale_has_its_volumes(more):
 
 def test_a_class_of_less_than_one_grain_is_merged():
     recipe = ac14()
-    recipe.gradation = [(1e-3 * s, p) for s, p in [(16, 1), (11.2, 0.999), (8, 0.8), (5.6, 0.7995), (2, 0.4), (0.063, 0.08)]]
+    recipe.gradation = [
+        (1e-3 * s, p) for s, p in [(16, 1), (11.2, 0.999), (8, 0.8), (5.6, 0.7995), (2, 0.4), (0.063, 0.08)]
+    ]
     box = 0.03**2 * 0.04
     part = volumes.part_of(recipe, 0.002, 0.016, box, True)
     assert len(part.merged) == 2
@@ -213,7 +242,8 @@ def measured(folder, temperatures=(4, 16, 28, 40, 52), noise=0.0):
     for t in temperatures:
         for f in np.geomspace(0.1, 30, 8):
             g = KNOWN.shear(KNOWN.reduced(t, f))
-            rows.append(f"{t},{f:.12g},{abs(g) / 1e6 * np.exp(noise * random.standard_normal()):.12g},{np.degrees(np.angle(g)):.12g}")
+            modulus = abs(g) / 1e6 * np.exp(noise * random.standard_normal())
+            rows.append(f"{t},{f:.12g},{modulus:.12g},{np.degrees(np.angle(g)):.12g}")
     file = folder / "dsr.csv"
     file.write_text("\n".join(rows) + "\n")
     return file
@@ -251,12 +281,15 @@ def test_creep_stiffness_extends_the_range(tmp_path):
     assert ranges[1] > 10 * ranges[0]
 
 
-@pytest.mark.parametrize("line, words", [
-    ("4,0.1,x,30", "g_star_mpa: found 'x', expected a positive number"),
-    ("4,-1,3,30", "frequency_hz: found -1, expected a positive number"),
-    ("4,0.1,3,120", "phase_deg: found 120, expected an angle"),
-    ("4,0.1", "g_star_mpa: found nothing, expected a positive number"),
-])
+@pytest.mark.parametrize(
+    "line, words",
+    [
+        ("4,0.1,x,30", "g_star_mpa: found 'x', expected a positive number"),
+        ("4,-1,3,30", "frequency_hz: found -1, expected a positive number"),
+        ("4,0.1,3,120", "phase_deg: found 120, expected an angle"),
+        ("4,0.1", "g_star_mpa: found nothing, expected a positive number"),
+    ],
+)
 def test_wrong_measurements_name_their_line(tmp_path, line, words):
     file = measured(tmp_path)
     file.write_text(file.read_text() + line + "\n")
@@ -275,8 +308,16 @@ def test_a_missing_column_is_named(tmp_path):
 
 
 def law(**more):
-    keys = {"name": "mortar", "E_m": 4e9, "C_m": 2e9, "E": [1e9, 2e8], "C": [3e8, 5e9], "shift": laws.shift_keys(KNOWN),
-            "valid_hz": (1e-3, 1e3), "misfit": 0.004}
+    keys = {
+        "name": "mortar",
+        "E_m": 4e9,
+        "C_m": 2e9,
+        "E": [1e9, 2e8],
+        "C": [3e8, 5e9],
+        "shift": laws.shift_keys(KNOWN),
+        "valid_hz": (1e-3, 1e3),
+        "misfit": 0.004,
+    }
     return laws.Law(**{**keys, **more})
 
 
@@ -291,8 +332,18 @@ def test_a_law_as_toml_has_its_range():
     text = law().toml(0.4)
     assert "valid_hz = [0.001, 1000]" in text and "20 °C" in text
     mastic = tomllib.loads(text)["materials"]["mastic"]
-    assert mastic == {"law": "generalised_kelvin", "E_m": 4e9, "C_m": 2e9, "E": [1e9, 2e8], "C": [3e8, 5e9], "shift": "wlf", "C1": 19.0,
-                      "C2": 165.0, "reference_temperature": 20.0, "poisson_ratio": 0.4}
+    assert mastic == {
+        "law": "generalised_kelvin",
+        "E_m": 4e9,
+        "C_m": 2e9,
+        "E": [1e9, 2e8],
+        "C": [3e8, 5e9],
+        "shift": "wlf",
+        "C1": 19.0,
+        "C2": 165.0,
+        "reference_temperature": 20.0,
+        "poisson_ratio": 0.4,
+    }
     assert law().covers([1e-3, 1e3]) and not law().covers([1e-3, 1.1e3]) and not law().covers([0.9e-3])
 
 
@@ -355,7 +406,13 @@ def test_open_values_are_decided_and_reported(tables):
         del scale["box"], scale["radius"]
     read = design.read(tables)
     said = " ".join(read.decisions)
-    for words in ("glass modulus |G*| = 1 GPa", "Poisson's ratio 0.45", "E = 60 GPa", "box of 8 x 8 x 12 mm", "box of 44.8 x 44.8 x 67.2 mm"):
+    for words in (
+        "glass modulus |G*| = 1 GPa",
+        "Poisson's ratio 0.45",
+        "E = 60 GPa",
+        "box of 8 x 8 x 12 mm",
+        "box of 44.8 x 44.8 x 67.2 mm",
+    ):
         assert words in said
     assert read.scales[1].radius[0] == pytest.approx(0.87 * np.mean(read.scales[1].radius))
 
@@ -381,21 +438,33 @@ WRONG = [
     (change("binder", "poisson_ratio", to=0.5), r"\[binder\] poisson_ratio: found 0.5"),
     (change("test", "frequencies", to=[]), r"\[test\] frequencies: found \[\]"),
     (change("test", "temperatures", to=[300]), r"\[test\] temperatures: found 300"),
-    (change("recipe", "gradation", 0, to=["11.2 mm", "99 %"]), r"\[recipe\] gradation: found 99 % passing the coarsest"),
+    (
+        change("recipe", "gradation", 0, to=["11.2 mm", "99 %"]),
+        r"\[recipe\] gradation: found 99 % passing the coarsest",
+    ),
     (change("recipe", "gradation", 1, to=["12 mm", "99 %"]), r"\[recipe\] gradation: found 12 mm after 11.2 mm"),
     (change("recipe", "gradation", 2, to=["5.6 mm", "99.9 %"]), r"\[recipe\] gradation: found 99.9 % passing 5.6 mm"),
     (change("recipe", "binder_of", to="all"), r"\[recipe\] binder_of: found 'all', expected one of \"mix\""),
     (change("recipe", "air_voids", drop=True), r"\[recipe\] air_voids: found neither"),
-    (change("recipe", "aggregate_density", to=2.7), r"\[recipe\] aggregate_density: found 2.7, expected a density from 200"),
+    (
+        change("recipe", "aggregate_density", to=2.7),
+        r"\[recipe\] aggregate_density: found 2.7, expected a density from 200",
+    ),
     (change("recipe", "absorbed_binder", to="9 %"), r"\[recipe\] binder: found an effective binder"),
     (change("scale", 0, "rule", to="mori"), r"\[\[scale\]\] number 1, rule: found 'mori'"),
     (change("scale", 0, "below", to="0.3 mm"), r"below: found 0.3 mm, expected a sieve of the gradation: 11.2, 8"),
     (change("scale", 0, "seeds", to=3), r"seeds: found this key together with rule"),
-    (change("scale", 1, "sieves", to=["1 mm", "2 mm"]), r"number 2, sieves: found 1 mm, expected 0.25 mm, where scale mastic ends"),
+    (
+        change("scale", 1, "sieves", to=["1 mm", "2 mm"]),
+        r"number 2, sieves: found 1 mm, expected 0.25 mm, where scale mastic ends",
+    ),
     (change("scale", 2, "sieves", to=["2 mm", "8 mm"]), r"number 3, sieves: found 8 mm, expected 11.2 mm"),
     (change("scale", 1, "name", to="mastic"), r"number 2, name: found 'mastic'"),
     (change("scale", 2, "seeds", to=[1, 1]), r"number 3, seeds: found \[1, 1\]"),
-    (change("scale", 2, "box", to=["9 mm", "24 mm", "30 mm"]), r"number 3, box: found an edge of 9 mm, expected at least the largest grain"),
+    (
+        change("scale", 2, "box", to=["9 mm", "24 mm", "30 mm"]),
+        r"number 3, box: found an edge of 9 mm, expected at least the largest grain",
+    ),
     (change("scale", 2, "radius", to=["1 mm", "0.5 mm"]), r"radius: found .* expected the smaller radius first"),
     (change("scale", 1, "void_radius", to=["1 mm", "2 mm"]), r"void_radius: found this key"),
     (change("run", to={"backend": "gpu"}), r"\[run\] backend: found 'gpu'"),
@@ -424,5 +493,10 @@ def test_the_command_names_the_file(tmp_path, capsys):
 def test_check_prints_volumes_and_ranges(capsys):
     assert command.main([str(EXAMPLE), "--check"]) == 0
     said = capsys.readouterr().out
-    for words in ("VMA 18.30 %", "Scale mastic: rule nielsen, 47.8 %", "its material is merged with the class 5.6-8 mm", "the test needs"):
+    for words in (
+        "VMA 18.30 %",
+        "Scale mastic: rule nielsen, 47.8 %",
+        "its material is merged with the class 5.6-8 mm",
+        "the test needs",
+    ):
         assert words in said

@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 import pytest
 from conftest import ROOT
-
 from macadam.mixture import MixtureError, binder, laws
 from macadam.mixture.driver import compute_and_write
 from macadam.study.program import version_of
@@ -36,8 +35,8 @@ def nothing(_):
 
 @pytest.fixture(scope="module", params=["centres", "series"])
 def made(request, program, tmp_path_factory):
-    """Returns the rule, the folder and the result. With rule "centres" the moduli mean little, but the chain of commands is
-    the same."""
+    """Returns the rule, the folder and the result. With rule "centres" the moduli mean little, but the chain of
+    commands is the same."""
     folder, said = tmp_path_factory.mktemp("mixture"), []
     return request.param, folder, compute_and_write(small(), folder, 2, nothing, said.append, request.param), said
 
@@ -45,8 +44,16 @@ def made(request, program, tmp_path_factory):
 def test_the_table(made):
     rule, folder, found, _ = made
     table = pd.read_csv(folder / "mixture.csv")
-    assert list(table.columns[:8]) == ["temperature_c", "frequency_hz", "e_star_pa", "e_star_std_pa", "phase_deg", "phase_std_deg",
-                                       "e_star_hirsch_pa", "e_star_witczak_pa"]
+    assert list(table.columns[:8]) == [
+        "temperature_c",
+        "frequency_hz",
+        "e_star_pa",
+        "e_star_std_pa",
+        "phase_deg",
+        "phase_std_deg",
+        "e_star_hirsch_pa",
+        "e_star_witczak_pa",
+    ]
     assert [*zip(table.temperature_c, table.frequency_hz)] == [(5, 0.1), (5, 10), (30, 0.1), (30, 10)]
     assert np.isfinite(table.to_numpy()).all() and (table.e_star_std_pa > 0).all()
     # |E*| of a linear material rises with the reduced frequency
@@ -71,7 +78,10 @@ def test_curves_and_laws(made):
         mastic = tomllib.loads(text)["materials"]["mastic"]
         assert "valid_hz" in text and mastic["shift"] == "wlf" and mastic["C1"] == summary["binder"]["C1"]
     # each scale is stiffer than the scale below
-    at = {name: np.interp(0.0, np.log10(c.reduced_frequency_hz), np.log10(c.e_star_pa)) for name, c in curves.groupby("scale")}
+    at = {
+        name: np.interp(0.0, np.log10(c.reduced_frequency_hz), np.log10(c.e_star_pa))
+        for name, c in curves.groupby("scale")
+    }
     assert at["binder"] < at["mastic"] < at["mortar"]
 
 
@@ -87,7 +97,11 @@ def test_decisions_are_printed_and_kept(made):
 
 def test_the_report(made):
     text = (made[1] / "report.html").read_text()
-    assert "Witczak 1-37A are predictions" in text and "they are not measurements" in text and "Constants of the binder" in text
+    assert (
+        "Witczak 1-37A are predictions" in text
+        and "they are not measurements" in text
+        and "Constants of the binder" in text
+    )
     assert not re.search(r'(src|href)="http', text)
 
 
@@ -111,7 +125,10 @@ def test_the_scatter_has_that_of_the_scale_below(made):
     for run in scales["mixture"]["folders"]:
         moduli.append(tomllib.loads((folder / run / "scene.toml").read_text()))
     mastics = [s.get("materials", {}).get("mastic") or s["contacts"][0] for s in moduli]
-    expected = [tomllib.loads((folder / "laws" / f"mortar_seed_{k}.toml").read_text())["materials"]["mastic"]["E_m"] for k in (1, 2)]
+    expected = [
+        tomllib.loads((folder / "laws" / f"mortar_seed_{k}.toml").read_text())["materials"]["mastic"]["E_m"]
+        for k in (1, 2)
+    ]
     assert [m["E_m"] for m in mastics] == expected and expected[0] != expected[1]
 
 

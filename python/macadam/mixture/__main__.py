@@ -36,16 +36,23 @@ def _stop(*_: Any) -> None:
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="macadam mixture",
-        description="Computes |E*| and phase of an asphalt mixture from measurements of its binder and its mix design. Results that are already "
-        "in the folder are not computed again.",
+        description="Computes |E*| and phase of an asphalt mixture from measurements of its binder and its mix design. "
+        "Results that are already in the folder are not computed again.",
         epilog="example: macadam mixture examples/mixture/design.toml --out results/mixture",
     )
-    parser.add_argument("design", metavar="DESIGN.toml", help="file with binder, test, recipe and scales (docs/mixture.md)")
+    parser.add_argument(
+        "design", metavar="DESIGN.toml", help="file with binder, test, recipe and scales (docs/mixture.md)"
+    )
     parser.add_argument("--out", metavar="DIR", help="folder of the results; created if it does not exist")
     parser.add_argument(
-        "--workers", type=int, metavar="N", help="number of specimens that are solved at the same time, in place of run.workers in the design"
+        "--workers",
+        type=int,
+        metavar="N",
+        help="number of specimens that are solved at the same time, in place of run.workers in the design",
     )
-    parser.add_argument("--check", action="store_true", help="check the design, fit the binder, and compute no specimen")
+    parser.add_argument(
+        "--check", action="store_true", help="check the design, fit the binder, and compute no specimen"
+    )
     found = parser.parse_args(arguments)
     if found.workers is not None and found.workers < 1:
         parser.error(f"argument --workers: found {found.workers}, expected 1 or more")
@@ -89,13 +96,14 @@ def _print(found: Any, out: str) -> None:
     print(f"{'T (C)':>7} {'f (Hz)':>8} {'(MPa)':>9} {'std (%)':>8} {'phi (deg)':>10} {'Hirsch':>9} {'1-37A':>9}")
     for r in found.table.itertuples():
         print(
-            f"{r.temperature_c:7g} {r.frequency_hz:8g} {r.e_star_pa / 1e6:9.4g} {100 * r.e_star_std_pa / r.e_star_pa:8.2g} {r.phase_deg:10.1f} "
-            f"{r.e_star_hirsch_pa / 1e6:9.4g} {r.e_star_witczak_pa / 1e6:9.4g}"
+            f"{r.temperature_c:7g} {r.frequency_hz:8g} {r.e_star_pa / 1e6:9.4g} "
+            f"{100 * r.e_star_std_pa / r.e_star_pa:8.2g} {r.phase_deg:10.1f} {r.e_star_hirsch_pa / 1e6:9.4g} "
+            f"{r.e_star_witczak_pa / 1e6:9.4g}"
         )
     runs, seconds = found.summary["runs"], found.summary["timing_s"]["total"]
     print(
-        f"{runs['computed']} specimens computed, {runs['reused']} taken from the folder, {seconds:.0f} s | files in {out}: mixture.csv "
-        "master_curve.csv summary.json report.html laws"
+        f"{runs['computed']} specimens computed, {runs['reused']} taken from the folder, {seconds:.0f} s | files in "
+        f"{out}: mixture.csv master_curve.csv summary.json report.html laws"
     )
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The binder's law: a 2S2P1D model with the WLF shift, fitted to DSR and BBR data with a glass modulus that is held or has a
-prior.
+"""The binder's law: a 2S2P1D model with the WLF shift, fitted to DSR and BBR data with a glass modulus that is held or
+has a prior.
 
     G*(iω) = G_g / (1 + δ·(iωτ)^(−k) + (iωτ)^(−h) + (iωβτ)^(−1)),  log10 a_T = −C1·(T − T_r)/(C2 + T − T_r)
 """
@@ -23,8 +23,8 @@ _LEAST = 12  # smallest number of measurements of a fit
 
 @dataclass
 class Model:
-    """Constants of the binder: glass modulus [Pa] in shear, exponents, δ, τ [s] at the reference temperature [°C], β, and the
-    constants of WLF."""
+    """Constants of the binder: glass modulus [Pa] in shear, exponents, δ, τ [s] at the reference temperature [°C], β,
+    and the constants of WLF."""
 
     glass: float
     k: float
@@ -51,9 +51,9 @@ class Model:
         return self._laplace(2j * np.pi * np.asarray(reduced, float))
 
     def creep_stiffness(self, time, poisson: float):
-        """Returns the stiffness in extension [Pa], stress over strain, after a load of this duration [s] at the reference
-        temperature. The creep compliance is the inverse Laplace transform of 1/(s·E(s)), by Talbot's method with 24
-        points."""
+        """Returns the stiffness in extension [Pa], stress over strain, after a load of this duration [s] at the
+        reference temperature. The creep compliance is the inverse Laplace transform of 1/(s·E(s)), by Talbot's method
+        with 24 points."""
         n = 24
         k = np.arange(1, n)
         theta = k * np.pi / n
@@ -74,9 +74,9 @@ class Model:
 
 @dataclass
 class BinderFit:
-    """The fitted model and how well it meets the data. used: number of measurements in the fit; total: of all measurements.
-    errors: root mean squares of ln|G*|, phase [degrees] and ln S (None without BBR). range: reduced frequencies [Hz] of the
-    measurements in the fit."""
+    """The fitted model and how well it meets the data. used: number of measurements in the fit; total: of all
+    measurements. errors: root mean squares of ln|G*|, phase [degrees] and ln S (None without BBR). range: reduced
+    frequencies [Hz] of the measurements in the fit."""
 
     model: Model
     dsr: Dsr
@@ -87,9 +87,11 @@ class BinderFit:
     range: tuple[float, float]
 
 
-def least_squares(residuals: Callable[[np.ndarray], np.ndarray], start: np.ndarray, steps: int = 200) -> tuple[np.ndarray, float]:
-    """Returns the parameters that minimise the sum of squares, and this sum, by the method of Levenberg and Marquardt with
-    derivatives by differences."""
+def least_squares(
+    residuals: Callable[[np.ndarray], np.ndarray], start: np.ndarray, steps: int = 200
+) -> tuple[np.ndarray, float]:
+    """Returns the parameters that minimise the sum of squares, and this sum, by the method of Levenberg and Marquardt
+    with derivatives by differences."""
     x, damping = np.array(start, float), 1e-2
     r = residuals(x)
     cost = float(r @ r)
@@ -97,7 +99,9 @@ def least_squares(residuals: Callable[[np.ndarray], np.ndarray], start: np.ndarr
         jacobian = np.array([(residuals(x + 1e-6 * e) - residuals(x - 1e-6 * e)) / 2e-6 for e in np.eye(len(x))]).T
         normal, gradient = jacobian.T @ jacobian, jacobian.T @ r
         for _ in range(12):
-            step = np.linalg.lstsq(normal + damping * np.diag(np.maximum(np.diag(normal), 1e-12)), -gradient, rcond=None)[0]
+            step = np.linalg.lstsq(
+                normal + damping * np.diag(np.maximum(np.diag(normal), 1e-12)), -gradient, rcond=None
+            )[0]
             tried = x + np.clip(step, -2, 2)
             with np.errstate(all="ignore"):
                 other = residuals(tried)
@@ -114,13 +118,23 @@ def least_squares(residuals: Callable[[np.ndarray], np.ndarray], start: np.ndarr
 
 
 def _model(x: np.ndarray, binder: Binder) -> Model:
-    """Returns the model of the free parameters: logits of h and k/h, logarithms of δ, τ, β, C1, C2 and, if it is not held, of
-    the glass modulus."""
+    """Returns the model of the free parameters: logits of h and k/h, logarithms of δ, τ, β, C1, C2 and, if it is not
+    held, of the glass modulus."""
     h = 1 / (1 + np.exp(-x[0]))
     k = h / (1 + np.exp(-x[1]))
     delta, tau, beta, c1, c2 = np.exp(x[2:7])
     glass = float(np.exp(x[7])) if binder.glass_modulus_std > 0 else binder.glass_modulus
-    return Model(glass, float(k), float(h), float(delta), float(tau), float(beta), float(c1), float(c2), binder.reference_temperature)
+    return Model(
+        glass,
+        float(k),
+        float(h),
+        float(delta),
+        float(tau),
+        float(beta),
+        float(c1),
+        float(c2),
+        binder.reference_temperature,
+    )
 
 
 def _fit(dsr: Dsr, bbr: Bbr | None, binder: Binder, start: Model | None) -> Model:
@@ -129,7 +143,10 @@ def _fit(dsr: Dsr, bbr: Bbr | None, binder: Binder, start: Model | None) -> Mode
     def residuals(x: np.ndarray) -> np.ndarray:
         model = _model(x, binder)
         found = model.shear(model.reduced(dsr.temperature, dsr.frequency))
-        parts = [np.log(abs(found) / dsr.modulus) / MODULUS_ERROR, (np.degrees(np.angle(found)) - dsr.phase) / PHASE_ERROR]
+        parts = [
+            np.log(abs(found) / dsr.modulus) / MODULUS_ERROR,
+            (np.degrees(np.angle(found)) - dsr.phase) / PHASE_ERROR,
+        ]
         if bbr is not None:
             time = bbr.time / 10 ** model.log_shift(bbr.temperature)
             parts.append(np.log(model.creep_stiffness(time, binder.poisson_ratio) / bbr.stiffness) / STIFFNESS_ERROR)
@@ -139,8 +156,13 @@ def _fit(dsr: Dsr, bbr: Bbr | None, binder: Binder, start: Model | None) -> Mode
 
     starts = []
     if start is not None:
-        starts.append([np.log(start.h / (1 - start.h)), np.log(start.k / (start.h - start.k)), *np.log(
-            [start.delta, start.tau, start.beta, start.c1, start.c2])])
+        starts.append(
+            [
+                np.log(start.h / (1 - start.h)),
+                np.log(start.k / (start.h - start.k)),
+                *np.log([start.delta, start.tau, start.beta, start.c1, start.c2]),
+            ]
+        )
     else:
         coldest = float(min(dsr.temperature.min(), bbr.temperature.min() if bbr else np.inf))
         c2 = max(150.0, binder.reference_temperature - coldest + 60)
@@ -155,8 +177,8 @@ def _fit(dsr: Dsr, bbr: Bbr | None, binder: Binder, start: Model | None) -> Mode
 
 
 def fit_binder(binder: Binder, temperatures: list[float], frequencies: list[float]) -> BinderFit:
-    """Fits the binder's law to its measurements. After a first fit of all of them, the measurements within a decade of the
-    reduced range of the test are fitted again, if they are enough."""
+    """Fits the binder's law to its measurements. After a first fit of all of them, the measurements within a decade of
+    the reduced range of the test are fitted again, if they are enough."""
     dsr = read_dsr(binder.file)
     bbr = read_bbr(binder.bbr) if binder.bbr else None
     model = _fit(dsr, bbr, binder, None)
@@ -167,8 +189,12 @@ def fit_binder(binder: Binder, temperatures: list[float], frequencies: list[floa
         dsr = dsr.part(kept)
         model = _fit(dsr, bbr, binder, replace(model))
     if not np.isfinite(model.log_shift(np.array(temperatures))).all():
-        refuse(binder.file, "shift", f"no value of WLF at {min(temperatures):g} °C, because C2 is {model.c2:.3g} K",
-               f"test temperatures above {binder.reference_temperature - model.c2:.3g} °C")
+        refuse(
+            binder.file,
+            "shift",
+            f"no value of WLF at {min(temperatures):g} °C, because C2 is {model.c2:.3g} K",
+            f"test temperatures above {binder.reference_temperature - model.c2:.3g} °C",
+        )
     reduced = model.reduced(dsr.temperature, dsr.frequency)
     shear = model.shear(reduced)
     stiffness = None

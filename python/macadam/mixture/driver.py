@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`mixture`: computes the scales of a design one after the other, from the binder to the mixture, and writes tables, laws and
-report."""
+"""`mixture`: computes the scales of a design one after the other, from the binder to the mixture, and writes tables,
+laws and report."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ _MISFIT = 0.03  # misfit of a law above which a warning is added
 
 @dataclass
 class Mixture:
-    """The result of `mixture`. table: mixture.csv. master_curve: the curves of all scales. folder: of the files. summary: as in
-    summary.json. decisions, warnings: sentences."""
+    """The result of `mixture`. table: mixture.csv. master_curve: the curves of all scales. folder: of the files.
+    summary: as in summary.json. decisions, warnings: sentences."""
 
     folder: Path
     table: pandas.DataFrame
@@ -48,8 +48,8 @@ class Mixture:
 
 @dataclass
 class Chain:
-    """The computed scales, from which tables and report are made. needed: reduced frequencies [Hz] of the test. computed,
-    reused: number of specimens."""
+    """The computed scales, from which tables and report are made. needed: reduced frequencies [Hz] of the test.
+    computed, reused: number of specimens."""
 
     design: designs.Design
     binder: BinderFit
@@ -73,10 +73,10 @@ def mixture(
 ) -> Mixture:
     """Computes |E*| and phase of a mixture from its binder and its mix design: `macadam mixture` (docs/mixture.md).
 
-    design: a TOML file, or a dictionary of the same keys. out: the folder of the results; results that it has are not computed
-    again. workers: number of specimens that are solved at the same time; by default the number of cores. progress: called with
-    a sentence after each specimen. say: called with each decision and warning as soon as it is known. Raises MixtureError for
-    wrong input and for a failed run."""
+    design: a TOML file, or a dictionary of the same keys. out: the folder of the results; results that it has are not
+    computed again. workers: number of specimens that are solved at the same time; by default the number of cores.
+    progress: called with a sentence after each specimen. say: called with each decision and warning as soon as it is
+    known. Raises MixtureError for wrong input and for a failed run."""
     return compute_and_write(design, out, workers, progress or _ignore, say or _ignore)
 
 
@@ -85,9 +85,15 @@ def _ignore(_: str) -> None:
 
 
 def compute_and_write(
-    design: Any, out: Any, workers: int | None, progress: Callable[[str], object], say: Callable[[str], object], rule: str = "series"
+    design: Any,
+    out: Any,
+    workers: int | None,
+    progress: Callable[[str], object],
+    say: Callable[[str], object],
+    rule: str = "series",
 ) -> Mixture:
-    """Does the work of `mixture`. rule: `rule` of `[network]` in the scenes; only tests use another one than "series"."""
+    """Does the work of `mixture`. rule: `rule` of `[network]` in the scenes; only tests use another one than
+    "series"."""
     from macadam.mixture import output
 
     folder, read = Path(out), designs.read(design)
@@ -103,7 +109,9 @@ def compute_and_write(
             runner = Runner(program, version, cache, workers or read.run.get("workers"))
             return output.write(_compute(read, runner, progress, say, rule), folder)
     except Taken:
-        raise MixtureError(f"{folder}: found a running command that uses this folder, expected another folder") from None
+        raise MixtureError(
+            f"{folder}: found a running command that uses this folder, expected another folder"
+        ) from None
     except BaseException:
         programs.stop(str(cache))
         raise
@@ -133,9 +141,13 @@ def _compute(
             steps.append(by_specimens(shop, scale, steps[-1], asked, last))
         for law in steps[-1].laws:
             if law.misfit > _MISFIT:
-                warnings.add(f"The law of {law.name} misses the values that it stands for by up to {100 * law.misfit:.2g} %.")
+                warnings.add(
+                    f"The law of {law.name} misses the values that it stands for by up to {100 * law.misfit:.2g} %."
+                )
     seconds = time.monotonic() - began
-    return Chain(design, found, steps, needed, [*decisions], [*warnings], runner.version, seconds, runner.computed, runner.reused)
+    return Chain(
+        design, found, steps, needed, [*decisions], [*warnings], runner.version, seconds, runner.computed, runner.reused
+    )
 
 
 def _binder(shop: Workshop, found: BinderFit, wide: tuple[float, float]) -> Step:
@@ -154,22 +166,26 @@ def _judge_binder(
     modulus, phase, stiffness = found.errors
     creep = "" if stiffness is None else f", {100 * stiffness:.2g} % of creep stiffness"
     decisions.add(
-        f"Binder: 2S2P1D with WLF, fitted to the {found.used} of {found.total} shear moduli that are within a decade of the test's range; rms "
-        f"errors {100 * modulus:.2g} % of |G*|, {phase:.2g} degrees{creep}; glass modulus {found.model.glass / 1e9:.3g} GPa in shear."
+        f"Binder: 2S2P1D with WLF, fitted to the {found.used} of {found.total} shear moduli that are within a decade "
+        f"of the test's range; rms errors {100 * modulus:.2g} % of |G*|, {phase:.2g} degrees{creep}; glass modulus "
+        f"{found.model.glass / 1e9:.3g} GPa in shear."
     )
-    decisions.add(f"Test: reduced frequencies from {needed[0]:.2g} to {needed[1]:.2g} Hz at {design.binder.reference_temperature:g} °C.")
+    decisions.add(
+        f"Test: reduced frequencies from {needed[0]:.2g} to {needed[1]:.2g} Hz at "
+        f"{design.binder.reference_temperature:g} °C."
+    )
     if modulus > 0.1 or phase > 5:
         warnings.add(
-            f"The binder's law misses its measurements by {100 * modulus:.2g} % of |G*| and {phase:.2g} degrees (rms); they may not belong to "
-            "one linear material."
+            f"The binder's law misses its measurements by {100 * modulus:.2g} % of |G*| and {phase:.2g} degrees "
+            "(rms); they may not belong to one linear material."
         )
     low, high = np.log10(found.range[0] / needed[0]), np.log10(needed[1] / found.range[1])
     for missing, side, end in ((low, "below", found.range[0]), (high, "above", found.range[1])):
         if missing > 0.05:
             towards = " towards the glass modulus" if side == "above" else ""
             warnings.add(
-                f"The test needs the binder {missing:.1f} decades {side} its measurements, which end at a reduced frequency of {end:.2g} Hz; "
-                f"there its law is extrapolated{towards}."
+                f"The test needs the binder {missing:.1f} decades {side} its measurements, which end at a reduced "
+                f"frequency of {end:.2g} Hz; there its law is extrapolated{towards}."
             )
 
 

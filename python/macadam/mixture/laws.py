@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The law of one scale: a chain of Kelvin units with the binder's shift, and the range of reduced frequencies in which it
-holds. `macadam fit` computes the chain, from points of a curve or from a 2S2P1D model."""
+"""The law of one scale: a chain of Kelvin units with the binder's shift, and the range of reduced frequencies in which
+it holds. `macadam fit` computes the chain, from points of a curve or from a 2S2P1D model."""
 
 from __future__ import annotations
 
@@ -49,14 +49,16 @@ class Curve:
     def text(self) -> str:
         """Returns the curve as CSV for `macadam fit`."""
         rows = zip(self.frequency, self.e_star, self.phase)
-        return "frequency_hz,e_star_pa,phase_deg\n" + "".join(f"{f!r},{e!r},{p!r}\n" for f, e, p in (map(float, r) for r in rows))
+        return "frequency_hz,e_star_pa,phase_deg\n" + "".join(
+            f"{f!r},{e!r},{p!r}\n" for f, e, p in (map(float, r) for r in rows)
+        )
 
 
 @dataclass
 class Law:
-    """A chain of Kelvin units. springs [Pa] and dashpots [Pa s] of the units; E_m and C_m of the Maxwell unit. shift: its keys
-    in a scene. valid_hz: reduced frequencies [Hz] between which it holds. misfit: largest relative difference of the complex
-    modulus from the points that it stands for."""
+    """A chain of Kelvin units. E, C: their springs [Pa] and dashpots [Pa s]. E_m, C_m: those of the Maxwell unit.
+    shift: its keys in a scene. valid_hz: reduced frequencies [Hz] between which it holds. misfit: largest relative
+    difference of the complex modulus from the points that it stands for."""
 
     name: str
     E_m: float
@@ -84,13 +86,13 @@ class Law:
         return bool(f.min() >= self.valid_hz[0] * (1 - 1e-9) and f.max() <= self.valid_hz[1] * (1 + 1e-9))
 
     def toml(self, poisson: float) -> str:
-        """Returns a section `[materials.mastic]` for a scene with this law, and comments with its range. poisson: Poisson's
-        ratio."""
+        """Returns a section `[materials.mastic]` for a scene with this law, and comments with its range. poisson:
+        Poisson's ratio."""
         low, high = self.valid_hz
         return (
-            f"# macadam mixture: law of {self.name}\n"
-            f"# valid_hz = [{low:.6g}, {high:.6g}]  reduced frequencies between which it holds, at {self.shift['reference_temperature']:g} °C\n"
-            f"# largest difference from the values that it stands for: {100 * self.misfit:.2g} %\n"
+            f"# macadam mixture: law of {self.name}\n# valid_hz = [{low:.6g}, {high:.6g}]  reduced frequencies "
+            f"between which it holds, at {self.shift['reference_temperature']:g} °C\n# largest difference from the "
+            f"values that it stands for: {100 * self.misfit:.2g} %\n"
         ) + _toml.dumps({"materials": {"mastic": {**self.keys(), "poisson_ratio": poisson}}}).lstrip()
 
 
@@ -102,24 +104,34 @@ def shift_keys(model: Model) -> dict[str, Any]:
 def read_law(file: Path, name: str, shift: dict[str, Any], valid_hz: tuple[float, float], curve: Curve) -> Law:
     """Reads the chain in a `law.toml` of `macadam fit`, and compares it with the curve that it stands for."""
     entry = tomllib.loads(file.read_text(encoding="utf-8"))["contacts"][0]
-    law = Law(name, float(entry["E_m"]), float(entry.get("C_m", np.inf)), list(map(float, entry.get("E", []))),
-              list(map(float, entry.get("C", []))), shift, valid_hz, 0.0)
+    law = Law(
+        name,
+        float(entry["E_m"]),
+        float(entry.get("C_m", np.inf)),
+        list(map(float, entry.get("E", []))),
+        list(map(float, entry.get("C", []))),
+        shift,
+        valid_hz,
+        0.0,
+    )
     law.misfit = float(np.max(abs(law.modulus(curve.frequency) / curve.complex - 1)))
     return law
 
 
 class Fitter:
-    """Fits laws by `macadam fit`. Results are kept in a folder under a digest of the data, the options and the version of the
-    program, and are not computed again."""
+    """Fits laws by `macadam fit`. Results are kept in a folder under a digest of the data, the options and the version
+    of the program, and are not computed again."""
 
     def __init__(self, program: str, version: str, folder: Path) -> None:
         self.program, self.version, self.folder = program, version, folder
 
     def fit(self, name: str, curve: Curve, shift: dict[str, Any]) -> Law:
-        """Returns the chain of at most 16 units that stands for a curve, valid between its ends: of a 2S2P1D model that is
-        fitted to the curve or, if the model misses it, of a direct fit. Raises MixtureError if both fail."""
+        """Returns the chain of at most 16 units that stands for a curve, valid between its ends: of a 2S2P1D model that
+        is fitted to the curve or, if the model misses it, of a direct fit. Raises MixtureError if both fail."""
         valid = float(curve.frequency.min()), float(curve.frequency.max())
-        tried = [["--model", "2s2p1d", "--from", repr(valid[0]), "--to", repr(valid[1]), "--error", str(e)] for e in _ERRORS]
+        tried = [
+            ["--model", "2s2p1d", "--from", repr(valid[0]), "--to", repr(valid[1]), "--error", str(e)] for e in _ERRORS
+        ]
         tried += [["--most-units", str(MOST_UNITS)]]
         best, said = None, ""
         for options in tried:
@@ -137,8 +149,17 @@ class Fitter:
     def convert(self, name: str, model: Model, poisson: float, curve: Curve, shift: dict[str, Any]) -> Law:
         """Returns the chain that stands for the binder's model between the ends of a curve of it."""
         valid = float(curve.frequency.min()), float(curve.frequency.max())
-        text = _toml.dumps({"model": "2s2p1d", "E_0": 2 * (1 + poisson) * model.glass, "k": model.k, "h": model.h, "delta": model.delta,
-                            "tau": model.tau, "beta": model.beta})
+        text = _toml.dumps(
+            {
+                "model": "2s2p1d",
+                "E_0": 2 * (1 + poisson) * model.glass,
+                "k": model.k,
+                "h": model.h,
+                "delta": model.delta,
+                "tau": model.tau,
+                "beta": model.beta,
+            }
+        )
         said = ""
         for error in _ERRORS:
             options = ["--from", repr(valid[0]), "--to", repr(valid[1]), "--error", str(error)]
@@ -157,9 +178,13 @@ class Fitter:
                 shutil.rmtree(work, ignore_errors=True)
                 work.mkdir(parents=True)
                 (work / name).write_text(text, encoding="utf-8")
-                source = ["--parameters", str(work / name)] if name == "model.toml" else [str(work / name), "--no-pictures"]
+                source = (
+                    ["--parameters", str(work / name)] if name == "model.toml" else [str(work / name), "--no-pictures"]
+                )
                 line = [self.program, "fit", *source, *options, "--out", str(work)]
-                code, said = programs.run(str(self.folder.parent), line, env={**os.environ, "OMP_NUM_THREADS": "1"}, stdout=subprocess.DEVNULL)
+                code, said = programs.run(
+                    str(self.folder.parent), line, env={**os.environ, "OMP_NUM_THREADS": "1"}, stdout=subprocess.DEVNULL
+                )
                 if code not in (0, 2):
                     raise MixtureError(f"macadam fit: {said.strip() or f'exit code {code}'}", 1)
                 (work / "message.txt").write_text(said, encoding="utf-8")

@@ -42,18 +42,27 @@ class Bbr:
 
 
 def read_dsr(file: Path) -> Dsr:
-    """Reads the columns temperature_c (or temperature_k), frequency_hz (or omega_rad_s), g_star_pa (or _kpa, _mpa, _gpa)
-    and phase_deg (or phase_rad). Raises MixtureError that names file, line and column."""
+    """Reads the columns temperature_c (or temperature_k), frequency_hz (or omega_rad_s), g_star_pa (or _kpa, _mpa,
+    _gpa) and phase_deg (or phase_rad). Raises MixtureError that names file, line and column."""
     names, rows = _table(file)
     temperature = _temperature(file, names, rows)
     frequency = _column(file, names, rows, _FREQUENCY, lambda v: v > 0, "a positive number")
     modulus = _column(file, names, rows, _MODULUS, lambda v: v > 0, "a positive number")
     phase = _column(file, names, rows, _PHASE, lambda v: -5 < v < 95, "an angle between -5 and 95 degrees")
     if len(modulus) < 12 or len(np.unique(np.round(temperature))) < 3:
-        refuse(file, "measurements", f"{len(modulus)} at {len(np.unique(np.round(temperature)))} temperatures",
-               "at least 12 at three temperatures or more, which the shift over temperature needs")
+        refuse(
+            file,
+            "measurements",
+            f"{len(modulus)} at {len(np.unique(np.round(temperature)))} temperatures",
+            "at least 12 at three temperatures or more, which the shift over temperature needs",
+        )
     if modulus.max() > 1e10 or np.median(modulus) < 10:
-        refuse(file, "|G*|", f"{modulus.min():.3g} to {modulus.max():.3g} Pa", "moduli of a binder; is the unit of the column right?")
+        refuse(
+            file,
+            "|G*|",
+            f"{modulus.min():.3g} to {modulus.max():.3g} Pa",
+            "moduli of a binder; is the unit of the column right?",
+        )
     return Dsr(temperature, frequency, modulus, phase)
 
 
@@ -85,7 +94,9 @@ def _table(file: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     return [c.lower() for c in rows[0][1]], rows[1:]
 
 
-def _column(file: Path, names: list[str], rows: list[tuple[int, list[str]]], known: dict[str, float], rule, expected: str):
+def _column(
+    file: Path, names: list[str], rows: list[tuple[int, list[str]]], known: dict[str, float], rule, expected: str
+):
     """Returns the numbers of the one column that has a name out of `known`, times the factor of this name."""
     present = [name for name in known if name in names]
     if len(present) != 1:
@@ -106,4 +117,6 @@ def _temperature(file: Path, names: list[str], rows: list[tuple[int, list[str]]]
     if "temperature_k" in names and "temperature_c" not in names:
         kelvins = _column(file, names, rows, {"temperature_k": 1.0}, lambda v: 200 < v < 500, "kelvins from 200 to 500")
         return kelvins - 273.15
-    return _column(file, names, rows, {"temperature_c": 1.0}, lambda v: -60 < v < 200, "degrees Celsius from -60 to 200")
+    return _column(
+        file, names, rows, {"temperature_c": 1.0}, lambda v: -60 < v < 200, "degrees Celsius from -60 to 200"
+    )

@@ -42,11 +42,14 @@ def law_texts(step: Step) -> dict[str, str]:
     """Returns the laws of one scale as TOML by the name of their file: one, or one per seed."""
     if step.kind != "specimen":
         return {f"{step.name}.toml": law.toml(step.poisson) for law in step.laws}
-    return {f"{step.name}_seed_{seed}.toml": law.toml(step.poisson) for seed, law in zip(step.facts["seeds"], step.laws)}
+    return {
+        f"{step.name}_seed_{seed}.toml": law.toml(step.poisson) for seed, law in zip(step.facts["seeds"], step.laws)
+    }
 
 
 def mixture_table(chain: Chain) -> pandas.DataFrame:
-    """Returns |E*| and phase of the mixture at every temperature and frequency of the test, with predictions and bounds."""
+    """Returns |E*| and phase of the mixture at every temperature and frequency of the test, with predictions and
+    bounds."""
     design, model, last = chain.design, chain.binder.model, chain.steps[-1]
     mix, gradation = volumes(design.recipe), predictions.retained(design.recipe.gradation)
     index = {f: k for k, f in enumerate(map(rounded, last.frequency))}
@@ -80,9 +83,9 @@ def mixture_table(chain: Chain) -> pandas.DataFrame:
 
 
 def bounds(chain: Chain, mix: Volumes, shear: float) -> tuple[float, float]:
-    """Returns Hashin's and Shtrikman's bounds of Young's modulus [Pa] for aggregate, binder and air. shear: magnitude of the
-    binder's complex shear modulus [Pa]. The upper bound includes the air. The lower bound is for aggregate and binder alone,
-    because with air it is 0."""
+    """Returns Hashin's and Shtrikman's bounds of Young's modulus [Pa] for aggregate, binder and air. shear: magnitude
+    of the binder's complex shear modulus [Pa]. The upper bound includes the air. The lower bound is for aggregate and
+    binder alone, because with air it is 0."""
     design, poisson = chain.design, chain.design.binder.poisson_ratio
     phases = [
         (mix.aggregate, *stiffening.bulk_and_shear(design.rock_modulus, design.rock_poisson)),

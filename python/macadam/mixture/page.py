@@ -19,7 +19,10 @@ if TYPE_CHECKING:
     from macadam.mixture.driver import Chain
     from macadam.mixture.steps import Step
 
-_PREDICTED = (("e_star_hirsch_pa", "Hirsch (prediction)", "x"), ("e_star_witczak_pa", "Witczak 1-37A (prediction)", "+"))
+_PREDICTED = (
+    ("e_star_hirsch_pa", "Hirsch (prediction)", "x"),
+    ("e_star_witczak_pa", "Witczak 1-37A (prediction)", "+"),
+)
 
 
 def report(chain: Chain, table: pandas.DataFrame, file: Path) -> Path:
@@ -47,8 +50,8 @@ def _overview(page: Page, chain: Chain, table: pandas.DataFrame) -> None:
     ]
     page.text(f"|E*| and φ of the mixture are {ends[0]}, and {ends[1]}.", "lead")
     page.text(
-        "They are computed from the binder's measurements and the mix design. No factor was fitted to tests of a mixture, and the result has "
-        "not been compared with a measurement of this mixture."
+        "They are computed from the binder's measurements and the mix design. No factor was fitted to tests of a "
+        "mixture, and the result has not been compared with a measurement of this mixture."
     )
 
 
@@ -56,9 +59,10 @@ def _results(page: Page, chain: Chain, table: pandas.DataFrame) -> None:
     page.section("Stiffness modulus |E*| and phase angle φ")
     page.figure(
         _master(chain, table),
-        f"Master curves of all scales at {chain.design.binder.reference_temperature:g} °C. Bars: standard deviation over the seeds. Hirsch and "
-        "Witczak 1-37A are predictions by regressions to tests of other mixtures; they are not measurements. Grey: between the bounds of "
-        "Hashin and Shtrikman for the magnitudes of the moduli; the lower bound is for aggregate and binder without air voids.",
+        f"Master curves of all scales at {chain.design.binder.reference_temperature:g} °C. Bars: standard deviation "
+        "over the seeds. Hirsch and Witczak 1-37A are predictions by regressions to tests of other mixtures; they "
+        "are not measurements. Grey: between the bounds of Hashin and Shtrikman for the magnitudes of the moduli; "
+        "the lower bound is for aggregate and binder without air voids.",
         "master curves of all scales",
     )
     factor, unit = look.modulus_unit(table.e_star_pa)
@@ -85,11 +89,20 @@ def _master(chain: Chain, table: pandas.DataFrame) -> Any:
     factor, unit = look.modulus_unit(table.e_star_pa)
     shown = table.sort_values("reduced_frequency_hz")
     x = shown.reduced_frequency_hz
-    left.fill_between(x, factor * shown.hashin_shtrikman_lower_pa, factor * shown.hashin_shtrikman_upper_pa, color="#e9ebee", lw=0)
+    left.fill_between(
+        x, factor * shown.hashin_shtrikman_lower_pa, factor * shown.hashin_shtrikman_upper_pa, color="#e9ebee", lw=0
+    )
     for k, step in enumerate(chain.steps):
         last = step is chain.steps[-1]
-        more = {"color": look.COLOURS[k % len(look.COLOURS)], "label": step.name, "marker": "o" if last else "", "ms": 3}
-        left.errorbar(step.frequency, factor * step.e_star, np.nan_to_num(factor * step.e_star * step.e_scatter), **more)
+        more = {
+            "color": look.COLOURS[k % len(look.COLOURS)],
+            "label": step.name,
+            "marker": "o" if last else "",
+            "ms": 3,
+        }
+        left.errorbar(
+            step.frequency, factor * step.e_star, np.nan_to_num(factor * step.e_star * step.e_scatter), **more
+        )
         right.errorbar(step.frequency, step.phase, np.nan_to_num(step.phase_scatter), **more)
     for key, label, marker in _PREDICTED:
         left.plot(x, factor * shown[key], ls="", marker=marker, color="black", ms=4, label=label)
@@ -107,8 +120,9 @@ def _scales(page: Page, chain: Chain) -> None:
     page.table(
         ["scale", "how", "box", "aggregate in the solid (%)", "cells of aggregate (%)", "particles", "seeds"],
         [_row_of(step) for step in chain.steps[1:]],
-        "Each scale holds its aggregate in the material of the scale above it in this table; the first one in the binder. The aggregate in the "
-        "solid is by the mix design, without air voids; cells of aggregate are those of the specimens, relative to the box.",
+        "Each scale holds its aggregate in the material of the scale above it in this table; the first one in the "
+        "binder. The aggregate in the solid is by the mix design, without air voids; cells of aggregate are those of "
+        "the specimens, relative to the box.",
         words=3,
     )
     for step in chain.steps:
@@ -117,7 +131,8 @@ def _scales(page: Page, chain: Chain) -> None:
             page.table(
                 ["reduced frequency (Hz)"] + list(rows[0])[1:],
                 [[f"{value:.3g}" for value in row.values()] for row in rows],
-                f"|E*| of the {step.name} over |E*| of the binder by each rule. The computation uses {step.facts['rule']}.",
+                f"|E*| of the {step.name} over |E*| of the binder by each rule. The computation uses "
+                f"{step.facts['rule']}.",
                 words=0,
             )
     page.table(
@@ -127,7 +142,8 @@ def _scales(page: Page, chain: Chain) -> None:
             for step in chain.steps
             for law in step.laws
         ],
-        "Laws of the scales, with the range of reduced frequencies in which they hold and their largest difference from the computed values.",
+        "Laws of the scales, with the range of reduced frequencies in which they hold and their largest difference "
+        "from the computed values.",
     )
 
 
@@ -157,11 +173,21 @@ def _binder(page: Page, chain: Chain) -> None:
     creep = "" if stiffness is None else f", and {100 * stiffness:.2g} % of the creep stiffness"
     page.figure(
         _binder_figure(chain),
-        f"Measurements of the binder, and the fitted 2S2P1D model with the WLF shift (line). Its rms errors are {100 * modulus:.2g} % of |G*| and "
-        f"{phase:.2g}°{creep}. Grey: the reduced frequencies that the test needs.",
+        "Measurements of the binder, and the fitted 2S2P1D model with the WLF shift (line). Its rms errors are "
+        f"{100 * modulus:.2g} % of |G*| and {phase:.2g}°{creep}. Grey: the reduced frequencies that the test needs.",
         "master curve of the binder",
     )
-    values = (model.glass / 1e9, model.k, model.h, model.delta, model.tau, model.beta, model.c1, model.c2, float(model.reference))
+    values = (
+        model.glass / 1e9,
+        model.k,
+        model.h,
+        model.delta,
+        model.tau,
+        model.beta,
+        model.c1,
+        model.c2,
+        float(model.reference),
+    )
     page.table(
         ["glass |G*| (GPa)", "k", "h", "δ", "τ (s)", "β", "C1", "C2 (K)", "reference (°C)"],
         [[look.number(value) for value in values]],

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Predictions of |E*| by two published regressions, to be shown beside the computed modulus. They are fitted to tests of
-other mixtures; neither is a measurement.
+"""Predictions of |E*| by two published regressions, to be shown beside the computed modulus. They are fitted to tests
+of other mixtures; neither is a measurement.
 
 Hirsch: D. W. Christensen, T. Pellinen, R. F. Bonaquist, Journal of the Association of Asphalt Paving Technologists 72
 (2003). Witczak 1-37A: the dynamic modulus equation of the NCHRP Project 1-37A guide (2004)."""
@@ -42,8 +42,8 @@ class Retained:
 
 def retained(gradation: list[tuple[float, float]]) -> Retained:
     """Returns the gradation at the sieves of the Witczak equation. gradation: (sieve [m], passing fraction), coarsest
-    first; between two sieves the passing is interpolated over the logarithm of the size, below the finest sieve it falls
-    to 0 in proportion to the size."""
+    first; between two sieves the passing is interpolated over the logarithm of the size, below the finest sieve it
+    falls to 0 in proportion to the size."""
     sizes = np.log([s for s, _ in gradation][::-1])
     passing = np.array([p for _, p in gradation][::-1])
 
@@ -77,13 +77,7 @@ def witczak(frequency, eta, mix: Retained, air_voids: float, effective_binder: f
         - 0.058097 * air
         - 0.802208 * binder / (binder + air)
     )
-    rise = (
-        3.871977
-        - 0.0021 * mix.on_4_75
-        + 0.003958 * mix.on_9_5
-        - 0.000017 * mix.on_9_5**2
-        + 0.00547 * mix.on_19
-    )
+    rise = 3.871977 - 0.0021 * mix.on_4_75 + 0.003958 * mix.on_9_5 - 0.000017 * mix.on_9_5**2 + 0.00547 * mix.on_19
     return PSI * 10 ** (
         low + rise / (1 + np.exp(-0.603313 - 0.313351 * np.log10(frequency) - 0.393532 * np.log10(poise6)))
     )

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the specimens of a scale at the same time. A result is kept under a digest of its scene and the version of the program,
-and is not computed again."""
+"""Runs the specimens of a scale at the same time. A result is kept under a digest of its scene and the version of the
+program, and is not computed again."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ class Runner:
             (folder / name).mkdir(parents=True, exist_ok=True)
 
     def run(self, scale: str, made: list[tuple[int, dict[str, Any]]], progress: Callable[[str], None]) -> list[Run]:
-        """Runs the scenes of one scale. made: seed and scene of each specimen. Raises MixtureError with the message of the
-        program if a run fails. progress: called with a sentence after each specimen."""
+        """Runs the scenes of one scale. made: seed and scene of each specimen. Raises MixtureError with the message of
+        the program if a run fails. progress: called with a sentence after each specimen."""
         workers = min(self.workers, len(made))
         threads = max(1, self.cores // workers)
         jobs = [self._job(scale, seed, scene, threads) for seed, scene in made]
@@ -75,15 +75,25 @@ class Runner:
         except StudyError as error:
             raise MixtureError(f"scale {scale}: {error}") from None
         (self.folder / "failures" / f"{key}.json").unlink(missing_ok=True)
-        return {"key": key, "experiment": scale, "values": {"scale": scale, "seed": seed}, "command": ["run"], "scene": text,
-                "threads": threads, "program": self.program, "folder": str(self.folder)}
+        return {
+            "key": key,
+            "experiment": scale,
+            "values": {"scale": scale, "seed": seed},
+            "command": ["run"],
+            "scene": text,
+            "threads": threads,
+            "program": self.program,
+            "folder": str(self.folder),
+        }
 
     def _fail(self, scale: str, job: dict[str, Any]) -> None:
         file = self.folder / "failures" / f"{job['key']}.json"
         if not file.is_file():
             raise KeyboardInterrupt
         failure = json.loads(file.read_text(encoding="utf-8"))
-        raise MixtureError(f"scale {scale}, seed {job['values']['seed']}: {failure['message']}", 2 if failure["exit_code"] == 2 else 1)
+        raise MixtureError(
+            f"scale {scale}, seed {job['values']['seed']}: {failure['message']}", 2 if failure["exit_code"] == 2 else 1
+        )
 
     def _read(self, key: str) -> Run:
         folder = self.folder / "results" / key

@@ -6,18 +6,27 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from macadam.mixture.design import Design, Scale
+from macadam.mixture.design import Design
 from macadam.mixture.laws import Law
+from macadam.mixture.scales import Scale
 from macadam.mixture.volumes import Part
 
 
-def scene_of(design: Design, scale: Scale, part: Part, law: Law, poisson: float, seed: int, frequencies: list[float],
-             rule: str = "series") -> dict[str, Any]:
-    """Returns the scene of a specimen: a sweep over reduced frequencies [Hz] at the reference temperature, solved without time
-    steps.
+def scene_of(
+    design: Design,
+    scale: Scale,
+    part: Part,
+    law: Law,
+    poisson: float,
+    seed: int,
+    frequencies: list[float],
+    rule: str = "series",
+) -> dict[str, Any]:
+    """Returns the scene of a specimen: a sweep over reduced frequencies [Hz] at the reference temperature, solved
+    without time steps.
 
-    part: the aggregate of the specimen. law, poisson: of its mastic. rule: `rule` of `[network]`; "centres" is for tests of
-    the chain of commands only, because its moduli depend on the discretisation."""
+    part: the aggregate of the specimen. law, poisson: of its mastic. rule: `rule` of `[network]`; "centres" is for
+    tests of the chain of commands only, because its moduli depend on the discretisation."""
     air = part.recipe["air_voids"]
     specimen: dict[str, Any] = {
         "box": scale.box,

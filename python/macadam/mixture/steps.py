@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from macadam.mixture import volumes
-from macadam.mixture.design import Design, Scale
+from macadam.mixture.design import Design
 from macadam.mixture.laws import Curve, Fitter, Law
 from macadam.mixture.runs import Run, Runner
+from macadam.mixture.scales import Scale
 from macadam.mixture.scenes import scene_of
 from macadam.mixture.stiffening import RULES, stiffened
 from macadam.mixture.units import millimetres
@@ -81,8 +82,8 @@ def _deviation(values: list[np.ndarray]) -> np.ndarray:
 
 @dataclass
 class Workshop:
-    """What every scale needs: the design, the functions that run and fit, the binder's shift as keys of a scene, the
-    sentences so far, and the rule of `[network]`."""
+    """Holds the data that every scale needs: the design, the functions that run and fit, the binder's shift as keys of
+    a scene, the sentences so far, and the rule of `[network]`."""
 
     design: Design
     runner: Runner
@@ -99,7 +100,9 @@ def by_rule(shop: Workshop, scale: Scale, before: Step) -> Step:
     design, binder = shop.design, before.curves[0]
     c = volumes.filler_fraction(design.recipe, scale.lower)
     every = {
-        rule: stiffened(rule, binder.complex, before.poisson, design.rock_modulus, design.rock_poisson, c, scale.maximum_packing)
+        rule: stiffened(
+            rule, binder.complex, before.poisson, design.rock_modulus, design.rock_poisson, c, scale.maximum_packing
+        )
         for rule in RULES
     }
     curve = Curve.of(binder.frequency, every[scale.rule])
@@ -108,9 +111,10 @@ def by_rule(shop: Workshop, scale: Scale, before: Step) -> Step:
     low, high, middle = float(factors.min()), float(factors.max()), len(binder.frequency) // 2
     others = ", ".join(f"{rule} {ratio[rule][middle]:.3g}" for rule in RULES if rule != scale.rule)
     shop.decisions.add(
-        f"Scale {scale.name}: aggregate below {millimetres(scale.lower)} is {100 * c:.3g} % of its volume. The rule {scale.rule} makes it "
-        f"{ratio[scale.rule][middle]:.3g} times as stiff as the binder at {binder.frequency[middle]:.2g} Hz ({others}). The other rules would "
-        f"multiply |E*| of the {scale.name} by {low:.2f} to {high:.2f}, and |E*| of the mixture by a factor nearer to 1."
+        f"Scale {scale.name}: aggregate below {millimetres(scale.lower)} is {100 * c:.3g} % of its volume. The rule "
+        f"{scale.rule} makes it {ratio[scale.rule][middle]:.3g} times as stiff as the binder at "
+        f"{binder.frequency[middle]:.2g} Hz ({others}). The other rules would multiply |E*| of the {scale.name} by "
+        f"{low:.2f} to {high:.2f}, and |E*| of the mixture by a factor nearer to 1."
     )
     facts = {
         "below_m": scale.lower,
@@ -127,21 +131,22 @@ def by_rule(shop: Workshop, scale: Scale, before: Step) -> Step:
 
 
 def by_specimens(shop: Workshop, scale: Scale, before: Step, frequencies: list[float], last: bool) -> Step:
-    """Computes a scale by specimens, one per seed, at reduced frequencies [Hz]. The specimens use the laws of the seeds of the
-    scale below in turn, so that the scatter over the seeds includes the scatter of the scale below. last: whether it is the
-    mixture, which has the air voids and whose law nobody needs."""
+    """Computes a scale by specimens, one per seed, at reduced frequencies [Hz]. The specimens use the laws of the seeds
+    of the scale below in turn, so that the scatter over the seeds includes the scatter of the scale below. last:
+    whether it is the mixture, which has the air voids and whose law nobody needs."""
     design = shop.design
     part = volumes.part_of(design.recipe, scale.lower, scale.upper, scale.box_volume, last, scale.size_law)
     _describe(shop, scale, part, last)
     for law in before.laws:
         if not law.covers(frequencies):
             shop.warnings.add(
-                f"Scale {scale.name}: the law of {law.name} holds from {law.valid_hz[0]:.2g} to {law.valid_hz[1]:.2g} Hz and is used from "
-                f"{min(frequencies):.2g} to {max(frequencies):.2g} Hz."
+                f"Scale {scale.name}: the law of {law.name} holds from {law.valid_hz[0]:.2g} to {law.valid_hz[1]:.2g} "
+                f"Hz and is used from {min(frequencies):.2g} to {max(frequencies):.2g} Hz."
             )
     laws = [before.laws[k % len(before.laws)] for k in range(len(scale.seeds))]
     made = [
-        (seed, scene_of(design, scale, part, law, before.poisson, seed, frequencies, shop.rule)) for seed, law in zip(scale.seeds, laws)
+        (seed, scene_of(design, scale, part, law, before.poisson, seed, frequencies, shop.rule))
+        for seed, law in zip(scale.seeds, laws)
     ]
     runs = shop.runner.run(scale.name, made, shop.progress)
     for words in sorted({w for r in runs for w in r.summary.get("warnings") or []}):
@@ -164,20 +169,21 @@ def _describe(shop: Workshop, scale: Scale, part: volumes.Part, last: bool) -> N
         shop.decisions.add(f"Scale {scale.name}: {words}")
     grains = ", ".join(f"{n:.0f} of {1e3 * a:g}-{1e3 * b:g} mm" for (a, b), n in part.grains.items())
     shop.decisions.add(
-        f"Scale {scale.name}: {100 * part.c:.3g} % of the solid volume is aggregate, about {sum(part.grains.values()):.0f} grains ({grains}) "
-        f"in a box of {' x '.join(f'{1e3 * e:g}' for e in scale.box)} mm; {len(scale.seeds)} seeds."
+        f"Scale {scale.name}: {100 * part.c:.3g} % of the solid volume is aggregate, about "
+        f"{sum(part.grains.values()):.0f} grains ({grains}) in a box of "
+        f"{' x '.join(f'{1e3 * e:g}' for e in scale.box)} mm; {len(scale.seeds)} seeds."
     )
     largest = max((b for _, b in part.grains), default=0.0)
     if min(scale.box) < _SMALL * largest:
         shop.warnings.add(
-            f"Scale {scale.name}: the shortest edge of the box is {min(scale.box) / largest:.2g} times the largest grain. Below {_SMALL:g} "
-            "times, specimens differ much and their mean may be wrong."
+            f"Scale {scale.name}: the shortest edge of the box is {min(scale.box) / largest:.2g} times the largest "
+            f"grain. Below {_SMALL:g} times, specimens differ much and their mean may be wrong."
         )
     if last and part.recipe["air_voids"] > 0:
         radius = scale.void_radius or scale.radius
         shop.decisions.add(
-            f"Scale {scale.name}: the air voids, {100 * part.recipe['air_voids']:.3g} % of the volume, are voids with radii of "
-            f"{1e3 * radius[0]:.3g} to {1e3 * radius[1]:.3g} mm, which carry no load."
+            f"Scale {scale.name}: the air voids, {100 * part.recipe['air_voids']:.3g} % of the volume, are voids with "
+            f"radii of {1e3 * radius[0]:.3g} to {1e3 * radius[1]:.3g} mm, which carry no load."
         )
 
 

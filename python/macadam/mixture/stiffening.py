@@ -36,9 +36,9 @@ def nielsen(matrix, inclusion, c: float, poisson: float, maximum_packing: float 
 
 
 def hashin_shtrikman(matrix, inclusion, c: float):
-    """Returns bulk and shear modulus of Hashin's and Shtrikman's expressions for inclusions in a matrix. With real moduli
-    and a matrix softer than the inclusions they are the lower bounds of an isotropic material, with a stiffer matrix the
-    upper bounds. matrix, inclusion: (bulk, shear)."""
+    """Returns bulk and shear modulus of Hashin's and Shtrikman's expressions for inclusions in a matrix. With real
+    moduli and a matrix softer than the inclusions they are the lower bounds of an isotropic material, with a stiffer
+    matrix the upper bounds. matrix, inclusion: (bulk, shear)."""
     (k, g), (ki, gi) = matrix, inclusion
     bulk = k + c * (ki - k) / (1 + 3 * (1 - c) * (ki - k) / (3 * k + 4 * g))
     shear = g + c * (gi - g) / (1 + 6 * (1 - c) * (gi - g) * (k + 2 * g) / (5 * g * (3 * k + 4 * g)))
@@ -46,9 +46,9 @@ def hashin_shtrikman(matrix, inclusion, c: float):
 
 
 def differential(matrix, inclusion, c: float, steps: int = 200):
-    """Returns bulk and shear modulus of the differential scheme: small parts of inclusions are added to the material that
-    has been made so far. The differential equations are integrated over −ln(1 − c) by the Runge–Kutta method of fourth
-    order. matrix, inclusion: (bulk, shear)."""
+    """Returns bulk and shear modulus of the differential scheme: small parts of inclusions are added to the material
+    that has been made so far. The differential equations are integrated over −ln(1 − c) by the Runge–Kutta method of
+    fourth order. matrix, inclusion: (bulk, shear)."""
     ki, gi = inclusion
 
     def rate(state):
@@ -66,10 +66,17 @@ def differential(matrix, inclusion, c: float, steps: int = 200):
     return state[0], state[1]
 
 
-def stiffened(rule: str, young, poisson: float, inclusion_young: float, inclusion_poisson: float, c: float,
-              maximum_packing: float = MAXIMUM_PACKING):
-    """Returns Young's modulus of a matrix with inclusions by one of RULES. young, poisson: of the matrix, whose modulus may
-    be an array of complex moduli, one per frequency. c: volume fraction of the inclusions."""
+def stiffened(
+    rule: str,
+    young,
+    poisson: float,
+    inclusion_young: float,
+    inclusion_poisson: float,
+    c: float,
+    maximum_packing: float = MAXIMUM_PACKING,
+):
+    """Returns Young's modulus of a matrix with inclusions by one of RULES. young, poisson: of the matrix, whose modulus
+    may be an array of complex moduli, one per frequency. c: volume fraction of the inclusions."""
     matrix = bulk_and_shear(np.asarray(young), poisson)
     inclusion = bulk_and_shear(inclusion_young, inclusion_poisson)
     if rule == "nielsen":
@@ -79,9 +86,9 @@ def stiffened(rule: str, young, poisson: float, inclusion_young: float, inclusio
 
 
 def bounds(phases: Sequence[tuple[float, float, float]]) -> tuple[float, float]:
-    """Returns the lower and the upper bound of Young's modulus of an isotropic material, after Hashin and Shtrikman and,
-    for more than two phases, Walpole. phases: (volume fraction, bulk, shear), real moduli; a void has the moduli 0, with
-    which the lower bound is 0."""
+    """Returns the lower and the upper bound of Young's modulus of an isotropic material, after Hashin and Shtrikman
+    and, for more than two phases, Walpole. phases: (volume fraction, bulk, shear), real moduli; a void has the moduli
+    0, with which the lower bound is 0."""
     total = sum(c for c, _, _ in phases)
 
     def mean(values: Sequence[float], comparison: float) -> float:

@@ -56,26 +56,39 @@ class Section:
             self.refuse(key, "nothing", expected)
         return self.table[key]
 
-    def number(self, key: str, units: Mapping[str, float], default: float | None = None,
-               rule: Callable[[float], bool] = lambda _: True, expected: str = "a number") -> float:
-        """Returns a number in SI units. Raises MixtureError if it is missing without a default, is no number, has a unit
-        that is not in `units`, or breaks the rule that `expected` describes."""
+    def number(
+        self,
+        key: str,
+        units: Mapping[str, float],
+        default: float | None = None,
+        rule: Callable[[float], bool] = lambda _: True,
+        expected: str = "a number",
+    ) -> float:
+        """Returns a number in SI units. Raises MixtureError if it is missing without a default, is no number, has a
+        unit that is not in `units`, or breaks the rule that `expected` describes."""
         if key not in self.table:
             if default is None:
                 self.refuse(key, "nothing", expected)
             return float(default)
         return self.value(key, self.table[key], units, rule, expected)
 
-    def numbers(self, key: str, units: Mapping[str, float], rule: Callable[[float], bool] = lambda _: True,
-                expected: str = "numbers", size: int | None = None) -> list[float]:
+    def numbers(
+        self,
+        key: str,
+        units: Mapping[str, float],
+        rule: Callable[[float], bool] = lambda _: True,
+        expected: str = "numbers",
+        size: int | None = None,
+    ) -> list[float]:
         """Returns a list of numbers in SI units, of `size` entries if a size is given."""
         values = self.require(key, expected)
         if not isinstance(values, list) or not values or size not in (None, len(values)):
             self.refuse(key, repr(values), f"a list of {expected}" if size is None else f"{size} values: {expected}")
         return [self.value(key, v, units, rule, expected) for v in values]
 
-    def value(self, key: str, value: Any, units: Mapping[str, float], rule: Callable[[float], bool],
-              expected: str) -> float:
+    def value(
+        self, key: str, value: Any, units: Mapping[str, float], rule: Callable[[float], bool], expected: str
+    ) -> float:
         """Returns one value of a key in SI units."""
         number = math.nan
         if isinstance(value, (int, float)) and not isinstance(value, bool):

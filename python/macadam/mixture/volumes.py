@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volumes of a mix design, and its division into scales: the recipe of each scale's specimen, the grains in its box, and
-the size classes that are merged because they have less than one grain.
+"""Volumes of a mix design, and its division into scales: the recipe of each scale's specimen, the grains in its box,
+and the size classes that are merged because they have less than one grain.
 
 The volumes follow EN 12697-5 and EN 12697-8, as `[specimen.recipe]` of a scene does (docs/mix-design.md)."""
 
@@ -30,8 +30,8 @@ class Recipe:
     bulk_density: float | None = None
 
     def density(self, interval: int) -> float:
-        """Returns the density of the aggregate between the sieves `interval` and `interval` + 1, or of the filler for the
-        last sieve."""
+        """Returns the density of the aggregate between the sieves `interval` and `interval` + 1, or of the filler for
+        the last sieve."""
         if interval == len(self.gradation) - 1:
             return self.filler_density or self.aggregate_density[-1]
         return self.aggregate_density[interval if len(self.aggregate_density) > 1 else 0]
@@ -88,8 +88,17 @@ def volumes(recipe: Recipe) -> Volumes:
     effective = (binder - absorbed) / recipe.binder_density
     solid = sum(classes) + effective
     air = recipe.air_voids if recipe.air_voids is not None else max(0.0, 1 - recipe.bulk_density * solid)
-    return Volumes(classes, binder, binder - absorbed, absorbed / aggregate, effective, solid / (1 - air), air, 1 / solid,
-                   (1 - air) / solid)
+    return Volumes(
+        classes,
+        binder,
+        binder - absorbed,
+        absorbed / aggregate,
+        effective,
+        solid / (1 - air),
+        air,
+        1 / solid,
+        (1 - air) / solid,
+    )
 
 
 def mean_grain(fine: float, coarse: float, size_law: str = "log_uniform") -> float:
@@ -106,8 +115,8 @@ def mean_grain(fine: float, coarse: float, size_law: str = "log_uniform") -> flo
 @dataclass
 class Part:
     """The part of a mix design that the specimen of one scale holds. recipe: its keys of `[specimen.recipe]`. c: volume
-    fraction of the particles in the solid. grains: number of particles per class, by its two sieves [m]. merged: sentences
-    about classes that were merged."""
+    fraction of the particles in the solid. grains: number of particles per class, by its two sieves [m]. merged:
+    sentences about classes that were merged."""
 
     recipe: dict[str, Any]
     c: float
@@ -128,11 +137,12 @@ def filler_fraction(recipe: Recipe, below: float) -> float:
     return fine / (fine + v.effective_binder)
 
 
-def part_of(recipe: Recipe, lower: float, upper: float, box_volume: float, with_air: bool,
-            size_law: str = "log_uniform") -> Part:
+def part_of(
+    recipe: Recipe, lower: float, upper: float, box_volume: float, with_air: bool, size_law: str = "log_uniform"
+) -> Part:
     """Returns the part of a mix design between two sieves of its gradation, in all effective binder and all finer
-    aggregate. with_air: whether it has the air voids of the design; the scales below the mixture have none. Classes with
-    less volume than their smallest grain are merged with the next."""
+    aggregate. with_air: whether it has the air voids of the design; the scales below the mixture have none. Classes
+    with less volume than their smallest grain are merged with the next."""
     v = volumes(recipe)
     first, last = index_of(recipe, upper), index_of(recipe, lower)
     air = v.air_voids if with_air else 0.0
@@ -179,8 +189,8 @@ def _merge(sieves: list[float], passing: list[float], of_box: list[float], said:
             continue
         to = finer[0]
         said.append(
-            f"The class {millimetres(sieves[k + 1])[:-3]}-{millimetres(sieves[k])} has {of_box[k] / smallest:.2g} of the volume of "
-            f"its smallest grain in this box; its material is merged with the class "
+            f"The class {millimetres(sieves[k + 1])[:-3]}-{millimetres(sieves[k])} has {of_box[k] / smallest:.2g} of "
+            "the volume of its smallest grain in this box; its material is merged with the class "
             f"{millimetres(sieves[to + 1])[:-3]}-{millimetres(sieves[to])}."
         )
         of_box[to] += of_box[k]
