@@ -261,6 +261,17 @@ def test_the_binder_is_recovered(tmp_path):
     assert high == pytest.approx(float(KNOWN.reduced(5, 10)), rel=1e-2)
 
 
+def test_only_measurements_near_the_test_are_fitted(tmp_path):
+    given = design.Binder(measured(tmp_path, (-5, 4, 16, 28, 40, 52, 64)), None, 0.95e9, 0.0, 0.45, 20.0)
+    near = binder.fit_binder(given, [10, 25], [1, 10])
+    assert (near.used, near.total) == (24, 56)  # 4, 16 and 28 °C
+    low, high = binder.needed_range(near.model, [10, 25], [1, 10])
+    assert near.range[0] < low and near.range[1] > high
+    # a test that needs the hot end of the data keeps it, although 64 °C is far from the temperatures of the test
+    wide = binder.fit_binder(given, [10, 40], [1e-4, 10])
+    assert 64 in wide.dsr.temperature
+
+
 def test_creep_stiffness_extends_the_range(tmp_path):
     dsr = measured(tmp_path, (22, 28, 34, 40, 52), noise=0.02)
     rows = ["temperature_c,time_s,stiffness_mpa"]
@@ -411,14 +422,16 @@ def test_open_values_are_decided_and_reported(tables):
         "Poisson's ratio 0.45",
         "E = 60 GPa",
         "box of 8 x 8 x 12 mm",
-        "box of 44.8 x 44.8 x 67.2 mm",
+        "box of 32 x 32 x 48 mm",
     ):
         assert words in said
     assert read.scales[1].radius[0] == pytest.approx(0.87 * np.mean(read.scales[1].radius))
 
 
-def change(*keys, to=None, drop=False):
+def change(*keys, to=None, drop=False, then=None):
     def made(tables):
+        if then:
+            change(*then[:-1], to=then[-1])(tables)
         at = tables
         for key in keys[:-1]:
             at = at[key]
@@ -458,15 +471,23 @@ WRONG = [
         change("scale", 1, "sieves", to=["1 mm", "2 mm"]),
         r"number 2, sieves: found 1 mm, expected 0.25 mm, where scale mastic ends",
     ),
-    (change("scale", 2, "sieves", to=["2 mm", "8 mm"]), r"number 3, sieves: found 8 mm, expected 11.2 mm"),
+    (
+        change("scale", 2, "sieves", to=["2 mm", "8 mm"]),
+        r"number 3, sieves: found 8 mm, with 0.2 % of the aggregate above it",
+    ),
     (change("scale", 1, "name", to="mastic"), r"number 2, name: found 'mastic'"),
     (change("scale", 2, "seeds", to=[1, 1]), r"number 3, seeds: found \[1, 1\]"),
     (
-        change("scale", 2, "box", to=["9 mm", "24 mm", "30 mm"]),
-        r"number 3, box: found an edge of 9 mm, expected at least the largest grain",
+        change("scale", 2, "box", to=["7 mm", "24 mm", "30 mm"]),
+        r"number 3, box: found an edge of 7 mm, expected at least the largest grain",
     ),
     (change("scale", 2, "radius", to=["1 mm", "0.5 mm"]), r"radius: found .* expected the smaller radius first"),
     (change("scale", 1, "void_radius", to=["1 mm", "2 mm"]), r"void_radius: found this key"),
+    (change("scale", 0, drop=True), r"number 1, sieves: found 0.25 mm, with 16 % of the aggregate below it"),
+    (
+        change("recipe", "gradation", 4, to=["1 mm", "46 %"], then=("recipe", "gradation", 5, ["0.25 mm", "46 %"])),
+        "sieves: found no aggregate between 0.25 mm and 2 mm",
+    ),
     (change("run", to={"backend": "gpu"}), r"\[run\] backend: found 'gpu'"),
     (change("scale", to=[]), r"scale: found \[\]"),
 ]

@@ -7,7 +7,7 @@ has a prior.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from macadam.mixture.measurements import Bbr, Dsr, read_bbr, read_dsr
 
 MODULUS_ERROR, PHASE_ERROR, STIFFNESS_ERROR = 0.03, 1.0, 0.05  # standard deviations: relative, degrees, relative
 _MARGIN = 1.0  # decades beyond the range of the test in which measurements are still used
+_KELVINS = 10.0  # largest distance from the temperatures of the test; over more the shift is less like WLF
 _LEAST = 12  # smallest number of measurements of a fit
 
 
@@ -173,19 +174,22 @@ def _fit(dsr: Dsr, bbr: Bbr | None, binder: Binder, start: Model | None) -> Mode
         first = np.array([*s, *tail])
         if np.isfinite(residuals(first)).all():
             found.append(least_squares(residuals, first))
+    if not found:
+        extent = f"moduli from {dsr.modulus.min():.3g} to {dsr.modulus.max():.3g} Pa"
+        refuse(binder.file, "measurements", f"{extent}, with which no fit can start", "moduli of a binder")
     return _model(min(found, key=lambda f: f[1])[0], binder)
 
 
 def fit_binder(binder: Binder, temperatures: list[float], frequencies: list[float]) -> BinderFit:
-    """Fits the binder's law to its measurements. After a first fit of all of them, the measurements within a decade of
-    the reduced range of the test are fitted again, if they are enough."""
+    """Fits the binder's law to its measurements. After a first fit of all of them, those near the test are fitted again:
+    at most a decade beyond its reduced range and 10 K beyond its temperatures, if they are enough."""
     dsr = read_dsr(binder.file)
     bbr = read_bbr(binder.bbr) if binder.bbr else None
     model = _fit(dsr, bbr, binder, None)
     total, reduced = len(dsr.modulus), model.reduced(dsr.temperature, dsr.frequency)
     low, high = needed_range(model, temperatures, frequencies)
-    kept = (reduced >= low / 10**_MARGIN) & (reduced <= high * 10**_MARGIN)
-    if _LEAST <= kept.sum() < total and len(np.unique(np.round(dsr.temperature[kept]))) >= 3:
+    kept = _kept(dsr, reduced, low, high, temperatures)
+    if kept.sum() < total:
         dsr = dsr.part(kept)
         model = _fit(dsr, bbr, binder, replace(model))
     if not np.isfinite(model.log_shift(np.array(temperatures))).all():
@@ -206,6 +210,20 @@ def fit_binder(binder: Binder, temperatures: list[float], frequencies: list[floa
     every = np.concatenate(extent)
     errors = (_rms(np.log(abs(shear) / dsr.modulus)), _rms(np.degrees(np.angle(shear)) - dsr.phase), stiffness)
     return BinderFit(model, dsr, bbr, len(dsr.modulus), total, errors, (float(every.min()), float(every.max())))
+
+
+def _kept(dsr: Dsr, reduced: np.ndarray, low: float, high: float, temperatures: Sequence[float]) -> np.ndarray:
+    """Returns the mask of the measurements that are near a test. low, high: its reduced range [Hz]. A condition that
+    leaves too few measurements, or that shortens the part of the reduced range that is measured, is not applied."""
+    kept = np.ones(len(reduced), bool)
+    near = (dsr.temperature >= min(temperatures) - _KELVINS) & (dsr.temperature <= max(temperatures) + _KELVINS)
+    for condition in ((reduced >= low / 10**_MARGIN) & (reduced <= high * 10**_MARGIN), near):
+        both = kept & condition
+        if both.sum() < _LEAST or len(np.unique(np.round(dsr.temperature[both]))) < 3:
+            continue
+        if reduced[both].min() <= max(low, reduced.min()) and reduced[both].max() >= min(high, reduced.max()):
+            kept = both
+    return kept
 
 
 def needed_range(model: Model, temperatures: list[float], frequencies: list[float]) -> tuple[float, float]:

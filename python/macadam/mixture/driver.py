@@ -166,8 +166,8 @@ def _judge_binder(
     modulus, phase, stiffness = found.errors
     creep = "" if stiffness is None else f", {100 * stiffness:.2g} % of creep stiffness"
     decisions.add(
-        f"Binder: 2S2P1D with WLF, fitted to the {found.used} of {found.total} shear moduli that are within a decade "
-        f"of the test's range; rms errors {100 * modulus:.2g} % of |G*|, {phase:.2g} degrees{creep}; glass modulus "
+        f"Binder: 2S2P1D with WLF, fitted to the {found.used} of {found.total} shear moduli that are near the test; "
+        f"rms errors {100 * modulus:.2g} % of |G*|, {phase:.2g} degrees{creep}; glass modulus "
         f"{found.model.glass / 1e9:.3g} GPa in shear."
     )
     decisions.add(

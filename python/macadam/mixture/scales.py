@@ -13,9 +13,10 @@ from macadam.mixture import units
 from macadam.mixture.errors import refuse
 from macadam.mixture.stiffening import MAXIMUM_PACKING, RULES
 from macadam.mixture.units import Section, millimetres, positive
-from macadam.mixture.volumes import Recipe, index_of, volumes
+from macadam.mixture.volumes import Recipe, index_of, part_of, volumes
 
 _SIZE_LAWS = ("log_uniform", "uniform", "volume_uniform")
+_NOMINAL = 0.98  # fraction of a scale's aggregate that passes the sieve from which a box is chosen
 _SPHERES = 15_000  # number of mastic spheres for which radii that the design does not give are chosen
 
 
@@ -149,35 +150,27 @@ def _specimen(
         section.refuse(
             "sieves", millimetres(lower), f"{millimetres(below.upper or below.lower)}, where scale {below.name} ends"
         )
-    coarsest = next(s for (s, _), (_, p) in zip(recipe.gradation, recipe.gradation[1:]) if p < 1)
-    if last and upper < coarsest:
+    held = recipe.passing(upper) - recipe.passing(lower)
+    if held <= 0:
+        section.refuse(
+            "sieves", f"no aggregate between {millimetres(lower)} and {millimetres(upper)}", "some aggregate"
+        )
+    if last and recipe.passing(upper) < 1:
+        above = f"{millimetres(upper)}, with {100 * (1 - recipe.passing(upper)):.3g} % of the aggregate above it"
+        section.refuse("sieves", above, "a sieve that all aggregate passes, because this is the last scale")
+    if below is None and recipe.passing(lower) > 0:
         section.refuse(
             "sieves",
-            millimetres(upper),
-            f"{millimetres(coarsest)}, because the last scale holds the coarsest aggregate",
+            f"{millimetres(lower)}, with {100 * recipe.passing(lower):.3g} % of the aggregate below it",
+            "a first [[scale]] with a rule for this aggregate",
         )
     scale = Scale(name, lower, upper, poisson_ratio=_ratio(section))
-    largest = min(upper, coarsest)
-    edges = {"expected": "three edges above 0", "rule": positive, "size": 3}
-    if "box" in section:
-        scale.box = section.numbers("box", units.LENGTH, **edges)
-    elif last and "box" in test:
-        scale.box = test.numbers("box", units.LENGTH, **edges)
-    else:
-        scale.box = [4 * largest, 4 * largest, 6 * largest]
-        said.append(
-            f"Scale {name}: box of {' x '.join(f'{1e3 * e:g}' for e in scale.box)} mm, four times the largest grain "
-            "and half as high again, because no box is given."
-        )
-    if min(scale.box) < largest:
-        section.refuse(
-            "box", f"an edge of {millimetres(min(scale.box))}", f"at least the largest grain, {millimetres(largest)}"
-        )
     scale.seeds = _seeds(section)
     scale.size_law = section.text("size_law", _SIZE_LAWS, "log_uniform")
     scale.points_per_decade = int(
         section.number("points_per_decade", {}, 3, lambda v: v in range(1, 21), "a whole number from 1 to 20")
     )
+    _set_box(section, scale, recipe, test if last else None, said)
     if "radius" in section:
         scale.radius = section.numbers("radius", units.LENGTH, positive, "the smallest and the largest radius", 2)
         if scale.radius[0] > scale.radius[1]:
@@ -219,6 +212,28 @@ def _specimen(
         if isinstance(library, str) and (folder / library).is_dir():
             scale.shapes["library"] = str((folder / library).resolve())
     return scale
+
+
+def _set_box(section: Section, scale: Scale, recipe: Recipe, test: Section | None, said: list[str]) -> None:
+    """Sets the box of a scale, and checks that its largest grain fits. test: the section [test] for the last scale."""
+    edges = {"expected": "three edges above 0", "rule": positive, "size": 3}
+    if "box" in section:
+        scale.box = section.numbers("box", units.LENGTH, **edges)
+    elif test is not None and "box" in test:
+        scale.box = test.numbers("box", units.LENGTH, **edges)
+    else:
+        most = recipe.passing(scale.lower) + _NOMINAL * (recipe.passing(scale.upper) - recipe.passing(scale.lower))
+        largest = min(s for s, p in recipe.gradation if scale.lower < s <= scale.upper and p >= most)
+        scale.box = [4 * largest, 4 * largest, 6 * largest]
+        said.append(
+            f"Scale {scale.name}: box of {' x '.join(f'{1e3 * e:g}' for e in scale.box)} mm, because no box is given: "
+            f"4 x 4 x 6 times the sieve that {100 * _NOMINAL:g} % of its aggregate pass."
+        )
+    part = part_of(recipe, scale.lower, scale.upper, scale.box_volume, test is not None, scale.size_law)
+    largest = max(coarse for _, coarse in part.grains)
+    if min(scale.box) < largest:
+        expected = f"at least the largest grain, {millimetres(largest)}"
+        section.refuse("box", f"an edge of {millimetres(min(scale.box))}", expected)
 
 
 def _seeds(section: Section) -> list[int]:

@@ -7,7 +7,7 @@ The volumes follow EN 12697-5 and EN 12697-8, as `[specimen.recipe]` of a scene 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from macadam.mixture.units import millimetres
@@ -35,6 +35,10 @@ class Recipe:
         if interval == len(self.gradation) - 1:
             return self.filler_density or self.aggregate_density[-1]
         return self.aggregate_density[interval if len(self.aggregate_density) > 1 else 0]
+
+    def passing(self, sieve: float) -> float:
+        """Returns the fraction of the aggregate's mass that passes a sieve of the gradation."""
+        return self.gradation[index_of(self, sieve)][1]
 
     def masses(self) -> list[float]:
         """Returns the mass fraction of the aggregate in each interval between two sieves, then that of the filler."""
@@ -200,8 +204,3 @@ def _merge(sieves: list[float], passing: list[float], of_box: list[float], said:
         else:
             for j in range(to + 1, k + 1):
                 passing[j] = passing[k + 1]
-
-
-def without_air(recipe: Recipe) -> Recipe:
-    """Returns the same mix design with no air voids."""
-    return replace(recipe, air_voids=0.0, bulk_density=None)
