@@ -92,7 +92,7 @@ def test_decisions_are_printed_and_kept(made):
     assert (summary["decisions"], summary["warnings"]) == (found.decisions, found.warnings)
     words = " ".join(said)
     assert "merged with the class 5.6-8 mm" in words and "are voids with radii" in words and "rule nielsen" in words
-    assert "the shortest edge of the box is 1.8 times the largest grain" in words
+    assert "the shortest edge of the box is 1.75 times the largest grain" in words
 
 
 def test_the_report(made):

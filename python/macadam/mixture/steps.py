@@ -176,7 +176,7 @@ def _describe(shop: Workshop, scale: Scale, part: volumes.Part, last: bool) -> N
     largest = max((b for _, b in part.grains), default=0.0)
     if min(scale.box) < _SMALL * largest:
         shop.warnings.add(
-            f"Scale {scale.name}: the shortest edge of the box is {min(scale.box) / largest:.2g} times the largest "
+            f"Scale {scale.name}: the shortest edge of the box is {min(scale.box) / largest:.3g} times the largest "
             f"grain. Below {_SMALL:g} times, specimens differ much and their mean may be wrong."
         )
     if last and part.recipe["air_voids"] > 0:
