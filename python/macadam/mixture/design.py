@@ -105,15 +105,15 @@ def _design(tables: Mapping[str, Any], file: Path, folder: Path) -> Design:
 
 
 def _binder(section: Section, folder: Path, said: list[str]) -> Binder:
-    paths: list[Path | None] = []
-    for key in ("file", "bbr"):
-        if key == "bbr" and key not in section:
-            paths.append(None)
-            continue
-        path = folder / section.text(key)
-        if not path.is_file():
-            section.refuse(key, repr(str(section.table[key])), f"a table of measurements; there is no file {path}")
-        paths.append(path)
+    def path(key: str) -> Path:
+        file = folder / section.text(key)
+        if not file.is_file():
+            section.refuse(
+                key, repr(str(section.table[key])), f"a table of measurements; the file {file} does not exist"
+            )
+        return file
+
+    dsr, bbr = path("file"), path("bbr") if "bbr" in section else None
     glass = section.number(
         "glass_modulus", units.MODULUS, 1e9, lambda v: 1e8 <= v <= 1e10, "a shear modulus from 0.1 to 10 GPa"
     )
@@ -131,7 +131,7 @@ def _binder(section: Section, folder: Path, said: list[str]) -> Binder:
         )
     if "poisson_ratio" not in section:
         said.append("Binder: Poisson's ratio 0.45, because [binder] poisson_ratio is not given.")
-    return Binder(paths[0], paths[1], glass, std, poisson, reference)
+    return Binder(dsr, bbr, glass, std, poisson, reference)
 
 
 def _recipe(table: Any, file: Path) -> Recipe:
@@ -178,7 +178,7 @@ def _recipe(table: Any, file: Path) -> Recipe:
     binder = section.number(
         "binder", units.FRACTION, None, lambda v: 0 < v < (1 if of == "mix" else 3), "a binder content above 0"
     )
-    density = {"expected": "a density from 200 to 10000 kg/m3", "rule": lambda v: 200 <= v <= 10_000}
+    density: dict[str, Any] = {"expected": "a density from 200 to 10000 kg/m3", "rule": lambda v: 200 <= v <= 10_000}
     aggregate = section.require("aggregate_density", "a density, or a list with one per interval between two sieves")
     if isinstance(aggregate, list):
         aggregate = section.numbers(

@@ -72,7 +72,7 @@ class Law:
     def modulus(self, frequency) -> np.ndarray:
         """Returns the complex modulus [Pa] at reduced frequencies [Hz]."""
         s = 2j * np.pi * np.asarray(frequency, float)[..., None]
-        units = np.sum(1 / (np.array(self.E) + s * np.array(self.C)), axis=-1) if self.E else 0
+        units = np.sum(1 / (np.array(self.E) + s * np.array(self.C)), axis=-1)
         flow = 0 if np.isinf(self.C_m) else 1 / (s[..., 0] * self.C_m)
         return 1 / (1 / self.E_m + flow + units)
 

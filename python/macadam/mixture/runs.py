@@ -41,7 +41,7 @@ class Runner:
         for name in ("results", "failures", "running"):
             (folder / name).mkdir(parents=True, exist_ok=True)
 
-    def run(self, scale: str, made: list[tuple[int, dict[str, Any]]], progress: Callable[[str], None]) -> list[Run]:
+    def run(self, scale: str, made: list[tuple[int, dict[str, Any]]], progress: Callable[[str], object]) -> list[Run]:
         """Runs the scenes of one scale. made: seed and scene of each specimen. Raises MixtureError with the message of
         the program if a run fails. progress: called with a sentence after each specimen."""
         workers = min(self.workers, len(made))

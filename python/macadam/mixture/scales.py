@@ -91,15 +91,12 @@ def read_scales(root: Section, file: Path, folder: Path, recipe: Recipe, test: S
 
 
 def _sieve(section: Section, key: str, value: float, recipe: Recipe) -> float:
-    """Returns a sieve of the gradation that has this size. Raises MixtureError if there is none."""
-    k = index_of(recipe, value)
-    if k is None:
-        section.refuse(
-            key,
-            millimetres(value),
-            "a sieve of the gradation: " + ", ".join(f"{1e3 * s:g}" for s, _ in recipe.gradation) + " mm",
-        )
-    return recipe.gradation[k][0]
+    """Returns the sieve of the gradation that has this size. Raises MixtureError if the gradation has no such sieve."""
+    try:
+        return recipe.gradation[index_of(recipe, value)][0]
+    except KeyError:
+        sieves = ", ".join(f"{1e3 * s:g}" for s, _ in recipe.gradation)
+        refuse(section.file, section.at(key), millimetres(value), f"a sieve of the gradation: {sieves} mm")
 
 
 def _rule(section: Section, name: str, recipe: Recipe, k: int, last: bool) -> Scale:
@@ -216,7 +213,7 @@ def _specimen(
 
 def _set_box(section: Section, scale: Scale, recipe: Recipe, test: Section | None, said: list[str]) -> None:
     """Sets the box of a scale, and checks that its largest grain fits. test: the section [test] for the last scale."""
-    edges = {"expected": "three edges above 0", "rule": positive, "size": 3}
+    edges: dict[str, Any] = {"expected": "three edges above 0", "rule": positive, "size": 3}
     if "box" in section:
         scale.box = section.numbers("box", units.LENGTH, **edges)
     elif test is not None and "box" in test:

@@ -7,7 +7,7 @@ import difflib
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from typing import Any, NoReturn
 
 from macadam.mixture.errors import refuse
 
@@ -46,7 +46,7 @@ class Section:
         """Returns the name of a key in messages, such as `[binder] file`."""
         return f"{self.name} {key}".strip()
 
-    def refuse(self, key: str, found: Any, expected: str) -> None:
+    def refuse(self, key: str, found: Any, expected: str) -> NoReturn:
         """Raises MixtureError about a key."""
         refuse(self.file, self.at(key), found, expected)
 

@@ -91,7 +91,7 @@ def volumes(recipe: Recipe) -> Volumes:
         absorbed = max(0.0, binder - recipe.binder_density * (1 / recipe.maximum_density - sum(classes)))
     effective = (binder - absorbed) / recipe.binder_density
     solid = sum(classes) + effective
-    air = recipe.air_voids if recipe.air_voids is not None else max(0.0, 1 - recipe.bulk_density * solid)
+    air = recipe.air_voids if recipe.air_voids is not None else max(0.0, 1 - (recipe.bulk_density or 0.0) * solid)
     return Volumes(
         classes,
         binder,
@@ -128,9 +128,12 @@ class Part:
     merged: list[str] = field(default_factory=list)
 
 
-def index_of(recipe: Recipe, sieve: float) -> int | None:
-    """Returns the index of a sieve of the gradation; None if there is no such sieve."""
-    return next((k for k, (s, _) in enumerate(recipe.gradation) if math.isclose(s, sieve, rel_tol=1e-9)), None)
+def index_of(recipe: Recipe, sieve: float) -> int:
+    """Returns the index of a sieve of the gradation. Raises KeyError if the gradation has no such sieve."""
+    for k, (size, _) in enumerate(recipe.gradation):
+        if math.isclose(size, sieve, rel_tol=1e-9):
+            return k
+    raise KeyError(sieve)
 
 
 def filler_fraction(recipe: Recipe, below: float) -> float:
