@@ -46,18 +46,6 @@ MatrixXd root_of(const MatrixXd& form) {
   return values.tail(rank).cwiseSqrt().asDiagonal() * eigen.eigenvectors().rightCols(rank).transpose();
 }
 
-/// Returns Fᵀ·diag(w)·F. Sums blocks of rows, so that no copy of F is needed.
-MatrixXd weighted_square(const MatrixXd& f, const VectorXd& w) {
-  constexpr Index block = 1024;
-  MatrixXd out = MatrixXd::Zero(f.cols(), f.cols());
-  for (Index at = 0; at < f.rows(); at += block) {
-    const Index rows = std::min(block, f.rows() - at);
-    const MatrixXd scaled = w.segment(at, rows).asDiagonal() * f.middleRows(at, rows);
-    out.noalias() += f.middleRows(at, rows).transpose() * scaled;
-  }
-  return out;
-}
-
 /// Makes the columns orthonormal in their order, and returns those that are not in the span of the columns before them.
 MatrixXd orthonormal(MatrixXd columns) {
   Index kept = 0;
@@ -80,6 +68,7 @@ void Decay::add(const PronySeries& series, const MatrixXd& form) {
   if (form.isZero(0)) return;
   at_rest_ += series.long_term * form;
   at_once_ += series.instantaneous() * form;
+  laws_.push_back({series, form});
   if (series.units.empty()) return;
   const MatrixXd root = root_of(form);
   for (const PronySeries::Unit& u : series.units) {
@@ -104,6 +93,7 @@ Decay::Equations Decay::equations() const {
   // This solves the equilibrium of all motions except the first one, which the wall prescribes. Degrees of freedom have
   // different units, so rows and columns are scaled by the diagonal.
   const VectorXd scale = at_once_.diagonal().tail(free).cwiseSqrt().cwiseInverse();
+  out.scale = scale;
   out.resistance = scale.asDiagonal() * at_once_.bottomRightCorner(free, free) * scale.asDiagonal();
   out.at_rest = scale.asDiagonal() * at_rest_.bottomRightCorner(free, free) * scale.asDiagonal();
   out.of_free = strain.rightCols(free) * scale.asDiagonal();
@@ -113,6 +103,17 @@ Decay::Equations Decay::equations() const {
   out.instantaneous = at_once_(0, 0) - pull.dot(answer);
   out.drive = out.rate.cwiseProduct(strain.col(0) - out.of_free * answer);
   return out;
+}
+
+MatrixXd Decay::resistance_at(double s, const VectorXd& scale) const {
+  const Index free = scale.size();
+  MatrixXd out = MatrixXd::Zero(free, free);
+  for (const auto& [series, form] : laws_) {
+    double stiffness = series.long_term;
+    for (const PronySeries::Unit& u : series.units) stiffness += u.modulus * (s * u.time / (1 + s * u.time));
+    out += stiffness * form.bottomRightCorner(free, free);
+  }
+  return scale.asDiagonal() * out * scale.asDiagonal();
 }
 
 PronySeries Decay::series_of(double instantaneous, const VectorXd& lambda, const VectorXd& share) const {
@@ -153,7 +154,7 @@ PronySeries Decay::few_units() const {
     const double s = places[i];
     const VectorXd weight = (square.array() + s).inverse();
     // (s + H)⁻¹·c by the formula of Woodbury, with K(s), the stiffness of the motions at s, as a sum of positive terms
-    const MatrixXd resistance = e.at_rest + weighted_square(e.of_free, s * weight);
+    const MatrixXd resistance = resistance_at(s, e.scale);
     const VectorXd plain = weight.cwiseProduct(e.drive);
     const VectorXd motion = Eigen::LDLT<MatrixXd>(resistance).solve(e.of_free.transpose() * e.rate.cwiseProduct(plain));
     states.col(static_cast<Index>(i)) = plain + weight.cwiseProduct(e.rate).cwiseProduct(e.of_free * motion);

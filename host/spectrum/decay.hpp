@@ -32,15 +32,23 @@ class Decay {
     Eigen::MatrixXd of_free;     ///< F: strains of the dashpots' springs for unit motions, without the first motion
     Eigen::MatrixXd resistance;  ///< K: instantaneous stiffness of these motions
     Eigen::MatrixXd at_rest;     ///< stiffness of these motions at rest
+    Eigen::VectorXd scale;       ///< factor on each of these motions in F, K and at_rest
     Eigen::VectorXd rate;        ///< 1/√τ of each strain
     Eigen::VectorXd drive;       ///< c
     double instantaneous = 0;    ///< E_0
   };
   Equations equations() const;
+  /// Returns the stiffness at s > 0 of the motions except the first, with rows and columns multiplied by `scale`.
+  Eigen::MatrixXd resistance_at(double s, const Eigen::VectorXd& scale) const;
   /// Returns the series with the given decay rates λ and factors of c in the directions of the eigenvectors.
   PronySeries series_of(double instantaneous, const Eigen::VectorXd& lambda, const Eigen::VectorXd& share) const;
 
   Eigen::MatrixXd at_rest_, at_once_;
+  struct AddedLaw {
+    PronySeries series;
+    Eigen::MatrixXd form;
+  };
+  std::vector<AddedLaw> laws_;
   std::vector<Eigen::MatrixXd> blocks_;  ///< √g·Lᵀ of each unit
   std::vector<double> rates_;            ///< 1/√τ of each unit
 };

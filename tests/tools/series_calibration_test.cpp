@@ -109,9 +109,9 @@ TEST_F(SeriesCalibration, DerivativesOfEstimatesAreDifferences) {
         return specimens.estimate(laws, free)[i].modulus;
       };
       const auto difference = (at(1 + step) - at(1 - step)) / (2 * step);
-      // the classes change the derivatives by some 1e-5 of E*, the difference is accurate to 1e-8
+      // the difference is accurate to 1e-8, and the classes change derivatives by about their error of 6e-6
       EXPECT_LT(std::abs(estimated[i].by[k] - difference), 1e-7 * std::abs(solved[i].modulus)) << free[k].name;
-      EXPECT_LT(std::abs(solved[i].by[k] - difference), 1e-4 * std::abs(solved[i].modulus)) << free[k].name;
+      EXPECT_LT(std::abs(solved[i].by[k] - difference), 2e-5 * std::abs(solved[i].modulus)) << free[k].name;
     }
   }
 }
