@@ -221,7 +221,7 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1e6).find("GB, with means over blocks"), std::string::npos);
   SegmentOptions paper = options;
   paper.recipe = SegmentRecipe::paper;
-  EXPECT_NE(fault(folder_ / "packed.mha", paper, little(scan)).find("with the recipe paper"), std::string::npos);
+  EXPECT_NE(fault(folder_ / "packed.mha", paper, little(scan)).find("with the recipe \"paper\""), std::string::npos);
   write_image(folder_ / "pages.tif", scan);
   EXPECT_NE(fault(folder_ / "pages.tif", options, 1e12).find("edge of a voxel"), std::string::npos);
 }
