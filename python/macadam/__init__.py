@@ -9,8 +9,7 @@
 All numbers are in SI units (m, kg, s, Pa), angles of results in degrees. docs/python.md shows everything.
 
 Names are loaded when they are first used, so that the parts in plain Python (macadam.mixture, macadam.report,
-macadam.study) also work
-if the compiled library is not installed.
+macadam.study) also work if the compiled library is not installed.
 """
 from __future__ import annotations
 

@@ -181,8 +181,8 @@ def _fit(dsr: Dsr, bbr: Bbr | None, binder: Binder, start: Model | None) -> Mode
 
 
 def fit_binder(binder: Binder, temperatures: list[float], frequencies: list[float]) -> BinderFit:
-    """Fits the binder's law to its measurements. After a first fit of all of them, those near the test are fitted again:
-    at most a decade beyond its reduced range and 10 K beyond its temperatures, if they are enough."""
+    """Fits the binder's law to its measurements. After a first fit of all of them, those near the test are fitted
+    again: at most a decade beyond its reduced range and 10 K beyond its temperatures, if they are enough."""
     dsr = read_dsr(binder.file)
     bbr = read_bbr(binder.bbr) if binder.bbr else None
     model = _fit(dsr, bbr, binder, None)

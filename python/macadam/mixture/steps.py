@@ -171,7 +171,7 @@ def _describe(shop: Workshop, scale: Scale, part: volumes.Part, last: bool) -> N
     shop.decisions.add(
         f"Scale {scale.name}: {100 * part.c:.3g} % of the solid volume is aggregate, about "
         f"{sum(part.grains.values()):.0f} grains ({grains}) in a box of "
-        f"{' x '.join(f'{1e3 * e:g}' for e in scale.box)} mm; {len(scale.seeds)} seeds."
+        f"{' x '.join(f'{1e3 * e:g}' for e in scale.box)} mm; {len(scale.seeds)} seed{'s' * (len(scale.seeds) > 1)}."
     )
     largest = max((b for _, b in part.grains), default=0.0)
     if min(scale.box) < _SMALL * largest:
