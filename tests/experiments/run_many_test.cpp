@@ -142,7 +142,7 @@ TEST_F(RunMany, BeginsNoneWhereASceneIsWrong) {
   const std::string twice = path("at_5.toml") + " " + path("at_5.toml");
   const Outcome same = macadam(fmt::format("run {} --out {}", twice, path("out")));
   EXPECT_EQ(same.code, 2);
-  EXPECT_HAS(same.err, "found the name at_5, which");
+  EXPECT_HAS(same.err, "found the scene name \"at_5\", which");
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 

@@ -237,7 +237,7 @@ TEST(BrittleBondInput, IsSteppedByPointsAlone) {
   const auto make = [&] {
     make_stepper(Backend::cpu, scene.specimen, scene.network, scene.laws, scene.inertia, options);
   };
-  EXPECT_HAS(message_of(make), "brittle_bond, which is not linear; expected points");
+  EXPECT_HAS(message_of(make), "brittle_bond, which is not linear, expected \"points\"");
   options.form = ContactForm::points;
   EXPECT_EQ(message_of(make), "nothing was thrown");
 }

@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"BinderOfNothing", {{10, ""}}, 3, "binder_of: found nothing", "required"},
         {"BinderOfSomethingElse", {{10, "binder_of = \"box\""}}, 10, "\"box\"", "\"mix\", \"aggregate\""},
         {"GramsWithoutUnit", {{13, "binder_density = 1.03"}}, 13, "1.03 kg/m3", "200 to 10000 kg/m3"},
-        {"TooFewDensities", {{11, "aggregate_density = [2600, 2600]"}}, 11, "2 densities", "one, or 3"},
+        {"TooFewDensities", {{11, "aggregate_density = [2600, 2600]"}}, 11, "2 densities", "1 density, or 3 densities"},
         {"MoreAbsorbedThanBinder",
          {{14, "absorbed_binder = \"6 %\""}},
          14,
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"NegativeAbsorption",
          {{14, "maximum_density = 2400"}},
          14,
-         "2400 kg/m3, by which -0.6397",
+         "2400 kg/m3, from which an absorbed binder of -0.6397",
          "at least 2435.61 kg/m3, which is the value without absorption: 1 kg / (0.952381 kg / 2623.96 kg/m3 + "
          "0.047619 kg / 1000 kg/m3)"},
         // If all binder is absorbed, the maximum density is 1.05/3.811030e-4 = 2755.16 kg/m³.

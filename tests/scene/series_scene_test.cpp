@@ -71,7 +71,7 @@ TEST_F(SeriesScene, MasticMayBeElasticAndRockMayBeAbsent) {
       "0.1\n[materials.mastic]\ndensity = 2000\nlaw = \"elastic\"\nE = 1e9\npoisson_ratio = 0.4\n" +
       series + cyclic);
   EXPECT_EQ(std::get<laws::Elastic>(law_of(scene, PairType::mm)).E, 1e9);
-  EXPECT_EQ(std::get<laws::Elastic>(law_of(scene, PairType::mw)).alpha, 1);
+  EXPECT_EQ(std::get<laws::Elastic>(law_of(scene, PairType::mw)).alpha, 0);
   EXPECT_FALSE(scene.laws[static_cast<std::size_t>(PairType::ma)]);
   EXPECT_FALSE(scene.laws[static_cast<std::size_t>(PairType::inner)]);
 }

@@ -152,7 +152,7 @@ const std::vector<Wrong> wrong_scenes = {
      4, "a total volume of aggregates of at least", "solid volume"},
     {"SpheresOfDust", {{8, "radius = [1e-9, 1e-9]"}}, 7, "particles", "at most 100000000"},
     {"MasticFillsTheBoxTwice", {{9, "count = 90000"}}, 7, "spheres with a total volume of at least", "twice the volume of the box"},
-    {"NothingToGenerate", {{4, ""}, {5, ""}, {6, ""}, {7, ""}, {8, ""}, {9, ""}}, 1, "neither a specimen file", "one of"},
+    {"NothingToGenerate", {{4, ""}, {5, ""}, {6, ""}, {7, ""}, {8, ""}, {9, ""}}, 1, "neither this key nor a section of particles", "a specimen file"},
     {"FrequencyTwice", {{31, "frequencies = [5, 2, \"5000 mHz\"]"}}, 31, "5 Hz twice", "once"},
     {"FrequenciesEmpty", {{31, "frequencies = []"}, {37, ""}}, 31, "none", "at least one"},
     {"ScalingForTooFew", {{37, "density_scaling = [100]"}}, 37, "1 entries", "an array of length 2"},

@@ -237,7 +237,8 @@ TEST_F(SurfaceReading, BytesAfterABinaryStlAreLeftOutAndSaid) {
   // 50 bytes could be a facet that the header does not count.
   EXPECT_HAS(message("more.stl", bytes + std::string(50, 'x')),
              "surface: found 734 bytes, expected 684 bytes, because the header of a binary file counts 12 facets");
-  EXPECT_HAS(message("less.stl", bytes.substr(0, 683)), "surface: found 683 bytes, expected 684 of a binary file");
+  EXPECT_HAS(message("less.stl", bytes.substr(0, 683)),
+             "surface: found 683 bytes, expected 684 bytes, because the header of a binary file counts 12 facets");
 }
 
 TEST_F(SurfaceReading, LinesMayEndInCarriageReturns) {

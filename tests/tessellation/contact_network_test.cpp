@@ -394,7 +394,7 @@ TEST(ContactNetwork, HiddenParticlesAreNamed) {
   add(s, {0.5, 0.5, 0.5}, 0.4);
   for (int i = 0; i < 12; ++i) add(s, {0.45 + 0.005 * i, 0.51, 0.5}, 1e-3);
   const std::string text = message(s);
-  EXPECT_NE(text.find("12 without"), std::string::npos) << text;
+  EXPECT_NE(text.find("no cell for 12 of 13"), std::string::npos) << text;
   EXPECT_NE(text.find("1, 2, 3, 4, 5, 6, 7, 8, 9, 10, …"), std::string::npos) << text;
   EXPECT_EQ(text.find("11"), std::string::npos) << text;
 }

@@ -292,7 +292,7 @@ TEST_F(VoidScenes, TakeTheAirVoidsOfARecipe) {
   const auto voids = [&](const std::string& keys) {
     return message_of([&] { scene(recipe, "[specimen.voids]\nradius = [\"0.6 mm\", \"1 mm\"]\n" + keys); });
   };
-  EXPECT_HAS(voids("fraction = \"5 %\"\n"), "and 4 % of air voids in the mix");
+  EXPECT_HAS(voids("fraction = \"5 %\"\n"), "the mix has only 4 % of air voids");
   EXPECT_HAS(voids("count = 3\n"), "count");
 }
 

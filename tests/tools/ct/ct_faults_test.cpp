@@ -150,7 +150,8 @@ TEST(CtFaults, GradationsAreReadAndStandBesideTheScans) {
   };
   EXPECT_TRUE(read("sieve,passing\n").find(":1") != std::string::npos);
   EXPECT_TRUE(read("sieve_mm,passing_percent\n8,100\n4,x\n").find(":3") != std::string::npos);
-  EXPECT_TRUE(read("sieve_mm,passing_percent\n8,100\n4\n").find("\"4\", expected a sieve and") != std::string::npos);
+  EXPECT_TRUE(read("sieve_mm,passing_percent\n8,100\n4\n").find("\"4\", expected two numbers: the size of the sieve") !=
+              std::string::npos);
   EXPECT_TRUE(read("sieve_mm,passing_percent\n8,100\n4,50,60\n").find("\"4,50,60\"") != std::string::npos);
   EXPECT_TRUE(read("sieve_mm,passing_percent\n8,100\n4,101\n").find("0 to 100") != std::string::npos);
   EXPECT_TRUE(read("sieve_mm,passing_percent\n8,100\n4,50\n4,40\n").find("a second row for this sieve") !=
