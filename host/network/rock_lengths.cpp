@@ -15,7 +15,7 @@
 #include "kernels/base/parallel.hpp"
 
 namespace macadam {
-namespace {
+namespace rock_surfaces {  // named, because a member of RockSurfaces has some of these types
 
 /// Smallest and largest length of the mastic, as a fraction of the distance, and smallest thickness of a film between
 /// two aggregates (section 25 of docs/model/contacts.md).
@@ -111,7 +111,9 @@ double cell_of(const Specimen& specimen) {
 /// Returns the largest of the edges of a grid's cells.
 double longest_edge(const SphereGrid& grid) { return std::max({grid.edge().x, grid.edge().y, grid.edge().z}); }
 
-}  // namespace
+}  // namespace rock_surfaces
+
+using namespace rock_surfaces;
 
 struct RockSurfaces::Bodies {
   std::vector<std::unique_ptr<const Template>> templates;  ///< as the surfaces; null for those that nothing uses

@@ -200,13 +200,14 @@ class SceneRun {
     if (!resume_ && is_stepped() && watcher_.warn && is_checkpoint_of(newest, scene_, backend)) {
       watcher_.warn(newest.string() +
                     ": an earlier run left this checkpoint; the run now starts from the beginning, and --resume would "
-                    "have continued it");
+                    "have continued the earlier run");
     }
     if (resumed_) require_same_specimen(resumed_->file, resumed_->checkpoint, prepared());
     if (damage_.empty()) return {};
     std::error_code error;
     std::filesystem::rename(resumed_->file, newest, error);
-    if (error) throw RunError(resumed_->file.string() + ": cannot become " + checkpoint_name + ": " + error.message());
+    if (error)
+      throw RunError(resumed_->file.string() + ": cannot be renamed to " + checkpoint_name + ": " + error.message());
     const std::string warning =
         "the run continues from the previous checkpoint, because the newest one is missing or damaged: " + damage_;
     if (watcher_.warn) watcher_.warn(warning);

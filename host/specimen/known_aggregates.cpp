@@ -101,7 +101,7 @@ class AggregatesReader {
     Aggregate a;
     const double body = number("body");
     if (body != std::floor(body) || std::abs(body) > 2e9 || !bodies_.contains(static_cast<std::int32_t>(body)))
-      fail("column body", in_quotes(text("body")), "the body of aggregate spheres in the specimen");
+      fail("column body", in_quotes(text("body")), "a body of the specimen that consists of aggregate spheres");
     a.body = static_cast<std::int32_t>(body);
     if (!seen_.insert(a.body).second) fail("column body", in_quotes(text("body")) + " again", "each body once");
     a.shape = text("shape");
@@ -124,7 +124,7 @@ class AggregatesReader {
     for (const char* name : {"qw", "qx", "qy", "qz"})
       if (!column_.contains(name))
         fail("first line", std::string("no column ") + name,
-             "the columns qw,qx,qy,qz, because a shape is not a sphere");
+             "the columns qw,qx,qy,qz, because not every shape is \"sphere\"");
     std::array<double, 4> q{number("qw"), number("qx"), number("qy"), number("qz")};
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (!(std::abs(length - 1) < 1e-3))

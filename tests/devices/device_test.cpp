@@ -66,7 +66,7 @@ TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
   EXPECT_EQ(chosen(300'000, {}), (DeviceList{1, 2}));
   EXPECT_EQ(asked, std::vector{2});
   EXPECT_HAS(decision, "devices 1 and 2: several devices step 300000 contacts faster");
-  EXPECT_HAS(decision, "--devices 1 uses only one");
+  EXPECT_HAS(decision, "--device 1 uses only one");
   EXPECT_EQ(chosen(300'000, {2}), (DeviceList{1, 4}));
   EXPECT_EQ(chosen(1'000'000, {}), (DeviceList{1, 2, 4}));
   EXPECT_EQ(chosen(1'000'000, {2, 4}), DeviceList{1});
@@ -91,7 +91,8 @@ TEST(OwnLaws, AreResolvedAsMacadamsAre) {
   EXPECT_HAS(make(Backend::cpu)->description(), "mixed");
   options.precision = Precision::single;
   EXPECT_HAS(message_of([&] { make(Backend::cpu); }), "precision: found single, expected double or mixed");
-  EXPECT_HAS(message_of([&] { make(Backend::reference); }), "backend: found reference, expected cpu, cuda or auto");
+  EXPECT_HAS(message_of([&] { make(Backend::reference); }),
+             "backend: found \"reference\", expected \"cpu\", \"cuda\" or \"auto\"");
   EXPECT_THROW(make(Backend::reference), InputError);
   EXPECT_THROW(make(Backend::cuda), RunError);
   options.devices = {0};
@@ -179,7 +180,6 @@ TEST(DeviceChoice, OfACudaDeviceThatIsNotThereListsThoseThatAre) {
     const auto choose = [&] { select_backend(Backend::automatic, nullptr, {number}); };
     EXPECT_THROW(choose(), InputError);
     EXPECT_HAS(message_of(choose), "found " + std::to_string(number));
-    EXPECT_HAS(message_of(choose), report.cuda_status);
     for (const DeviceInfo& d : report.devices) {
       EXPECT_HAS(message_of(choose), std::to_string(d.number) + " (" + d.name + ")");
     }

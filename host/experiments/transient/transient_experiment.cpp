@@ -30,8 +30,8 @@ constexpr std::array<LoadWords, 3> all_words{{
      "modulus_pa: modulus after an instantaneous strain; error: relative error of stress and modulus", false,
      "E(t) (MPa)", "stress/strain (MPa)", 1e6},
     {"creep", "creep.csv", "compliance_1_pa",
-     "compliance_1_pa: compliance after an instantaneous stress; error: its relative error", true, "J(t) (1/GPa)",
-     "strain/stress (1/GPa)", 1e-9},
+     "compliance_1_pa: compliance after an instantaneous stress; error: relative error of the compliance", true,
+     "J(t) (1/GPa)", "strain/stress (1/GPa)", 1e-9},
     {"monotonic", "monotonic.csv", "secant_pa", "error: relative error of stress and modulus", false, "secant (MPa)",
      "secant (MPa)", 1e6},
 }};
