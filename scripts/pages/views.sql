@@ -282,3 +282,41 @@ SELECT k, count(*) AS drawn, 1.0 * sum(verdict = 'killed') / sum(verdict IN ('ki
   count(*) - sum(verdict = 'killed') - s.judged AS not_judged
 FROM mutations JOIN (SELECT k, sum(looked_at = 'same') AS same, sum(looked_at = 'tested since') AS since,
                        count(looked_at) AS judged FROM mutation_survivors GROUP BY k) s USING (k) GROUP BY k;
+
+-- Errors of the model
+
+CREATE VIEW model_errors AS  -- contact networks beside the continuum: e (%), phi (degrees), u: uncertainty of the continuum (%)
+SELECT *, error_percent AS e, phase_error_deg AS phi, 100 * continuum_uncertainty / continuum_over_mastic AS u,
+  iif(mastic_radius_m = '0.00075 0.001', 'published', 'halved') AS spheres,
+  iif(geometry LIKE 'shapes%', 'shapes', iif(void_nominal > 0, 'voids', 'balls')) AS kind,
+  text(CASE WHEN geometry LIKE 'shapes%' THEN 'shapes, {:.0f} %' WHEN void_nominal > 0 THEN 'balls, {:.0f} %, voids {:.0f} %'
+       ELSE 'balls, {:.0f} %' END, 100 * rock_nominal, 100 * void_nominal) AS specimen
+FROM "model-error.csv";
+
+CREATE VIEW model_table AS  -- the errors of both rules in one row per geometry, size of spheres and ratio
+SELECT specimen, kind, rock_nominal, void_nominal, spheres, ratio, min(continuum_voxels_m) AS voxels, avg(continuum_over_mastic) AS continuum, avg(u) AS u,
+  avg(continuum_phase_deg) AS phase,
+  max(iif(rule = 'series' AND filling = 'single', e, NULL)) AS s1, max(iif(rule = 'series' AND filling = 'coarse', e, NULL)) AS s2,
+  max(iif(rule = 'series' AND filling = 'fine', e, NULL)) AS s3,
+  max(iif(rule = 'centres' AND filling = 'single', e, NULL)) AS c1, max(iif(rule = 'centres' AND filling = 'coarse', e, NULL)) AS c2,
+  max(iif(rule = 'centres' AND filling = 'fine', e, NULL)) AS c3,
+  max(iif(rule = 'series' AND filling = 'single', phi, NULL)) AS f1, max(iif(rule = 'series' AND filling = 'coarse', phi, NULL)) AS f2,
+  max(iif(rule = 'series' AND filling = 'fine', phi, NULL)) AS f3
+FROM model_errors GROUP BY geometry, seed, spheres, ratio;
+
+CREATE VIEW model_certain AS  -- networks whose continuum is known to 3 %, from three voxel sizes
+SELECT * FROM model_errors WHERE spheres = 'published' AND u < 3 AND continuum_voxels_m LIKE '% % %';
+
+CREATE VIEW model_unsure AS  -- the other networks
+SELECT * FROM model_errors WHERE spheres = 'published' AND NOT (u < 3 AND continuum_voxels_m LIKE '% % %');
+
+CREATE VIEW model_spreads AS  -- largest difference between the divisions of one geometry into spheres (%)
+SELECT geometry, rule, ratio, 100 * (max(e_star_over_mastic) / min(e_star_over_mastic) - 1) AS spread,
+  max(phase_deg) - min(phase_deg) AS phase_spread, count(*) AS n
+FROM model_errors WHERE spheres = 'published' GROUP BY geometry, seed, rule, ratio;
+
+CREATE VIEW series_paper AS  -- specimens of the study with rule series: difference of |E*| (%) and phi from single spheres
+SELECT s.*, 100 * (s.e_star_pa / r.e_star_pa - 1) AS e, 100 * (s.phase_deg / r.phase_deg - 1) AS phi,
+  CASE s.scene WHEN 'ac14_ss_am1' THEN 'SS' WHEN 'ac14_ms_poly_coarse' THEN 'MS-Poly-coarse' WHEN 'ac14_ms_poly_fine' THEN 'MS-Poly-fine'
+    WHEN 'ac14_ms_ico_coarse' THEN 'MS-Ico-coarse' ELSE 'MS-Ico-fine' END AS specimen
+FROM "series-paper.csv" s JOIN "series-paper.csv" r USING (seed, mix, reading, frequency_hz) WHERE r.scene = 'ac14_ss_am1';
