@@ -104,8 +104,9 @@ TEST(PoissonRatio, IsZeroIfNormalAndShearStiffnessAreEqual) {
   EXPECT_NEAR(std::abs(*ratio), 0, 1e-8);
 }
 
-// With a smaller shear stiffness the sides move inwards. A uniform strain would give ν = (1 − α)/(4 + α). The spheres
-// move non-uniformly, and the specimen is only six spheres wide, hence the wide bounds.
+// With a smaller shear stiffness the sides move inwards. A uniform strain of a network with normals in all directions
+// gives ν = (1 − α)/(4 + α). The spheres of this specimen stand near the points of a cubic grid, so most normals are
+// near the axes, where they do not couple the axes: ν lies between a third of this value and the value.
 TEST(PoissonRatio, GrowsAsTheShearStiffnessFalls) {
   const Specimen specimen = random_specimen(4, 6, 6, 7);
   const Tessellation cells = tessellate(specimen);
@@ -120,7 +121,9 @@ TEST(PoissonRatio, GrowsAsTheShearStiffnessFalls) {
     const HarmonicResult found = Harmonic(specimen, network, laws, inertia, {}, 1).solve(1);
     const double ratio = poisson_ratio(specimen, cells, found.motion)->real();
     EXPECT_GT(ratio, before) << "alpha " << alpha;
-    EXPECT_NEAR(ratio, (1 - alpha) / (4 + alpha), 0.3 * (1 - alpha) / (4 + alpha)) << "alpha " << alpha;
+    const double isotropic = (1 - alpha) / (4 + alpha);
+    EXPECT_GT(ratio, isotropic / 3) << "alpha " << alpha;
+    EXPECT_LT(ratio, isotropic) << "alpha " << alpha;
     before = ratio;
   }
 }
