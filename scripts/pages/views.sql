@@ -304,11 +304,11 @@ SELECT specimen, kind, rock_nominal, void_nominal, spheres, ratio, min(continuum
   max(iif(rule = 'series' AND filling = 'fine', phi, NULL)) AS f3
 FROM model_errors GROUP BY geometry, seed, spheres, ratio;
 
-CREATE VIEW model_certain AS  -- networks whose continuum is known to 3 %, from three voxel sizes
-SELECT * FROM model_errors WHERE spheres = 'published' AND u < 3 AND continuum_voxels_m LIKE '% % %';
+CREATE VIEW model_certain AS  -- networks whose continuum is known to 4 %, from three voxel sizes
+SELECT * FROM model_errors WHERE spheres = 'published' AND u < 4 AND continuum_voxels_m LIKE '% % %';
 
 CREATE VIEW model_unsure AS  -- the other networks
-SELECT * FROM model_errors WHERE spheres = 'published' AND NOT (u < 3 AND continuum_voxels_m LIKE '% % %');
+SELECT * FROM model_errors WHERE spheres = 'published' AND NOT (u < 4 AND continuum_voxels_m LIKE '% % %');
 
 CREATE VIEW model_spreads AS  -- largest difference between the divisions of one geometry into spheres (%)
 SELECT geometry, rule, ratio, 100 * (max(e_star_over_mastic) / min(e_star_over_mastic) - 1) AS spread,
