@@ -103,10 +103,10 @@ class Harmonic {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Returns the complex Poisson's ratio of a specimen with free sides: minus the mean of the two lateral strains over the
-/// axial strain. A lateral strain is the change of the mean distance of two opposite sides over their distance; the mean
-/// is over the area of the cells' facets at the sides. `motion` is HarmonicResult::motion. Returns nothing if no cell
-/// touches one of the four sides.
+/// Returns the complex Poisson's ratio of a specimen with free sides: minus the mean of the two lateral strains over
+/// the axial strain. A lateral strain is the change of the mean distance of two opposite sides over their distance; the
+/// mean is over the area of the cells' facets at the sides. `motion` is HarmonicResult::motion. Returns nothing if no
+/// cell touches one of the four sides.
 std::optional<std::complex<double>> poisson_ratio(const Specimen& specimen, const Tessellation& cells,
                                                   const std::vector<std::complex<double>>& motion);
 

@@ -64,9 +64,9 @@
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
 ///     follows δf' = δf + rate·dx + drift + follow·s − relax·δf. The drift is computed from f and x(l) at the beginning
 ///     of the block; s is the sum of δf' + δf over its steps so far. At the end, settle() receives Σ (f' + f) and
-///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the block is
-///     zero. A memoryless law must have relax = follow = drift = 0. `rate` is step_stiffness(). With rock in series, the
-///     stepper multiplies δf' − δf by 1/(1 + r·rate), and f of a memoryless law is rate·x/(1 + r·rate).
+///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the
+///     block is zero. A memoryless law must have relax = follow = drift = 0. `rate` is step_stiffness(). With rock in
+///     series, the stepper multiplies δf' − δf by 1/(1 + r·rate), and f of a memoryless law is rate·x/(1 + r·rate).
 /// S is a number or, on the CPU, a packet of numbers. So a law must not branch; it uses select().
 ///
 /// Laws do not own memory and do not depend on arrays or threads. A law may use its units for states of any kind:

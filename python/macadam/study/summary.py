@@ -188,8 +188,7 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
         heads.append("fraction of the variance")
         for row, e in zip(rows, found, strict=True):
             row.append(look.percent(e.share))
-        notes.append("The fractions need not add up to 100 %, because joint effects of factors and the scatter of seeds also "
-            "cause variance.")
+        notes.append("The fractions need not add up to 100 %, because joint effects of factors and chance also cause variance.")
     page.table(heads, rows, f"{q.title}. {' '.join(notes)}", words=2)
 
 

@@ -20,9 +20,8 @@ namespace {
 // Sieves [mm], and the colours of the size classes between them, as red, green and blue. They are those of
 // python/macadam/report/phases.py (tested by python/tests/test_report_colours.py).
 constexpr double sieves[] = {0.063, 0.125, 0.25, 0.5, 1, 2, 2.8, 4, 5.6, 8, 11.2, 16, 22.4, 31.5, 45, 63};
-constexpr std::uint32_t ladder[] = {
-    0x983d10, 0x564db9, 0x710000, 0xde8b5d, 0x7e4884, 0x6bc9c0, 0xc8673f, 0x662a6c,
-    0xe7b83c, 0xa9a39a, 0x1d6650, 0xc6d199, 0x663d99, 0x97adfb, 0xbf8a1a};
+constexpr std::uint32_t ladder[] = {0x983d10, 0x564db9, 0x710000, 0xde8b5d, 0x7e4884, 0x6bc9c0, 0xc8673f, 0x662a6c,
+                                    0xe7b83c, 0xa9a39a, 0x1d6650, 0xc6d199, 0x663d99, 0x97adfb, 0xbf8a1a};
 constexpr std::uint32_t aggregate_colour = 0xab8f66;  // of a grain of unknown size
 static_assert(std::size(ladder) + 1 == std::size(sieves));
 
