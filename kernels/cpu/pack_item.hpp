@@ -85,7 +85,14 @@ struct PackItem {
   static void scatter_add(R* sums, const std::uint32_t* line, const Vec3<T>& vector) {
     using From = typename T::value_type;
     if constexpr (one_register<From>) {
-      Words<From, width> words[4] = {to_words<From>(vector.x), to_words<From>(vector.y), to_words<From>(vector.z), {}};
+      Words<From, width> zero{};
+      // Hides the value from gcc 12. If gcc knows that this vector is zero, it may leave other numbers in the unused
+      // word of a line; checkpoints of processors of different packet widths would then differ.
+#ifdef __x86_64__
+      asm("" : "+x"(zero));
+#endif
+      Words<From, width> words[4] = {to_words<From>(vector.x), to_words<From>(vector.y), to_words<From>(vector.z),
+                                     zero};
       HalfLine<From> half[width];
       turn_back<From, width>(words, half);
       for (std::size_t j = 0; j < width; ++j) {

@@ -130,7 +130,7 @@ TEST_F(FitCommand, AModelBecomesAChain) {
                                          {"tau = 0.08", "tau = -1", "a positive number"},
                                          {"E_00 = 8e7", "E_00 = 9e10", "less than E_0"},
                                          {"beta = 250", "betta = 250", "beta (the nearest"},
-                                         {"reference_temperature = 10", "", "this key, which shift"}}) {
+                                         {"reference_temperature = 10", "", "this key, because shift"}}) {
     std::string text = read(folder_ / "model.toml");
     text.replace(text.find(key), std::string(key).size(), value);
     write(folder_ / "wrong.toml", text);
