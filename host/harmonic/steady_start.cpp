@@ -31,11 +31,12 @@ StartState steady_start(const ContactNetwork& network, const LawTable& laws,
     out.velocity.push_back(vector(rate, m));
     out.spin.push_back(vector(rate, m + 3));
   }
-  const PairStiffness of_pairs = pair_stiffness(laws, s);
+  PairStiffness of_pairs;  // computed here, because pair_stiffness() rounds quotients of complex numbers differently
   std::array<std::vector<Complex>, pair_types> unit_compliance;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;
     with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [&](const auto& law) {
+      of_pairs.k[pair] = law.stiffness(s), of_pairs.alpha[pair] = law.alpha;
       for (int l = 0; l < law.units(); ++l) unit_compliance[pair].push_back(law.unit_compliance(l, s));
     });
   }
@@ -50,9 +51,10 @@ StartState steady_start(const ContactNetwork& network, const LawTable& laws,
     const Contact& c = network.contacts[i];
     double* chain = &out.chain[out.chain_begin[i]];
     const auto stiffness = contact_stiffness(c, of_pairs);
+    const std::array<Complex, 2> force{before * stiffness[0], before * stiffness[1]};  // per relative displacement
     const auto motions = relative_motion(c, motion, 1.0);
     for (std::size_t component = 0; component < motions.size(); ++component) {
-      const Complex f = before * stiffness[component / 3] * motions[component];
+      const Complex f = force[component / 3] * motions[component];
       *chain++ = f.imag();
       for (const Complex& unit : unit_compliance[static_cast<std::size_t>(c.pair)]) *chain++ = (f * unit).imag();
     }

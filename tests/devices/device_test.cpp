@@ -179,7 +179,7 @@ TEST(DeviceChoice, OfACudaDeviceThatIsNotThereListsThoseThatAre) {
   for (const int number : {-2, 1023}) {
     const auto choose = [&] { select_backend(Backend::automatic, nullptr, {number}); };
     EXPECT_THROW(choose(), InputError);
-    EXPECT_HAS(message_of(choose), "found " + std::to_string(number));
+    EXPECT_HAS(message_of(choose), "device: found " + std::to_string(number) + ", expected one of ");
     for (const DeviceInfo& d : report.devices) {
       EXPECT_HAS(message_of(choose), std::to_string(d.number) + " (" + d.name + ")");
     }
