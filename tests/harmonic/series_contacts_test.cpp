@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -143,28 +144,34 @@ TEST(SeriesContacts, AreLongerContactsIfAllIsElastic) {
   EXPECT_NEAR(solve(scene), expected, 1e-9 * expected);
 }
 
-// Derivatives by a central difference of 1e-4 of the parameter: its error is 1e-8 of the derivative, and rounding adds
-// 1e-11/1e-4 of E*.
+HarmonicResult solve_at_7_hz(const TestScene& s) {
+  return Harmonic(s.specimen, s.network, s.laws, s.inertia, {}, 7).solve(7);
+}
+
+/// Compares the derivatives of |E*| and φ with a central difference of 1e-4 of the parameter `name`, which
+/// change(scene, factor) multiplies by a factor. The error of the difference is 1e-8 of the derivative, and rounding
+/// adds 1e-11/1e-4 of E*.
+void expect_derivative(const TestScene& scene, double modulus, const std::vector<Sensitivity>& list,
+                       const std::string& name, const std::function<void(TestScene&, double)>& change) {
+  const auto at = [&](double factor) {
+    TestScene changed = scene;
+    change(changed, factor);
+    return solve_at_7_hz(changed).top;
+  };
+  const double step = 1e-4;
+  const Stiffness more = at(1 + step), less = at(1 - step);
+  const auto entry = std::find_if(list.begin(), list.end(), [&](const Sensitivity& s) { return s.parameter == name; });
+  ASSERT_NE(entry, list.end()) << name;
+  EXPECT_NEAR(entry->d_e_star_pa, (more.e_star_pa - less.e_star_pa) / (2 * step), 1e-6 * modulus) << name;
+  EXPECT_NEAR(entry->d_phase_deg, (more.phase_deg - less.phase_deg) / (2 * step), 1e-4) << name;
+}
+
 TEST(SeriesContacts, DerivativesAgreeWithDifferences) {
   const TestScene scene = scene_with_rock(5);
-  const auto solve = [](const TestScene& s) {
-    return Harmonic(s.specimen, s.network, s.laws, s.inertia, {}, 7).solve(7);
-  };
-  const HarmonicResult found = solve(scene);
+  const HarmonicResult found = solve_at_7_hz(scene);
   const auto list = sensitivities(found.parts, scene.laws, Complex(0, 2 * std::numbers::pi * 7));
   const auto expect = [&](const std::string& name, auto&& change) {
-    const auto at = [&](double factor) {
-      TestScene changed = scene;
-      change(changed, factor);
-      return solve(changed).top;
-    };
-    const double step = 1e-4;
-    const Stiffness more = at(1 + step), less = at(1 - step);
-    const auto entry =
-        std::find_if(list.begin(), list.end(), [&](const Sensitivity& s) { return s.parameter == name; });
-    ASSERT_NE(entry, list.end()) << name;
-    EXPECT_NEAR(entry->d_e_star_pa, (more.e_star_pa - less.e_star_pa) / (2 * step), 1e-6 * found.top.e_star_pa) << name;
-    EXPECT_NEAR(entry->d_phase_deg, (more.phase_deg - less.phase_deg) / (2 * step), 1e-4) << name;
+    expect_derivative(scene, found.top.e_star_pa, list, name, change);
   };
   expect("rock.E", [](TestScene& s, double factor) {
     for (Contact& c : s.network.contacts) c.series /= factor;
@@ -177,7 +184,7 @@ TEST(SeriesContacts, DerivativesAgreeWithDifferences) {
 }
 
 // With the laws of the phases one parameter changes all pairs that have this law, and the rock changes the pairs of the
-// rock and the compliances in series. Tolerances as above.
+// rock and the compliances in series.
 TEST(SeriesContacts, DerivativesByPhaseAgreeWithDifferences) {
   TestScene scene = scene_with_rock(5);
   laws::GeneralisedKelvin mastic = mastic_am1(), film = mastic;
@@ -190,25 +197,11 @@ TEST(SeriesContacts, DerivativesByPhaseAgreeWithDifferences) {
     for (Contact& c : scene.network.contacts)
       if (c.pair == pair) c.series = 0;
   }
-  const auto solve = [](const TestScene& s) {
-    return Harmonic(s.specimen, s.network, s.laws, s.inertia, {}, 7).solve(7);
-  };
-  const HarmonicResult found = solve(scene);
+  const HarmonicResult found = solve_at_7_hz(scene);
   const auto list = phase_sensitivities(found.parts, scene.laws, Complex(0, 2 * std::numbers::pi * 7));
   EXPECT_EQ(list.size(), 9u) << "E_m, C_m, three pairs of E and C, E of the rock";
   const auto expect = [&](const std::string& name, auto&& change) {
-    const auto at = [&](double factor) {
-      TestScene changed = scene;
-      change(changed, factor);
-      return solve(changed).top;
-    };
-    const double step = 1e-4;
-    const Stiffness more = at(1 + step), less = at(1 - step);
-    const auto entry =
-        std::find_if(list.begin(), list.end(), [&](const Sensitivity& s) { return s.parameter == name; });
-    ASSERT_NE(entry, list.end()) << name;
-    EXPECT_NEAR(entry->d_e_star_pa, (more.e_star_pa - less.e_star_pa) / (2 * step), 1e-6 * found.top.e_star_pa) << name;
-    EXPECT_NEAR(entry->d_phase_deg, (more.phase_deg - less.phase_deg) / (2 * step), 1e-4) << name;
+    expect_derivative(scene, found.top.e_star_pa, list, name, change);
   };
   const auto of_mastic = [&](auto&& change) {
     return [&, change](TestScene& s, double factor) {
