@@ -47,9 +47,9 @@ double ramp_of(const TransientExperiment& test, double slowest) {
 }
 
 // Weak damping leaves waves, and strong damping delays the slow motion. Therefore β is the smallest value with which
-// the waves have decayed at the points. A ramp causes waves. Their amplitude relative to the stress is the time that a
-// wave takes through the specimen, divided by the duration of the ramp. After a time t, viscous damping leaves the
-// fraction e^(−β·t/2) of this amplitude.
+// the waves have decayed by the times of the points of the result. A ramp causes waves. Their amplitude relative to the
+// stress is the time that a wave takes through the specimen, divided by the duration of the ramp. After a time t,
+// viscous damping leaves the fraction e^(−β·t/2) of this amplitude.
 LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, double ramp, double slowest) {
   LoadDamping out{solver.damping_kind, solver.damping};
   if (solver.damping_given) return out;
