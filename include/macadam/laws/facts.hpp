@@ -14,6 +14,8 @@
 #include <type_traits>
 #include <variant>
 
+#include "macadam/laws/prony_series.hpp"
+
 namespace macadam {
 
 inline constexpr int pair_types = 6;  ///< number of PairTypes (contact_network.hpp)
@@ -78,6 +80,11 @@ inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std
   law.stiffness(s);
   law.unit_compliance(0, s);
   law.each_parameter(s, each);
+};
+/// Whether a law gives its relaxation as a sum of exponentials.
+template <class L>
+inline constexpr bool has_prony = linear_law<L>&& requires(const L& law) {
+  { law.prony() } -> std::same_as<PronySeries>;
 };
 /// Whether a law can be stepped in blocks.
 template <class L>

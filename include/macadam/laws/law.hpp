@@ -44,6 +44,12 @@
 ///     each parameter θ of the stiffness, by its symbol in docs/model.md ("E_m", "C_1");
 ///     `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], for l
 ///     below units();
+///   - `PronySeries prony() const` — its relaxation as a sum of exponentials (prony_series.hpp): the stress after a
+///   step
+///     of strain, f/x [Pa]. All moduli are positive, and E(0) is instantaneous(). Relaxation, creep and constant rates
+///     without time steps need it, in addition to the members of the frequency domain; without it they refuse the law
+///     and name it. A law with this member that is not in the library's list can be converted to a law of the list
+///     (equivalent_laws(), spectrum.hpp);
 ///   - `static constexpr int only_units` — units(), if it is always the same number;
 ///   - `Step::coupled = true` — opening and slips of a contact point act on one another. For example, a bond that has
 ///     broken under tension has no shear stiffness either. Such a law is not linear, has only_units, and has in place
@@ -64,9 +70,9 @@
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
 ///     follows δf' = δf + rate·dx + drift + follow·s − relax·δf. The drift is computed from f and x(l) at the beginning
 ///     of the block; s is the sum of δf' + δf over its steps so far. At the end, settle() receives Σ (f' + f) and
-///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the block is
-///     zero. A memoryless law must have relax = follow = drift = 0. `rate` is step_stiffness(). With rock in series, the
-///     stepper multiplies δf' − δf by 1/(1 + r·rate), and f of a memoryless law is rate·x/(1 + r·rate).
+///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the
+///     block is zero. A memoryless law must have relax = follow = drift = 0. `rate` is step_stiffness(). With rock in
+///     series, the stepper multiplies δf' − δf by 1/(1 + r·rate), and f of a memoryless law is rate·x/(1 + r·rate).
 /// S is a number or, on the CPU, a packet of numbers. So a law must not branch; it uses select().
 ///
 /// Laws do not own memory and do not depend on arrays or threads. A law may use its units for states of any kind:
