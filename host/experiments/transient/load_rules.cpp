@@ -32,6 +32,11 @@ double shortest_pause(const TransientExperiment& test, double ramp) {
     }
     out = std::min(out, pause);
   }
+  for (const double jump : test.jumps) {
+    const auto& times = test.history.times;
+    const auto next = std::upper_bound(times.begin(), times.end(), jump * (1 + 1e-9));
+    if (next != times.end()) out = std::min(out, *next - jump);
+  }
   return out;
 }
 
@@ -73,7 +78,7 @@ double load_step(const TransientExperiment& test, const SolverSpec& solver, doub
   const double end = test.history.times.back();
   require_possible(end / step, step, fmt::format("until {:g} s", end));
   require_possible(ramp / step, step, fmt::format("in the ramp of {:g} s", ramp));
-  return ramp / std::ceil(ramp / step);
+  return test.step ? test.step(step) : ramp / std::ceil(ramp / step);
 }
 
 }  // namespace macadam
