@@ -116,7 +116,7 @@ std::vector<DriveKey> keys_of_drives(EachOf<AnySpec>& drives) {
       k.key.read.words.usual.clear();
       k.key.usual = fmt::format("required by drive {}", fmt::join(k.required_by, ", "));
     } else if (k.key.read.words.usual.empty()) {
-      k.key.usual = "none";
+      k.key.usual = k.key.read.words.type.starts_with("list") ? "none" : "until the end of the test";
     }
   }
   return out;

@@ -65,7 +65,7 @@ struct HaversineSpec {
     f("strain", strain, ValueKind::strain, ValueNeed::required, "peak of the strain");
     f("pulse", pulse, ValueKind::time, ValueNeed::required, "duration of a pulse");
     f("rest", rest, ValueKind::pause, ValueNeed::optional, "pause after each pulse");
-    f("pulses", pulses, ValueKind::number, ValueNeed::optional, "number of pulses; without it: until the end");
+    f("pulses", pulses, ValueKind::number, ValueNeed::optional, "number of pulses");
   }
   std::optional<SpecFault> fault(double duration) const {
     if (rest > 0 && duration / (pulse + rest) > most_pieces / 2)

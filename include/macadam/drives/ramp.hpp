@@ -58,7 +58,7 @@ struct RampSpec {
   void each_key(F&& f) {
     f("strain", strain, ValueKind::strain, ValueNeed::required, "strain that is held");
     f("ramp", ramp, ValueKind::pause, ValueNeed::required, "time in which the strain rises, and in which it falls");
-    f("hold", hold, ValueKind::pause, ValueNeed::optional, "duration of the hold; without it: until the end");
+    f("hold", hold, ValueKind::pause, ValueNeed::optional, "duration of the hold");
     f("smooth", smooth, ValueKind::number, ValueNeed::optional, "whether ramps are half cosines, not straight lines");
   }
   std::optional<SpecFault> fault(double) const {

@@ -6,8 +6,8 @@
 /// struct of strains (tension positive) and times, with
 ///   - `static constexpr const char* name` — the value of the key `drive` in a scene;
 ///   - `template <class F> void each_key(F&& f)` — calls f(key, member, ValueKind, ValueNeed, text) for each value that
-///     a scene may set: a double, an optional double or whole number, a bool, or a list of doubles. Two drives that
-///     have a key with the same name must have the same type and ValueKind for it;
+///     a scene may set: a double, an optional double or whole number (empty: until the end of the test), a bool, or a
+///     list of doubles. Two drives that have a key with the same name must have the same type and ValueKind for it;
 ///   - `std::optional<SpecFault> fault(double duration) const` — reports values that do not fit together, or that do
 ///   not
 ///     fit the duration of the test [s];

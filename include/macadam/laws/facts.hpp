@@ -23,7 +23,15 @@ inline constexpr int pair_types = 6;  ///< number of PairTypes (contact_network.
 /// Whether and how a contact point is broken: by tension or by shear.
 enum class Break : std::uint8_t { none, tension, shear };
 inline constexpr const char* to_string(Break how) {
-  return how == Break::tension ? "tension" : how == Break::shear ? "shear" : "none";
+  switch (how) {
+    case Break::none:
+      return "none";
+    case Break::tension:
+      return "tension";
+    case Break::shear:
+      return "shear";
+  }
+  return "unknown";
 }
 
 /// Properties of a law of any type; the contract in law.hpp explains them.
