@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file make_cuda.hpp  Makes a stepper on CUDA devices for a list of laws: ExecCudaTiles if the run can be stepped in
-/// blocks of steps, the tiles fit the devices and no contact has rock in series, else ExecCuda.
+/// blocks of steps and the tiles fit the devices, else ExecCuda. Several ranks with rock in series have ExecCuda, too.
 #pragma once
 
 #include "kernels/cuda/two_kernels/exec_cuda.hpp"
@@ -25,7 +25,7 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
   if (given.devices.empty()) given.devices = {0};
   if constexpr (!std::is_same_v<P, DoublePrecision> && any_has_blocks(std::type_identity<Any>{})) {
     using Tiles = ExecCudaTiles<P, Any>;
-    if (tiles_can_step(network) && Tiles::block_of(given, facts_of(laws), specimen.box.size) > 0) {
+    if (tiles_can_step(network, given) && Tiles::block_of(given, facts_of(laws), specimen.box.size) > 0) {
       if (auto made = make_stepper_on<Tiles>(specimen, network, laws, inertia, given, used)) return made;
     }
   }

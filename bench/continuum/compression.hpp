@@ -15,9 +15,9 @@ struct Compression {
 };
 
 /// Solves K·u = 0: the top is displaced along z, and the sides are free. `area`: cross-section of the specimen, in
-/// faces of elements. `tolerance`: of the residual, over that of a strain along z alone. `u`: the displacement of a
-/// similar problem, from which the solver starts; a field without nodes if there is none. At the end it is the
-/// solution. \throws std::runtime_error if no material connects the platens, and after 500 iterations.
+/// faces of elements. `tolerance`: the solver stops at this residual, divided by the residual of a strain along z
+/// alone. `u`: the initial displacement, from a similar problem, or a field without nodes; replaced by the solution.
+/// \throws std::runtime_error if no material connects the platens, and after 500 iterations.
 Compression compress(const Grid<double>& grid, double area, double tolerance, Field<double>& u);
 
 /// Removes elements whose faces do not connect them with both platens: pieces in a void cannot carry a load.

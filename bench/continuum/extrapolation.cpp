@@ -29,14 +29,19 @@ std::array<Complex, 2> limit(const Sizes& stiff, const Sizes& soft, std::size_t 
 Limit extrapolated(const Sizes& stiff, const Sizes& soft) {
   const std::size_t last = soft.size() - 1;
   const auto gap = [&](std::size_t a) { return std::abs(stiff[a].modulus - soft[a].modulus); };
+  const auto apart = [](Complex a, Complex b) { return std::abs(std::abs(a) - std::abs(b)); };
+  const auto turned = [](Complex a, Complex b) { return std::abs(std::arg(a / b)); };
   const SizeResult& finest = soft[last];
   Limit out{finest.modulus, finest.poisson, gap(last), gap(last) / std::abs(finest.modulus)};
-  if (gap(last) > 0.8 * gap(last - 1) || gap(last) < 1e-9 * std::abs(finest.modulus)) return out;
+  if (gap(last) < 1e-9 * std::abs(finest.modulus)) {  // no voxel is cut
+    out.uncertainty = apart(finest.modulus, soft[last - 1].modulus);
+    out.phase_uncertainty = turned(finest.modulus, soft[last - 1].modulus);
+    return out;
+  }
+  if (gap(last) > 0.8 * gap(last - 1)) return out;
   const bool three = last > 1 && gap(last - 1) <= 0.8 * gap(last - 2);
   const Complex line = limit(stiff, soft, 2)[0];
   const auto best = limit(stiff, soft, three ? 3 : 2);
-  const auto apart = [](Complex a, Complex b) { return std::abs(std::abs(a) - std::abs(b)); };
-  const auto turned = [](Complex a, Complex b) { return std::abs(std::arg(a / b)); };
   return {best[0], best[1], std::max(apart(best[0], line), apart(line, finest.modulus)),
           std::max(turned(best[0], line), turned(line, finest.modulus))};
 }

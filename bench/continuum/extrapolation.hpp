@@ -29,6 +29,8 @@ struct Limit {
 /// three finest sizes (two, if there are only two), evaluated at g = 0. The uncertainty is the larger of two
 /// differences: from the straight line through the two finest sizes, and from this line to the finest soft result. If
 /// g does not fall to 0.8 between the two finest sizes, the limit is the finest soft result, and the uncertainty is g.
+/// If no voxel of the finest size is cut, its result is the limit, and the uncertainty is the difference from the size
+/// before.
 Limit extrapolated(const Sizes& stiff, const Sizes& soft);
 
 }  // namespace continuum

@@ -51,7 +51,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--rock", o.rock, "rock: modulus [Pa], phase angle [degrees], Poisson's ratio [60e9 0 0.28]")
       ->expected(3);
   app.add_option("--tolerance", o.tolerance,
-                 "residual at which the solver stops, relative to that of a strain along z alone [1e-6]");
+                 "residual at which the solver stops, divided by the residual of a strain along z alone [1e-6]");
 }
 
 /// Checks the constants of a phase. \throws std::runtime_error naming the option and the value.
@@ -114,7 +114,7 @@ void run(const Options& o) {
   for (const double voxel : voxels) {
     fractions = specimen(voxel);
     for (const Mixing mixing : {Mixing::stiff, Mixing::soft}) {
-      continuum::Field<double> u;  // each frequency starts from the displacement of the one before
+      continuum::Field<double> u;  // each frequency starts from the displacement at the previous frequency
       for (std::size_t m = 0; m < mastics.size(); ++m) {
         const auto begin = std::chrono::steady_clock::now();
         const auto result =

@@ -21,7 +21,7 @@ struct Material {
 /// the average with the infinite inverse of a void would remove every voxel that a void touches.
 enum class Mixing { stiff, soft };
 
-/// Returns the grid of a specimen, with moduli divided by that of the mastic. Columns without material are added at
+/// Returns the grid of a specimen, with moduli divided by the mastic's modulus. Columns without material are added at
 /// the sides until coarser grids fit, and pieces that do not connect both platens are removed.
 Grid<double> grid_of(const PhaseFractions& of, const Material& mastic, const Material& rock, Mixing mixing);
 

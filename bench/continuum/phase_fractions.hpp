@@ -44,9 +44,9 @@ void place_bodies(PhaseFractions& to, double voxel, const std::vector<Body>& roc
 std::vector<Body> read_balls(const std::string& file);
 
 /// Returns the bodies of a file of aggregates: columns body,shape,size,x,y,z,qw,qx,qy,qz in any order, and others. A
-/// shape is a file in the folder `library`, without its ending. It is centred at the centroid of its volume, scaled
-/// so that its intermediate dimension is `size` [m], rotated by the quaternion, and moved to x,y,z [m]. The shape
-/// `sphere` has the diameter `size` and needs no quaternion. \throws std::runtime_error naming the line.
+/// shape is the name of a file in the folder `library`, without its ending. It is centred at the centroid of its
+/// volume, scaled so that its intermediate dimension is `size` [m], rotated by the quaternion, and moved to x,y,z [m].
+/// The shape `sphere` has the diameter `size` and needs no quaternion. \throws std::runtime_error naming the line.
 std::vector<Body> read_aggregates(const std::string& file, const std::string& library);
 
 /// Returns the fractions of the Laguerre cells of a specimen file: each cell has the phase of its sphere. Cut voxels

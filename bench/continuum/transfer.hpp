@@ -7,7 +7,8 @@
 namespace continuum {
 
 /// Returns the grid with edges twice as long. Its constants are averages over the elements in each of its elements. If
-/// the number of layers is odd, the uppermost layer stays as it is, with half the height of a cube.
+/// the number of layers is odd, the uppermost layer is not merged with another layer, so it has half the height of a
+/// cube.
 template <class T>
 Grid<T> coarser(const Grid<T>& fine);
 

@@ -72,9 +72,8 @@ def of_mix(found, mix, figure):
     e, phi = CALIBRATED[mix]
     return [f"### {mix} (Fig. {figure})", "",
             *table(["", "δ_MA (paper)", "\\|E*\\| (%), 2 … 20 Hz", "d_m of φ (%)", "φ (%), 2 … 20 Hz"], lines),
-            *wrapped(f"""Because |E\\*| is fitted, d_m of |E\\*| is 0. In the paper d_m of |E\\*| is {e} %, and
-                d_m of φ is from {minus(f'{phi[0]:+d}')} to
-                {phi[1]:+d} %."""), ""]
+            *wrapped(f"""Because |E\\*| is fitted, its mean deviation d_m is 0. In the paper d_m of |E\\*| is {e} %, and
+                d_m of φ is between {minus(f'{phi[0]:+d}')} and {phi[1]:+d} %, depending on the specimen."""), ""]
 
 
 def calibrated():

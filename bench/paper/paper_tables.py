@@ -87,6 +87,6 @@ DELTA_MA = {"AM1": {"SS": 3.15, "MS-Poly-coarse": 1.68, "MS-Ico-coarse": 1.68, "
                     "MS-Ico-fine": 1.00},
             "AM2": {"SS": 6.75, "MS-Poly-coarse": 3.20, "MS-Poly-fine": 1.70}}
 # Mean deviations from SS with these delta_MA, in %, over the specimens: of |E*| (for AM1 its magnitude), of phi
-CALIBRATED = {"AM1": ("3", (-16, 15)), "AM2": ("−3 … +3", (-8, 23))}
+CALIBRATED = {"AM1": ("3", (-16, 15)), "AM2": ("between −3 and +3", (-8, 23))}
 # Deviation of Ico from Poly, %; the paper says "essentially identical" for the coarse filling
 ICO_OVER_POLY = {"coarse": (0, 0), "fine": (0.8, 2.3)}

@@ -32,7 +32,7 @@ The package, a name at a time. [docs/python.md](../docs/python.md) shows how the
 
 PARTS = [("Scenes and specimens", ("_scene", "_specimen")), ("Tests and their results", ("_simulation",)),
          ("Laws and calibration", ("_fit", "_calibration")), ("The compiled core", ("_core",))]
-MODULES = ("shapes", "drives", "ct", "report", "study")
+MODULES = ("shapes", "drives", "ct", "mixture", "report", "study")
 
 
 def headers(name="macadam/macadam.hpp", seen=None):

@@ -26,7 +26,7 @@ const DeviceInfo& device_of(const BackendReport& report, int number) {
     list += (list.empty() ? "" : ", ") + std::to_string(d.number) + " (" + d.name + ")";
   }
   for (const DeviceInfo& d : report.devices_without_code) {
-    if (d.number == number) without_code = ", which this program was not compiled for (" + d.name + ")";
+    if (d.number == number) without_code = " (" + d.name + "), for which this program was not compiled";
   }
   throw InputError("device: found " + std::to_string(number) + without_code + ", expected one of " + list);
 }
@@ -108,7 +108,8 @@ Backend select_backend(Backend asked, std::string* reason, const DeviceList& dev
 Backend kernels::resolved(Backend asked, bool on_device, StepperOptions& options) {
   if (asked == Backend::reference) {
     throw InputError(
-        "backend: found reference, expected cpu, cuda or auto: the reference backend computes only Macadam's built-in "
+        "backend: found \"reference\", expected \"cpu\", \"cuda\" or \"auto\", because the reference backend computes "
+        "only Macadam's built-in "
         "laws, not the laws of this program");
   }
   if (asked == Backend::automatic && options.devices.empty() && !on_device) return Backend::cpu;

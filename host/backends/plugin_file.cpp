@@ -62,7 +62,7 @@ const void* find_plugin(const PluginFile& asked, std::string& why) {
     return nullptr;
   }
   why = std::string("found no ") + asked.file + " beside the library or in MACADAM_PLUGIN_PATH (a build with " +
-        asked.makes + " makes it)";
+        asked.makes + " makes this file)";
   return nullptr;
 }
 

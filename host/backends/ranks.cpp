@@ -59,9 +59,8 @@ Ranks* join_ranks() {
   if (!plugin) throw RunError("ranks: this process cannot join the other processes that mpirun started: " + why);
   Ranks* const found = plugin->join();
   if (found->count() == 1 && processes_begun() > 1) {
-    throw RunError("ranks: found only this process, expected as many processes as mpirun started, " +
-                   std::to_string(processes_begun()) +
-                   ": mpirun belongs to another MPI library than the one that libmacadam_ranks.so uses");
+    throw RunError("ranks: found 1 process, expected the " + std::to_string(processes_begun()) +
+                   " processes that mpirun started; use the mpirun of the MPI library that libmacadam_ranks.so uses");
   }
   if (found->count() > 1) return joined = found;
   found->leave();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // main.cpp  The program: macadam run | specimen | shapes | fit | calibrate | ct | info | new | check | bench | report |
-// study | completion | man. Exit code 0: done; 1: the run failed; 2: the input is wrong.
+// mixture | study | completion | man. Exit code 0: done; 1: the run failed; 2: the input is wrong.
 #include <CLI/CLI.hpp>
 #include <new>
 

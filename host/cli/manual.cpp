@@ -74,7 +74,8 @@ std::string manual_page(const CLI::App& app) {
            {"OMP_WAIT_POLICY",
             "how idle threads of the CPU wait; if neither this nor GOMP_SPINCOUNT is set, macadam sets passive, which "
             "leaves their cores to other programs"},
-           {"MACADAM_PYTHON", "Python interpreter that has the package macadam; the commands report and study need it"},
+           {"MACADAM_PYTHON",
+            "Python interpreter that has the package macadam; the commands mixture, report and study need it"},
            {"MACADAM_PLUGIN_PATH", "folder of the libraries of the CUDA backend and of --ranks"}})
     out += fmt::format(".TP\n{}\n{}\n", bold(name), escaped(text));
   return out;

@@ -29,7 +29,7 @@ std::string comments(const Material& m, const char* mark) {
 std::string isotropy(double poisson_ratio, const char* mark) {
   return fmt::format(
       "{0} Poisson's ratio {1:g} is an assumption. It is constant in time, so that shear and bulk moduli relax "
-      "alike.\n{0} The modulus is the instantaneous one, and the fractions refer to it.\n",
+      "alike.\n{0} The modulus is the instantaneous modulus, and the fractions are relative to this modulus.\n",
       mark, poisson_ratio);
 }
 

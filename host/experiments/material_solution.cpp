@@ -67,7 +67,7 @@ class PlannedMaterial : public PlannedExperiment {
         const InPhase in(result.phases, &PhaseSeconds::harmonic);
         material.spectrum = spectrum_of(prepared_.specimen, prepared_.network, scene_.laws, options_);
       } catch (const InterruptedError&) {
-        throw InterruptedError("interrupted while the spectrum was computed, which writes no checkpoints");
+        throw InterruptedError("interrupted while the spectrum was computed; this computation writes no checkpoints");
       }
     });
     material.shortest_s = options_.shortest, material.longest_s = options_.longest;
@@ -81,7 +81,8 @@ class PlannedMaterial : public PlannedExperiment {
     write_material(out, material, poisson_ratio_);
     if (material.confined) {
       result.warnings.emplace_back(
-          "no tables for finite-element programs are written: they need uniaxial moduli, but the sides are held");
+          "no tables for finite-element programs are written, because such tables need uniaxial moduli, and the sides "
+          "are held");
     }
     responds_(out, std::move(material), result);
   }

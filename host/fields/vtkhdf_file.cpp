@@ -240,7 +240,7 @@ class VtkHdfSeries : public FieldSeries {
   void reopen(double until) {
     const auto refuse = [&](const std::string& found) {
       throw InputError(name_.string(), 0, "fields to continue", found,
-                       "the fields of this run; remove the file and the run begins a new one");
+                       "the fields of this run; if you remove the file, the run begins a new file");
     };
     std::vector<double> times;
     std::int64_t points = -1;

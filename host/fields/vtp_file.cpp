@@ -147,7 +147,7 @@ class VtpSeries : public FieldSeries {
     in.exceptions(std::ios::badbit);  // so that a lack of memory is not reported as a damaged file
     const auto refuse = [&](const std::string& found) {
       throw InputError(list().string(), 0, "fields to continue", found,
-                       "the fields of this run; remove the file and the run begins a new one");
+                       "the fields of this run; if you remove the file, the run begins a new file");
     };
     bool ended = false;
     for (std::string line; std::getline(in, line); ended = ended || line == "</VTKFile>") {

@@ -212,7 +212,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     return read_image(std::move(image));
   } catch (const H5::Exception& error) {
     throw InputError(file.string(), 0, "checkpoint", "data that HDF5 cannot read (" + error.getDetailMsg() + ")",
-                     "texts and arrays");
+                     "a complete checkpoint");
   }
 }
 

@@ -55,7 +55,7 @@ ResultFolder::ResultFolder(const fs::path& folder) {
     if (::faccessat(file_, ".", W_OK | X_OK, AT_EACCESS) != 0 && errno != ENOENT) {
       const std::string why = std::generic_category().message(errno);
       ::close(file_);
-      throw RunError(folder.string() + ": no files can be written into it: " + why);
+      throw RunError(folder.string() + ": files cannot be written into this folder: " + why);
     }
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(file_);

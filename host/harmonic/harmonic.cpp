@@ -151,7 +151,8 @@ class Harmonic::Implementation {
       const Complex k = task.stiffness.k[pair];
       if (network_.count[pair] > 0 && !(std::isfinite(k.real()) && std::isfinite(k.imag()) && k != 0.0)) {
         throw InputError(
-            fmt::format("harmonic: the law of {} is singular at s = {:g}{:+g}i 1/s: found a stiffness of {:g}{:+g}i",
+            fmt::format("harmonic: the law of {} is singular at s = {:g}{:+g}i 1/s: found a complex modulus of "
+                        "{:g}{:+g}i Pa, expected a finite modulus that is not 0",
                         to_string(static_cast<PairType>(pair)), s.real(), s.imag(), k.real(), k.imag()));
       }
     }
@@ -261,7 +262,7 @@ class Harmonic::Implementation {
     out.residual = w.residual;
     out.iterations = task.iterations;
     out.why_factors = w.why_factors.empty() ? why_factors_ : w.why_factors;
-    for (auto* part : {&out.parts.normal, &out.parts.shear}) {
+    for (auto* part : {&out.parts.normal, &out.parts.shear, &out.parts.normal_rock, &out.parts.shear_rock}) {
       for (Complex& e : *part) e *= to_modulus;
     }
     out.parts.inertia *= to_modulus;

@@ -24,8 +24,8 @@ Out with_stiffness(PairType pair, const std::variant<L...>& law, F&& f) {
         } else {
           throw InputError(std::string("contacts of ") + to_string(pair), 0, "law",
                            std::string(Own::name) + ", which has no complex stiffness" +
-                               (linear_law<Own> ? "" : ": it is not linear"),
-                           "a law with a complex stiffness, which every solution in the frequency domain needs; or "
+                               (linear_law<Own> ? "" : " because it is not linear"),
+                           "a law with a complex stiffness, because solutions in the frequency domain need one; or "
                            "method = \"explicit\" with kind = \"cyclic\", which steps any law");
         }
       },

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/harmonic/contact_motions.hpp"
 #include "kernels/base/parallel.hpp"
-#include "kernels/contact/contact_kinematics.hpp"
+#include "kernels/harmonic/contact_end.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {
@@ -55,51 +56,17 @@ void take_away(MatrixXd& from, const Eigen::Ref<const MatrixXd>& columns, const 
   });
 }
 
-/// The three relative displacements of a contact in every motion, a column per motion.
-using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-
-/// `normal` has opening and bending, `shear` slip and twist; a displacement of one group causes no load of the other
-/// group.
-struct ContactMotions {
-  Rows normal, shear;
-};
-
-/// Computes the relative displacements of a contact in motions 0 … count − 1. `row(dof, j)` is degree of freedom `dof`
-/// in motion j. Motion 0 moves the top wall by one.
-template <class Row>
-void relative_motions(const Contact& c, const Row& row, Index count, ContactMotions& out) {
-  double u[6];
-  const kernels::Placement<double> placement{c.n, c.s, c.t, c.arm_a, c.arm_b};
-  const auto twist = [&](std::int32_t end, Index j) -> kernels::Twist<double> {
-    if (end < 0) return {{0, 0, end == wall_z_hi && j == 0 ? 1.0 : 0.0}, {}};
-    const auto x = [&](std::size_t k) { return row(6 * static_cast<std::size_t>(end) + k, j); };
-    return {{x(0), x(1), x(2)}, {x(3), x(4), x(5)}};
-  };
-  for (Index j = 0; j < count; ++j) {
-    kernels::relative_rates(placement, twist(c.a, j), twist(c.b, j), u);
-    for (Index k = 0; k < 3; ++k) out.normal(k, j) = u[k], out.shear(k, j) = u[3 + k];
-  }
-}
-
-/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. The matrices contain
-/// the same sums as condensed_load().
-Eigen::Matrix3d normal_form(const Contact& c) {
-  const auto& m = c.moments;
-  Eigen::Matrix3d out;
-  out << m.a, m.s, m.t, m.s, m.ss, m.st, m.t, m.st, m.tt;
-  return out / c.distance;
-}
-Eigen::Matrix3d shear_form(const Contact& c) {
-  const auto& m = c.moments;
-  Eigen::Matrix3d out;
-  out << m.a, 0, -m.t, 0, m.a, m.s, -m.t, m.s, m.ss + m.tt;
-  return out / c.distance;
-}
-
 }  // namespace
 
-ReducedModel::ReducedModel(const Specimen& specimen, const ContactNetwork& network, Inertia inertia)
-    : specimen_(specimen), network_(network), inertia_(std::move(inertia)) {}
+ReducedModel::ReducedModel(const Specimen& specimen, const ContactNetwork& network, Inertia inertia,
+                           const RockClassing& classing)
+    : specimen_(specimen),
+      network_(network),
+      inertia_(std::move(inertia)),
+      rock_(network, classing),
+      in_rock_(rock_.classes().size()) {
+  for (const Contact& c : network.contacts) has_rock_.push_back(c.series > 0);
+}
 
 void ReducedModel::add(const std::vector<Vector>& motions) {
   if (motions.empty()) return;
@@ -147,7 +114,7 @@ void ReducedModel::project(Index from) {
   for_each_in_parallel(pieces, [&](std::size_t piece) {
     std::array<MatrixXd, 2 * pair_types> motion, force;
     std::array<Index, pair_types> filled{};
-    ContactMotions u{Rows(3, count), Rows(3, count)};
+    ContactMotions u(count);
     const auto flush = [&](std::size_t pair) {
       for (const std::size_t form : {2 * pair, 2 * pair + 1}) {
         sums[piece][form].noalias() +=
@@ -156,6 +123,7 @@ void ReducedModel::project(Index from) {
       filled[pair] = 0;
     };
     for (std::size_t i = piece * contacts.size() / pieces; i < (piece + 1) * contacts.size() / pieces; ++i) {
+      if (has_rock_[i]) continue;  // RockClasses sums these contacts
       const Contact& c = contacts[i];
       const auto pair = static_cast<std::size_t>(c.pair);
       if (motion[2 * pair].size() == 0) {
@@ -165,8 +133,7 @@ void ReducedModel::project(Index from) {
           sums[piece][form] = MatrixXd::Zero(count, added);
         }
       }
-      relative_motions(
-          c, [&](std::size_t dof, Index j) { return basis_(static_cast<Index>(dof), j); }, count, u);
+      u.set(c, basis_);
       const Index row = 3 * filled[pair];
       motion[2 * pair].middleRows<3>(row) = u.normal;
       motion[2 * pair + 1].middleRows<3>(row) = u.shear;
@@ -190,6 +157,11 @@ void ReducedModel::project(Index from) {
       widen(shear ? shear_[pair] : normal_[pair], columns);
     }
   }
+  const std::vector<RockForms> of_classes = rock_.columns(basis_, from);
+  for (std::size_t i = 0; i < of_classes.size(); ++i) {
+    widen(in_rock_[i].normal, of_classes[i].normal);
+    widen(in_rock_[i].shear, of_classes[i].shear);
+  }
   if (inertia_.mass.empty()) {
     mass_ = MatrixXd::Zero(count, count);
     return;
@@ -199,13 +171,24 @@ void ReducedModel::project(Index from) {
   widen(mass_, products(basis_, momentum));
 }
 
-ReducedModel::Solution ReducedModel::solve(const LawTable& laws, const HarmonicLoad& load) const {
+ReducedModel::Solution ReducedModel::solve(const LawTable& laws, const HarmonicLoad& load, double rock) const {
   const Complex s = load.s(), inertia = load.density_scaling * (s * s + s * load.viscous_damping);
   const PairStiffness stiffness = pair_stiffness(laws, s);
   Eigen::MatrixXcd whole = inertia * mass_;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     whole += stiffness.k[pair] * normal_[pair];
     whole += stiffness.k[pair] * stiffness.alpha[pair] * shear_[pair];
+  }
+  // stiffnesses of a class in normal and in shear direction, with α
+  const auto stiffness_of = [&](const RockClasses::Class& of) {
+    const double series = rock * of.series, alpha = stiffness.alpha[of.pair];
+    const Complex k = stiffness.k[of.pair];
+    return std::array<Complex, 2>{kernels::in_series(k, series), alpha * kernels::in_series(k, alpha * series)};
+  };
+  for (std::size_t i = 0; i < in_rock_.size(); ++i) {
+    const auto [normal, shear] = stiffness_of(rock_.classes()[i]);
+    whole += normal * in_rock_[i].normal;
+    whole += shear * in_rock_[i].shear;
   }
   Solution out;
   out.of_the_motions = VectorXcd::Ones(basis_.cols());
@@ -227,6 +210,15 @@ ReducedModel::Solution ReducedModel::solve(const LawTable& laws, const HarmonicL
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     out.parts.normal[pair] = stiffness.k[pair] * energy(normal_[pair]);
     out.parts.shear[pair] = stiffness.k[pair] * stiffness.alpha[pair] * energy(shear_[pair]);
+  }
+  for (std::size_t i = 0; i < in_rock_.size(); ++i) {
+    const RockClasses::Class& of = rock_.classes()[i];
+    const auto [normal, shear] = stiffness_of(of);
+    const Complex of_normal = normal * energy(in_rock_[i].normal), of_shear = shear * energy(in_rock_[i].shear);
+    out.parts.normal[of.pair] += of_normal;
+    out.parts.shear[of.pair] += of_shear;
+    out.parts.normal_rock[of.pair] += rock * of.series * normal * of_normal;
+    out.parts.shear_rock[of.pair] += rock * of.series * shear * of_shear;
   }
   out.parts.inertia = inertia * energy(mass_);
   return out;

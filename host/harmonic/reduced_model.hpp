@@ -8,12 +8,16 @@
 /// linear system (Galerkin's method, model section 17). If the motions span the real and imaginary parts of a full
 /// solution, the reduced model gives the same E* and derivatives as this solution. Otherwise the error of E* grows with
 /// the square of the distance between the solution and the span of the motions.
+///
+/// Contacts with rock in series have stiffnesses of their own. They are divided between classes, each with its own
+/// matrices N and S (rock_classes.hpp). The error of E* then also contains the error of these classes.
 #pragma once
 
 #include <Eigen/Dense>
 #include <array>
 
 #include "host/harmonic/contact_operator.hpp"
+#include "host/harmonic/rock_classes.hpp"
 
 namespace macadam::harmonic {
 
@@ -21,8 +25,10 @@ namespace macadam::harmonic {
 class ReducedModel {
  public:
   /// Specimen and network must outlive this object. `inertia` has the masses of the particles; if it is empty,
-  /// solutions have no inertia.
-  ReducedModel(const Specimen& specimen, const ContactNetwork& network, Inertia inertia);
+  /// solutions have no inertia. `classing` is used only if contacts have rock in series. \throws InputError as
+  /// RockClasses.
+  ReducedModel(const Specimen& specimen, const ContactNetwork& network, Inertia inertia,
+               const RockClassing& classing = {});
 
   /// Adds the motions of solutions at unit displacement of the top wall (HarmonicResult::motion). Only the parts
   /// outside the span of the present motions are added.
@@ -32,18 +38,23 @@ class ReducedModel {
     ModulusParts parts;               ///< parts of E* [Pa]
     Eigen::VectorXcd of_the_motions;  ///< coefficients of the motions
   };
-  /// Returns the solution for `load`; HarmonicLoad::near is not used. At least one motion must have been added. \throws
-  /// RunError when the small system has no finite solution.
-  Solution solve(const LawTable& laws, const HarmonicLoad& load) const;
+  /// Returns the solution for `load`; HarmonicLoad::near is not used. At least one motion must have been added. `rock`:
+  /// factor on the compliances of the rock in series that the network had at first. \throws RunError when the small
+  /// system has no finite solution.
+  Solution solve(const LawTable& laws, const HarmonicLoad& load, double rock = 1) const;
 
   /// Returns the motion of the particles, [6·particles], as a start for an iteration (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;
 
-  /// Returns the matrix F of a pair type, [motions][motions], with entries vᵢᵀ·(N + α·S)·vⱼ. If the motion of the
-  /// particles is the sum of the vⱼ with coefficients cⱼ, then k*·cᵀ·F·c is what this pair type adds to uᵀ·K*·u, where
-  /// u is that motion and k* the complex stiffness of the pair type's law. The caller multiplies this by height /
-  /// cross-section to get the pair type's part of E*.
+  /// Returns the matrix F of the contacts of a pair type without rock in series, [motions][motions], with entries
+  /// vᵢᵀ·(N + α·S)·vⱼ. If the motion of the particles is the sum of the vⱼ with coefficients cⱼ, then k*·cᵀ·F·c is what
+  /// this pair type adds to uᵀ·K*·u, where u is that motion and k* the complex stiffness of the pair type's law. The
+  /// caller multiplies this by height / cross-section to get the pair type's part of E*.
   Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
+
+  /// The classes of the contacts with rock in series, and their matrices.
+  const RockClasses& rock() const { return rock_; }
+  const std::vector<RockForms>& rock_forms() const { return in_rock_; }
 
   /// Number of real motions, including the first, in which the top wall moves.
   Eigen::Index motions() const { return basis_.cols(); }
@@ -64,6 +75,9 @@ class ReducedModel {
   Matrix basis_;
   std::array<Matrix, pair_types> normal_, shear_;  ///< vᵢᵀ·N·vⱼ and vᵢᵀ·S·vⱼ
   Matrix mass_;                                    ///< vᵢᵀ·M·vⱼ
+  RockClasses rock_;
+  std::vector<RockForms> in_rock_;  ///< one per class
+  std::vector<char> has_rock_;      ///< for each contact whether it belongs to classes
 };
 
 }  // namespace macadam::harmonic

@@ -17,13 +17,21 @@ Complex ModulusParts::modulus() const {
   return sum;
 }
 
+namespace {
+
+/// Returns the sensitivity to a parameter, whose logarithm changes E* by `change`: d|E| = |E|·Re(dE/E), dφ = Im(dE/E).
+Sensitivity sensitivity_of(std::string parameter, Complex change, Complex modulus) {
+  const Complex relative = change / modulus;
+  return {std::move(parameter), std::abs(modulus) * relative.real(), relative.imag() * 180 / std::numbers::pi};
+}
+
+}  // namespace
+
 std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable& laws, Complex s) {
   const Complex modulus = parts.modulus();
   std::vector<Sensitivity> out;
-  const auto add = [&](std::string parameter, Complex change) {  // d|E| = |E|·Re(dE/E), dφ = Im(dE/E)
-    const Complex relative = change / modulus;
-    out.push_back(
-        {std::move(parameter), std::abs(modulus) * relative.real(), relative.imag() * 180 / std::numbers::pi});
+  const auto add = [&](std::string parameter, Complex change) {
+    out.push_back(sensitivity_of(std::move(parameter), change, modulus));
   };
   Complex all_rock = 0;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -40,6 +48,32 @@ std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable
   }
   if (all_rock != 0.0) add("rock.E", all_rock);
   if (parts.inertia != 0.0) add("density_scaling", parts.inertia);
+  return out;
+}
+
+std::vector<Sensitivity> phase_sensitivities(const ModulusParts& parts, const LawTable& laws, Complex s) {
+  const Complex modulus = parts.modulus();
+  // A factor on all stiffnesses of the mastic changes E* by `mastic` times the change of the factor's logarithm.
+  Complex mastic = 0, rock = 0;
+  const Law* law_of_mastic = nullptr;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    const Complex whole = parts.normal[pair] + parts.shear[pair],
+                  in_series = parts.normal_rock[pair] + parts.shear_rock[pair];
+    const bool of_mastic = is_of_mastic(static_cast<PairType>(pair));
+    if (of_mastic && laws[pair] && !law_of_mastic) law_of_mastic = &*laws[pair];
+    (of_mastic ? mastic : rock) += whole - in_series;
+    rock += in_series;
+  }
+  std::vector<Sensitivity> out;
+  if (law_of_mastic && mastic != 0.0) {
+    with_stiffness<void>(PairType::mm, *law_of_mastic, [&](const auto& law) {
+      law.each_parameter(s, [&](const std::string& name, Complex change) {
+        out.push_back(sensitivity_of("mastic." + name, mastic * change, modulus));
+      });
+    });
+  }
+  if (rock != 0.0) out.push_back(sensitivity_of("aggregate.E", rock, modulus));
+  if (parts.inertia != 0.0) out.push_back(sensitivity_of("density_scaling", parts.inertia, modulus));
   return out;
 }
 

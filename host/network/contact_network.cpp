@@ -33,12 +33,13 @@ void check_input(const Specimen& specimen, const Tessellation& tessellation, con
     check_limits(spec.of_pair[k], std::string(" of ") + to_string(static_cast<PairType>(k)));
   if (const auto& hidden = tessellation.hidden; !hidden.empty()) {
     constexpr std::size_t named = 10;
-    std::string found = std::to_string(hidden.size()) + " without (particle";
+    std::string found = "no cell for " + std::to_string(hidden.size()) + " of " + std::to_string(specimen.cells()) +
+                        " particles and voids (number";
     for (std::size_t k = 0; k < std::min(named, hidden.size()); ++k)
       found += (k ? ", " : " ") + std::to_string(hidden[k]);
     found += hidden.size() > named ? ", …)" : ")";
-    throw InputError(specimen.source, specimen.line_of(hidden.front()), "particles with a Laguerre cell inside the box",
-                     found, "a cell for each of the " + std::to_string(specimen.cells()));
+    throw InputError(specimen.source, specimen.line_of(hidden.front()), "Laguerre cells inside the box", found,
+                     "a cell for each particle and void");
   }
 }
 

@@ -15,10 +15,10 @@
 #include "kernels/base/parallel.hpp"
 
 namespace macadam {
-namespace {
+namespace rock_surfaces {  // named, because a member of RockSurfaces has some of these types
 
 /// Smallest and largest length of the mastic, as a fraction of the distance, and smallest thickness of a film between
-/// two aggregates (section 5 of docs/model/contacts.md).
+/// two aggregates (section 25 of docs/model/contacts.md).
 constexpr double least_mastic = 0.05, most_mastic = 0.95, least_film = 1e-9;
 /// Intervals of a line that are shorter than this fraction of it are not looked at.
 constexpr double least_interval = 1e-13;
@@ -111,7 +111,9 @@ double cell_of(const Specimen& specimen) {
 /// Returns the largest of the edges of a grid's cells.
 double longest_edge(const SphereGrid& grid) { return std::max({grid.edge().x, grid.edge().y, grid.edge().z}); }
 
-}  // namespace
+}  // namespace rock_surfaces
+
+using namespace rock_surfaces;
 
 struct RockSurfaces::Bodies {
   std::vector<std::unique_ptr<const Template>> templates;  ///< as the surfaces; null for those that nothing uses
@@ -240,6 +242,7 @@ void apply_series(ContactNetwork& network, const Specimen& specimen, const RockS
     if (mastic < d) c.series = (d - mastic) / (c.length * rock_modulus);
   }
   network.rule = ContactRule::series;
+  network.rock_modulus = rock_modulus, network.mastic_poisson_ratio = mastic_poisson_ratio;
 }
 
 std::int64_t mastic_centres_in_rock(const Specimen& specimen, const RockSurfaces& rock) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file rock_lengths.hpp  Measures how much of each line of centres lies in rock, and gives contacts their lengths by
-/// the rule "series" (docs/model/contacts.md, section 5).
+/// the rule "series" (docs/model/contacts.md, section 25).
 #pragma once
 
 #include <cstdint>

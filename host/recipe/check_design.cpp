@@ -34,7 +34,8 @@ void check_curve(const MixDesign& design) {
     if (!is_share(curve[k].passing)) wrong(passing, "0 % to 100 %");
     if (k == 0) {
       if (curve[0].passing != 1)
-        wrong(passing + ", the coarsest sieve", "a coarsest sieve that 100 % pass, because sizes above it are unknown");
+        wrong(passing + ", the coarsest sieve",
+              "100 % passing the coarsest sieve, because sizes above this sieve are unknown");
       continue;
     }
     const SievePassing& above = curve[k - 1];
@@ -65,7 +66,7 @@ void check_envelope(const MixDesign& design) {
     if (!sizes.insert(p.size).second) wrong(in_millimetres(p.size) + " twice", "each sieve once");
     if (!(is_share(p.least) && is_share(p.most) && p.least <= p.most))
       wrong(in_percent(p.least) + " to " + in_percent(p.most) + " passing " + in_millimetres(p.size),
-            "the least before the most, both from 0 % to 100 %");
+            "the lower limit before the upper limit, both from 0 % to 100 %");
   }
 }
 
@@ -79,7 +80,8 @@ void check_densities(const MixDesign& design) {
   const std::size_t fractions = design.gradation.size() - 1, given = design.aggregate_density.size();
   if (given != 1 && given != fractions)
     refuse(design, "aggregate_density", fmt::format("{} densities", given),
-           fmt::format("one, or {}: one between every two of the {} sieves", fractions, fractions + 1));
+           fmt::format("1 density, or {} densities, one for each interval between two of the {} sieves", fractions,
+                       fractions + 1));
   for (const double density : design.aggregate_density) check_density(design, "aggregate_density", density);
   if (design.filler_density) check_density(design, "filler_density", *design.filler_density);
   check_density(design, "binder_density", design.binder_density);

@@ -49,7 +49,8 @@ double absorbed_of(const MixDesign& design, const Portion& all, double binder) {
     const double measured = *design.maximum_density, solid = all.volume + binder / design.binder_density;
     if (measured < 1 / solid - rounding)
       refuse(design, "maximum_density",
-             fmt::format("{}, by which {} of the aggregate's mass would be absorbed", in_kg_m3(measured),
+             fmt::format("{}, from which an absorbed binder of {} of the aggregate's mass would follow",
+                         in_kg_m3(measured),
                          in_percent((binder - design.binder_density * (1 / measured - all.volume)) / all.mass)),
              fmt::format("at least {}, which is the value without absorption: {}", in_kg_m3(1 / solid),
                          sum_of(all, binder, design.binder_density)));

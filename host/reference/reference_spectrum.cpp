@@ -64,8 +64,9 @@ double reference_static_modulus(const Specimen& specimen, const ContactNetwork& 
   Eigen::VectorXd residual = load;
   for (int round = 0; !(size_of(residual) <= tolerance * size_of(load)); ++round) {
     if (factors.info() != Eigen::Success || round == most_rounds) {
-      throw RunError(fmt::format("static modulus: residual {:.3g} of the load after {} rounds, expected {}",
-                                 size_of(residual) / size_of(load), round, tolerance));
+      throw RunError(
+          fmt::format("static modulus: found a residual of {:.3g} of the load after {} rounds, expected at most {}",
+                      size_of(residual) / size_of(load), round, tolerance));
     }
     u += factors.solve(residual);
     residual = load - stiffness.K * u;

@@ -120,7 +120,8 @@ std::vector<CrackEvent> to_cracks(const std::vector<double>& numbers) {
   constexpr std::size_t words = 4;
   if (numbers.size() % words != 0) {
     throw InputError(
-        fmt::format("checkpoint: found {} numbers of broken points, expected a multiple of {}", numbers.size(), words));
+        fmt::format("checkpoint: found a list of {} numbers for broken points, expected a multiple of {} numbers",
+                    numbers.size(), words));
   }
   std::vector<CrackEvent> out;
   for (std::size_t i = 0; i < numbers.size(); i += words) {
@@ -128,7 +129,8 @@ std::vector<CrackEvent> to_cracks(const std::vector<double>& numbers) {
       const double number = numbers[i + k];
       if (!(number >= 0 && number <= largest)) {
         throw InputError(
-            fmt::format("checkpoint: found {} in the list of broken points, expected 0 to {}", number, largest));
+            fmt::format("checkpoint: found the number {} in the list of broken points, expected a number from 0 to {}",
+                        number, largest));
       }
       return static_cast<std::uint32_t>(number);
     };

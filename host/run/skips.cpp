@@ -69,7 +69,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
         {"contact states",
          fmt::format("the forces of {} elastic contacts ({}) with fixed geometry follow from the displacements",
                      elastic_count, elastic),
-         "rounding: forces are not summed over the steps"});
+         "rounding, because forces are not summed over the steps"});
   }
   const auto [smooth, smooth_count] =
       pairs_that(scene, prepared, []<class L>(const L& law) { return law.alpha == 0 && !coupled_law<L>; });
@@ -78,7 +78,7 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
   }
   if (!reference && nothing_turns(prepared.network, scene.laws)) {
     out.push_back({"rotations", "without shear and with centred facets particles do not rotate",
-                   "first moments of a facet below 1e-12 times its area times its size count as 0"});
+                   "a first moment of a facet counts as 0 if it is below 1e-12 × area × size of the facet"});
   }
   append(geometry_skips(geometry, strain));
   if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {

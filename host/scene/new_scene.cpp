@@ -90,7 +90,7 @@ std::string written(const std::vector<KnownKey>& keys, const Part& part) {
   return out;
 }
 
-const std::vector<std::string> of_generator = {"file"};
+const std::vector<std::string> of_generator = {"file", "aggregate_file"};
 const std::vector<Given> box = {{"box", R"(["20 mm", "20 mm", "30 mm"])"}, {"seed", "1"}};
 
 std::vector<Part> specimen_by_volume(bool shapes) {
@@ -127,7 +127,8 @@ std::vector<Part> specimen_by_mass() {
             {"aggregate_density", R"("2.63 g/cm3")"},
             {"binder_density", R"("1.03 g/cm3")"},
             {"air_voids", R"("5 %")"}},
-           "The laboratory's sheet. Densities and volumes of the specimen follow from it."},
+           "The mix design from the laboratory's sheet. Densities and volumes of the specimen are computed from this "
+           "design."},
           {"[specimen.mastic]", {{"radius", R"(["0.75 mm", "1 mm"])"}}, "", true, {"porosity", "count"}}};
 }
 
@@ -154,7 +155,7 @@ std::vector<Part> contacts_of(NewKind kind) {
         chain("C", "[8.950e9, 5.695e9, 1.114e9]"),
         {"alpha", "0.1"}},
        "Contact laws, one per pair of materials. These are published values of an AC 14 mixture; macadam fit computes "
-       "values of your own mastic from measured moduli, macadam calibrate values of your own mixture."},
+       "values for your own mastic from measured moduli, and macadam calibrate finds values for your own mixture."},
       {"[[contacts]]",
        {{"pair", R"("M-A")"},
         {"law", kelvin},
@@ -244,8 +245,6 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule) {
             {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
   if (!series) append(contacts_of(kind));
-  std::vector<std::string> not_in_output{"every", "format"};
-  if (series) not_in_output.emplace_back("sensitivities");
   append({{"[network]", series ? std::vector<Given>{{"rule", R"("series")"}} : std::vector<Given>{}},
           loading_of(test),
           {"[solver]",
@@ -254,7 +253,7 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule) {
            true,
            {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",
             "precision"}},
-          {"[output]", {}, "", true, not_in_output}});
+          {"[output]", {}, "", true, {"every", "format"}}});
   std::string out =
       "# A scene of Macadam. Numbers are in SI units, or text with a unit, such as \"12.5 mm\". docs/scene.md explains "
       "scenes,\n"

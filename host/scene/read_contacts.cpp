@@ -94,9 +94,8 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
             if (kind != ValueKind::strength) value *= delta;
           });
           if (!laws::usable(law)) {
-            section.refuse("delta",
-                           fmt::format("{}, whose product with a coefficient of the law is 0 or infinite", delta),
-                           "a factor whose products are within the range of a double");
+            section.refuse("delta", fmt::format("{}, which makes a coefficient of the law 0 or infinite", delta),
+                           "a factor that keeps all coefficients of the law within the range of double precision");
           }
         },
         read_law);

@@ -14,7 +14,7 @@ std::vector<Key> keys_of(FieldSpec& spec) {
     const std::array<bool*, 3> asked{&spec.particles, &spec.contacts, &spec.cells};
     for (const Value& entry : value.entries("an array of \"particles\", \"contacts\", \"cells\"")) {
       bool& one = *asked[entry.choice({"particles", "contacts", "cells"})];
-      if (one) entry.refuse(entry.shown() + " twice", "each once");
+      if (one) entry.refuse(entry.shown() + " twice", "each field once");
       one = true;
     }
   };

@@ -47,10 +47,9 @@ void require_rule(const Section& section, ContactRule rule) {
   if (rule == ContactRule::series) return;
   for (const char* key : {"law", "E", "poisson_ratio"}) {
     if (section.has(key))
-      section.refuse(
-          key, "this key with rule = \"centres\" in [network]",
-          "rule = \"series\" there, or no law of a phase, because with \"centres\" each pair has its own law "
-          "in [[contacts]]");
+      section.refuse(key, "this key with rule = \"centres\" in [network]",
+                     "rule = \"series\" in [network], or no law of a phase, because with \"centres\" each pair has its "
+                     "own law in [[contacts]]");
   }
 }
 
@@ -78,7 +77,7 @@ void read_aggregate(const Section& section, Need need, ContactRule rule, Materia
   require_rule(section, rule);
   if (section.has("law") != section.has("E")) {
     section.refuse("E", section.has("E") ? "this key without law" : "nothing",
-                   section.has("E") ? "law = \"elastic\" beside it" : "this key, which law = \"elastic\" needs");
+                   section.has("E") ? "law = \"elastic\" as well" : "a modulus, because law is \"elastic\"");
   }
 }
 
@@ -114,7 +113,7 @@ void read_mastic(const Section& section, Need need, ContactRule rule, Materials&
       },
       of_mastic);
   if (!materials.mastic_poisson_ratio)
-    section.refuse("poisson_ratio", "nothing", "this key, which the law of the mastic needs");
+    section.refuse("poisson_ratio", "nothing", "a Poisson's ratio, because a law of the mastic is given");
   phases.mastic = std::move(of_mastic);
 }
 
@@ -160,7 +159,7 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   if (mastic) {
     const double nu = *scene.materials.mastic_poisson_ratio;
     set(PairType::mm, *phases.mastic, phases.shift);
-    set(PairType::mw, *phases.mastic, phases.shift);
+    set(PairType::mw, with_alpha(*phases.mastic, 0), phases.shift);  // frictionless platens, as in [1]
     if (rock) {
       set(PairType::ma, *phases.mastic, phases.shift);
       // A film between two aggregates is held at its faces: λ + 2μ resists its opening and μ its slip.
@@ -170,7 +169,7 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   if (rock) {
     const laws::Elastic law{*phases.rock_modulus, 1};
     set(PairType::inner, law, laws::NoShift{});
-    set(PairType::aw, law, laws::NoShift{});
+    set(PairType::aw, with_alpha(law, 0), laws::NoShift{});
   }
 }
 

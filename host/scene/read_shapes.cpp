@@ -31,10 +31,9 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
     out.folder = (folder / name).lexically_normal();
     std::error_code error;
     if (!std::filesystem::is_directory(out.folder, error)) {
-      value.refuse(
-          "no folder " + out.folder.string(),
-          "\"aggregates\", \"icosahedron\", \"aggregates and icosahedron\", or a folder of surfaces relative to "
-          "the scene's");
+      value.refuse("no folder " + out.folder.string(),
+                   "\"aggregates\", \"icosahedron\", \"aggregates and icosahedron\", or a folder of surfaces; its path "
+                   "is relative to the scene's folder");
     }
   };
   section.read(

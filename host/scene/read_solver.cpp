@@ -20,7 +20,7 @@ void read_damping(const Section& section, SolverSpec& spec) {
   if (value) {
     spec.damping = spec.damping_kind == Damping::local ? value->number(ratio, chi) : value->number(rate, non_negative);
   } else if (kind && spec.damping_kind != Damping::none) {
-    section.refuse("damping", "nothing", "its value, because damping_kind is " + kind->shown());
+    section.refuse("damping", "nothing", "a value, because damping_kind is " + kind->shown());
   }
   if (spec.damping_kind == Damping::none && spec.damping > 0) {
     section.refuse("damping", value->shown(), "0, because damping_kind is \"none\"");
@@ -143,7 +143,7 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
                    "no key inertia, because this method always has inertia; or method = \"harmonic\"");
   }
   if (!spec.devices.empty() && (spec.backend == Backend::cpu || spec.backend == Backend::reference)) {
-    section.refuse("device", to_string(spec.devices), "no device with a backend other than \"cuda\" or \"auto\"");
+    section.refuse("device", to_string(spec.devices), "no device, or backend = \"cuda\" or \"auto\"");
   }
   // The fit of the fundamental with offset and trend needs at least eight samples per cycle, and a sample takes at
   // least one step.

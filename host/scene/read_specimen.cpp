@@ -21,7 +21,7 @@ Reader box_into(Box& box) {
     if (edges.size() != 3) value.refuse(fmt::format("{} entries", edges.size()), "three, [x, y, z]");
     box.size = {edges[0], edges[1], edges[2]};
     if (!(box.volume() > 0 && std::isfinite(box.volume()))) {
-      value.refuse(fmt::format("a volume of {} m3", box.volume()), "a volume within the range of a double");
+      value.refuse(fmt::format("a volume of {} m3", box.volume()), "a volume within the range of double precision");
     }
   };
   return {read, {"list of three numbers", &length, positive.words}};
@@ -212,12 +212,14 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
        {"file",
         Need::optional,
         {read_file, {"text"}},
-        "an existing specimen: CSV id,x,y,z,radius,phase,body; the path is relative to the scene's folder",
+        "CSV file of an existing specimen, with the columns id,x,y,z,radius,phase,body; the path is relative to the "
+        "scene's folder",
         "the specimen is generated"},
        {"aggregate_file",
         Need::optional,
         {read_aggregate_file, {"text"}},
-        "with file, for rule \"series\": true surfaces of the aggregates, CSV body,shape,size,x,y,z and qw,qx,qy,qz",
+        "for a specimen from a file with rule \"series\": CSV file of the true surfaces of the aggregates, with the "
+        "columns body,shape,size,x,y,z and qw,qx,qy,qz",
         "surfaces of the spheres"},
        {"seed", Need::optional, into(spec.seed, 0),
         "seed of the generator: another seed gives another specimen of the same mixture"},
@@ -249,10 +251,12 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
         section.refuse(key, "this key of the generator together with the key file", "only one of the two");
     }
   } else if (spec.aggregate_file) {
-    section.refuse("aggregate_file", "this key without file",
-                   "file beside it: a generated specimen knows its aggregates");
+    section.refuse(
+        "aggregate_file", "this key without file",
+        "the key file as well, because a generated specimen already contains the surfaces of its aggregates");
   } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
-    section.refuse("file", "neither a specimen file nor the sections aggregate or mastic", "one of the two");
+    section.refuse("file", "neither this key nor a section of particles",
+                   "a specimen file, [[specimen.aggregate]], [specimen.mastic] or [specimen.recipe]");
   } else {
     if (recipe) follow_recipe(section, *recipe, spec);
     require_possible(section, spec);
@@ -264,9 +268,10 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                      "gap in [specimen.shapes], or placement = \"insertion\" there");
     if (spec.shapes && !spec.fix_aggregates)
       section.refuse("fix_aggregates", "false with shapes",
-                     "true: otherwise the spheres of one shape would move apart");
+                     "true, because otherwise the spheres of one shape would move apart");
     if (spec.voids && !spec.fix_aggregates)
-      section.refuse("fix_aggregates", "false with voids", "true: otherwise the voids would move with the aggregates");
+      section.refuse("fix_aggregates", "false with voids",
+                     "true, because otherwise the voids would move with the aggregates");
   }
   return spec;
 }

@@ -58,18 +58,6 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
   }
 }
 
-Reader rule_into(ContactRule& rule) {
-  return into<ContactRule>(rule, {{"centres", ContactRule::centres}, {"series", ContactRule::series}});
-}
-
-/// Returns the rule of a scene before `[network]` is read, because it decides how `[[contacts]]` is read.
-ContactRule rule_of(const Section& root) {
-  ContactRule rule = ContactRule::centres;
-  if (!root.has("network")) return rule;
-  if (const auto value = root.find("network")->section().find("rule")) rule_into(rule).read(*value);
-  return rule;
-}
-
 void read_network(const Section& section, NetworkSpec& spec) {
   std::vector<Key> keys = keys_of(spec);
   keys.push_back({"quadrature", Need::optional,
@@ -79,10 +67,18 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   "area moments of a contact: from its points, from its polygon, or from one point at the centroid"});
   keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
                   "whether the four sides are walls too; |E*| is then a confined modulus"});
-  keys.push_back({"rule", Need::optional, rule_into(spec.rule),
-                  "stiffness of a contact: the law of its pair over the distance of the centres, or the laws of mastic "
-                  "and rock in series over their parts of the line of centres"});
+  keys.push_back({"rule", Need::optional,
+                  into<ContactRule>(spec.rule, {{"centres", ContactRule::centres}, {"series", ContactRule::series}}),
+                  "stiffness of a contact: from the law of its pair and the distance of the centres, or from the laws "
+                  "of mastic and rock in series along the line between the centres"});
   section.read(keys);
+}
+
+/// Returns the rule of a scene before its other sections are read, because it decides what they may contain.
+ContactRule rule_of(const Section& root) {
+  NetworkSpec spec;
+  if (root.has("network")) read_network(root.find("network")->section(), spec);
+  return spec.rule;
 }
 
 void read_output(const Section& section, OutputSpec& spec) {
@@ -91,8 +87,10 @@ void read_output(const Section& section, OutputSpec& spec) {
   keys.push_back({"response", Need::optional, into(spec.response), "write response.csv"});
   keys.push_back({"sensitivities", Need::optional, into(spec.sensitivities),
                   "method \"harmonic\": derivatives of |E*| and phi with respect to every parameter, in summary.json"});
-  keys.push_back({"checkpoint", Need::optional, into(spec.checkpoint, duration, non_negative),
-                  "wall time between two checkpoints of a stepped run; 0: only when it is interrupted", "\"10 min\""});
+  keys.push_back(
+      {"checkpoint", Need::optional, into(spec.checkpoint, duration, non_negative),
+       "wall time between two checkpoints of a stepped run; 0: a checkpoint only when the run is interrupted",
+       "\"10 min\""});
   section.read(keys);
   check_fields(section, spec.fields);
 }
@@ -111,19 +109,6 @@ void check_together(const Scene& scene, const Section& root) {
   if (scene.output.fields.any() && !has_fields(scene)) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
                                           "kind = \"cyclic\" or \"sweep\", or method = \"explicit\" in [solver]");
-  }
-  if (scene.network.rule == ContactRule::series) {
-    if (scene.solver.method == SolverMethod::harmonic && frequencies_of(scene.experiment).empty()) {
-      root.find("loading")->section().refuse(
-          "kind",
-          fmt::format("\"{}\" without time steps and rule = \"series\" in [network]", kind_of(scene.experiment)),
-          "method = \"explicit\" in [solver], or kind = \"cyclic\" or \"sweep\", because the response without time "
-          "steps is not available for this rule");
-    }
-    if (scene.output.sensitivities) {
-      root.find("output")->section().refuse("sensitivities", "true with rule = \"series\" in [network]",
-                                            "false, because derivatives are not available for this rule");
-    }
   }
   const auto require_density = [&](bool generated, double density, const std::string& phase) {
     if (generated && density == 0) {

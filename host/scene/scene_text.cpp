@@ -63,6 +63,14 @@ Change set(const std::string& text, const toml::table& table, const std::string&
   return {at, at, key + " = " + value + (table.is_inline() ? ", " : "\n")};
 }
 
+/// Returns the change that sets a value of a law. `name` is a key of its section, or `E_2` for the second entry of `E`.
+Change set_value(const std::string& text, const toml::table& section, const std::string& name, double value) {
+  const toml::array* entries =
+      name.size() > 2 && name[1] == '_' && name[2] != 'm' ? section[name.substr(0, 1)].as_array() : nullptr;
+  return entries ? replaced(text, *entries->get(std::stoul(name.substr(2)) - 1), real(value))
+                 : set(text, section, name, real(value));
+}
+
 }  // namespace
 
 void SceneText::set_contact(PairType pair, const std::string& name, double value) {
@@ -71,11 +79,15 @@ void SceneText::set_contact(PairType pair, const std::string& name, double value
   for (const toml::node& node : *root["contacts"].as_array()) {
     const toml::table& section = *node.as_table();
     if (section["pair"].value<std::string>() != to_string(pair)) continue;
-    const toml::array* entries =
-        name.size() > 2 && name[1] == '_' && name[2] != 'm' ? section[name.substr(0, 1)].as_array() : nullptr;
-    change = entries ? replaced(text_, *entries->get(std::stoul(name.substr(2)) - 1), real(value))
-                     : set(text_, section, name, real(value));
+    change = set_value(text_, section, name, value);
   }
+  replace(change.begin, change.end, change.by);
+}
+
+void SceneText::set_material(Phase phase, const std::string& name, double value) {
+  const toml::table root = toml::parse(text_);
+  const char* section = phase == Phase::mastic ? "mastic" : "aggregate";
+  const Change change = set_value(text_, *root["materials"][section].as_table(), name, value);
   replace(change.begin, change.end, change.by);
 }
 

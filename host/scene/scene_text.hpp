@@ -7,6 +7,7 @@
 #include <string>
 
 #include "macadam/contact_network.hpp"
+#include "macadam/specimen.hpp"
 
 namespace macadam::scene {
 
@@ -18,6 +19,9 @@ class SceneText {
   /// Sets a value in the `[[contacts]]` of a pair. `name` is `delta`, `alpha`, or the key of a modulus or a viscosity;
   /// `E_2` is the second entry of `E`.
   void set_contact(PairType pair, const std::string& name, double value);
+  /// Sets a value in the section of a phase in `[materials]`. `name` is the key of a modulus or a viscosity; `E_2` is
+  /// the second entry of `E`.
+  void set_material(Phase phase, const std::string& name, double value);
   void set_seed(std::uint64_t seed);
   /// Rewrites the paths in the text: paths relative to the folder `from` become paths relative to the folder `to`.
   void move(const std::filesystem::path& from, const std::filesystem::path& to);

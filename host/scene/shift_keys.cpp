@@ -40,12 +40,12 @@ laws::Shift ShiftKeys::shift(const Section& section) const {
     for (const std::string& key : taken[kind]) {
       const bool wanted = kind_ && std::count(taken[*kind_].begin(), taken[*kind_].end(), key) > 0;
       if (kind_ == kind && !section.has(key)) {
-        section.refuse(key, "nothing", fmt::format("this key, which shift = \"{}\" needs", kinds[kind]));
+        section.refuse(key, "nothing", fmt::format("this key, because shift is \"{}\"", kinds[kind]));
       }
       if (!wanted && section.has(key)) {
         section.refuse(
             key, "this key",
-            kind_ ? fmt::format("only {}, the keys of shift = \"{}\"", fmt::join(taken[*kind_], ", "), kinds[*kind_])
+            kind_ ? fmt::format("only the keys of shift = \"{}\": {}", kinds[*kind_], fmt::join(taken[*kind_], ", "))
                   : "the key shift as well");
       }
     }

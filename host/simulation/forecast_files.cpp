@@ -17,6 +17,8 @@ namespace {
 constexpr double particle_line = 97, aggregate_line = 75, contact_line = 175, gradation_line = 90, sample_line = 62,
                  load_line = 110, crack_line = 190, sweep_line = 150, material_file = 2500, summary_base = 5500,
                  summary_point = 260, summary_frequency = 1200;
+/// Bytes per line of the columns `length` and `series` of contacts.csv: two numbers of at most 17 digits.
+constexpr double series_columns = 45;
 
 /// Sizes of one series of fields, in bytes per particle or contact.
 struct FieldSize {
@@ -48,7 +50,8 @@ class FileForecast {
     if (name == "specimen.csv") return particle_line * static_cast<double>(f_.census.particles());
     if (name == "aggregates.csv") return 300 + aggregate_line * static_cast<double>(f_.census.aggregates);
     if (name == "gradation.csv") return 10 * gradation_line;
-    if (name == "contacts.csv") return contact_line * f_.contacts;
+    if (name == "contacts.csv")
+      return (contact_line + (scene_.network.rule == ContactRule::series ? series_columns : 0)) * f_.contacts;
     if (name == cracks_file) return crack_line * broken_points();
     if (name == "response.csv") {
       double samples = 0;

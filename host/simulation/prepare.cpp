@@ -86,7 +86,7 @@ void make_series(const Scene& scene, const std::vector<Surface>& surfaces, Prepa
   out.rock = report;
 }
 
-/// Makes the contacts between particles whose cells exist. `surfaces` are those of the generated aggregates. \throws
+/// Makes the contacts between particles whose cells exist. `surfaces`: templates of the generated aggregates. \throws
 /// InputError if no path of contacts joins bottom and top wall.
 void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, const Progress& progress,
                    Preparation& out) {

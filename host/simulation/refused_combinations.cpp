@@ -52,7 +52,7 @@ void require_combination(const Scene& scene) {
       const bool linear = facts_of(scene.laws)[static_cast<std::size_t>(without->pair)]->linear;
       throw InputError(
           scene.file.string(), 0, std::string("law of ") + to_string(without->pair) + " with method \"harmonic\"",
-          std::string(without->law) + ", which has no complex stiffness" + (linear ? "" : ": it is not linear"),
+          std::string(without->law) + ", which has no complex stiffness" + (linear ? "" : " because it is not linear"),
           "a law that has a complex stiffness, or method = \"explicit\" if the test can be stepped");
     }
     return;

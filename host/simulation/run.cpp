@@ -75,6 +75,15 @@ void require_same_rule(const Scene& scene, const ContactNetwork& network) {
     throw InputError(scene.file.string(), 0, "rule in [network]",
                      std::string("\"") + to_string(scene.network.rule) + '"',
                      std::string("\"") + to_string(network.rule) + "\", the rule of the given contacts");
+  if (network.rule == ContactRule::centres) return;
+  const auto require = [&](const char* key, double found, double expected) {
+    if (found != expected)
+      throw InputError(scene.file.string(), 0, key, fmt::format("{}", found),
+                       fmt::format("{}, with which the lengths of the given contacts were computed", expected));
+  };
+  require("E in [materials.aggregate]", scene.materials.rock_modulus.value_or(0), network.rock_modulus);
+  require("poisson_ratio in [materials.mastic]", scene.materials.mastic_poisson_ratio.value_or(0),
+          network.mastic_poisson_ratio);
 }
 
 /// Returns what a run with the rule "series" reports about the rock of its specimen.
@@ -191,13 +200,14 @@ class SceneRun {
     if (!resume_ && is_stepped() && watcher_.warn && is_checkpoint_of(newest, scene_, backend)) {
       watcher_.warn(newest.string() +
                     ": an earlier run left this checkpoint; the run now starts from the beginning, and --resume would "
-                    "have continued it");
+                    "have continued the earlier run");
     }
     if (resumed_) require_same_specimen(resumed_->file, resumed_->checkpoint, prepared());
     if (damage_.empty()) return {};
     std::error_code error;
     std::filesystem::rename(resumed_->file, newest, error);
-    if (error) throw RunError(resumed_->file.string() + ": cannot become " + checkpoint_name + ": " + error.message());
+    if (error)
+      throw RunError(resumed_->file.string() + ": cannot be renamed to " + checkpoint_name + ": " + error.message());
     const std::string warning =
         "the run continues from the previous checkpoint, because the newest one is missing or damaged: " + damage_;
     if (watcher_.warn) watcher_.warn(warning);

@@ -137,7 +137,7 @@ void require_no_run(const std::filesystem::path& out) {
   const Json summary = Json::parse(read_whole(file), nullptr, false);
   const auto status = summary.is_object() ? summary.find("status") : summary.end();
   if (!summary.is_object() || status == summary.end()) refuse("a summary.json that Macadam did not write");
-  if (*status != "prepared") refuse(fmt::format("a run in it (summary.json: {})", status->dump()));
+  if (*status != "prepared") refuse(fmt::format("a run (summary.json: status {})", status->dump()));
 }
 
 }  // namespace macadam

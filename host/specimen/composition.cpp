@@ -127,7 +127,7 @@ std::int64_t ClassRequest::number(double box_volume) const {
   const double least = std::ceil(volume / largest * (1 - 1e-12));
   const double mean = std::round(volume / (form * range.mean_volume()));
   if (!(mean <= static_cast<double>(most_particles)))
-    refuse(origin, name + ": number of spheres for its volume", shown(mean),
+    refuse(origin, name + ": number of spheres that the volume needs", shown(mean),
            "at most " + std::to_string(most_particles));
   if (least <= most) return static_cast<std::int64_t>(std::clamp(mean, least, most));
   // No number of spheres with diameters between the sieve sizes has exactly this volume. `most` spheres have less

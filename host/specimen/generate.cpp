@@ -110,7 +110,7 @@ GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
                                        const std::function<void(const char* stage, double share)>& progress) {
   if (spec.file)
     throw InputError(spec.source, spec.line, "recipe", "the file " + spec.file->string(),
-                     "no file, because a generated specimen is not read from one");
+                     "no file, because a generated specimen is not read from a file");
   if (!(spec.spacing >= 0 && std::isfinite(spec.spacing)))
     throw InputError(spec.source, spec.line, "spacing", shown(spec.spacing) + " m", "a finite length, not negative");
   const auto placing = [&](double share) {

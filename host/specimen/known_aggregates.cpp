@@ -20,7 +20,8 @@
 namespace macadam {
 namespace {
 
-/// Divides a line at its commas. Text in double quotes may contain commas, and a double quote as two of them.
+/// Splits a line into its fields, which commas separate. Text in double quotes may contain commas, and a double quote
+/// as two of them.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> out(1);
   bool quoted = false;
@@ -67,7 +68,7 @@ class AggregatesReader {
   /// The surface of a shape in the list of surfaces, and its measures.
   struct Shape {
     std::int32_t surface = -1;
-    double size = 0, volume = 0;  ///< D^I [m] and volume [m³] of the surface as it is listed
+    double size = 0, volume = 0;  ///< D^I [m] and volume [m³] of the listed surface
   };
 
   [[noreturn]] void fail(const std::string& what, const std::string& found, const std::string& expected) const {
@@ -100,7 +101,7 @@ class AggregatesReader {
     Aggregate a;
     const double body = number("body");
     if (body != std::floor(body) || std::abs(body) > 2e9 || !bodies_.contains(static_cast<std::int32_t>(body)))
-      fail("column body", in_quotes(text("body")), "the body of aggregate spheres in the specimen");
+      fail("column body", in_quotes(text("body")), "a body of the specimen that consists of aggregate spheres");
     a.body = static_cast<std::int32_t>(body);
     if (!seen_.insert(a.body).second) fail("column body", in_quotes(text("body")) + " again", "each body once");
     a.shape = text("shape");
@@ -122,7 +123,8 @@ class AggregatesReader {
   std::array<double, 4> turn() const {
     for (const char* name : {"qw", "qx", "qy", "qz"})
       if (!column_.contains(name))
-        fail("first line", std::string("no column ") + name, "the columns qw,qx,qy,qz, because a shape is no sphere");
+        fail("first line", std::string("no column ") + name,
+             "the columns qw,qx,qy,qz, because not every shape is \"sphere\"");
     std::array<double, 4> q{number("qw"), number("qx"), number("qy"), number("qz")};
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (!(std::abs(length - 1) < 1e-3))

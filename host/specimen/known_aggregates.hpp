@@ -15,7 +15,7 @@ struct KnownAggregates {
   std::vector<Surface> surfaces;
 };
 
-/// Reads a CSV file with the columns `body,shape,size,x,y,z` in any order and, where a shape is not "sphere",
+/// Reads a CSV file with the columns `body,shape,size,x,y,z` in any order and, if a shape is not "sphere",
 /// `qw,qx,qy,qz`. Further columns are ignored, except `volume`. Lengths are in metres; `size` is D^I, or the diameter
 /// of a sphere; x, y, z is the centroid of the volume. A shape is "sphere", a shape that comes with the program, or a
 /// file of a surface, whose path is relative to the folder of the CSV file. The files of write_aggregates_csv() can be

@@ -52,7 +52,8 @@ class Lines {
       if (line.empty()) ++number_;
       line.append(begin, static_cast<std::size_t>(length));
       if (line.size() > longest)
-        throw InputError(name_, number_, "line", "more than " + std::to_string(longest) + " bytes", "a record");
+        throw InputError(name_, number_, "line", "more than " + std::to_string(longest) + " bytes",
+                         "a record of at most " + std::to_string(longest) + " bytes");
       at_ += static_cast<int>(length) + (end ? 1 : 0);
       if (!end) continue;
       if (line.ends_with('\r')) line.pop_back();
@@ -166,7 +167,7 @@ class CsvReader {
     if (id < 0) fail("column id", in_quotes(field[0]), "an integer of 0 or more");
     if (const auto [earlier, is_new] = line_of_id_.try_emplace(id, lines_.number()); !is_new)
       fail("column id", in_quotes(field[0]) + ", which is already the id in line " + std::to_string(earlier->second),
-           "a number that occurs once");
+           "an id that no other line has");
     const Vec3d centre{number<double>(field[1], "x", finite), number<double>(field[2], "y", finite),
                        number<double>(field[3], "z", finite)};
     const auto radius = number<double>(field[4], "radius", "a finite positive number");

@@ -141,8 +141,12 @@ PronySeries laws::GeneralisedKelvin::prony() const {
   for (const Pole& p : apart) at_rest += 1 / p.E;
   out.long_term = flows ? 0 : 1 / at_rest;
   if (!(std::abs((sum + out.long_term) / E_m - 1) < 1e-9)) {
-    throw InputError("relaxation of a contact law", 0, "sum of its units", fmt::format("{:g} Pa", sum + out.long_term),
-                     fmt::format("E_m, {:g} Pa: the constants are beyond the range of a double", E_m));
+    throw InputError(
+        "relaxation of a contact law", 0, "sum of the moduli of all relaxation terms",
+        fmt::format("{:.10g} Pa", sum + out.long_term),
+        fmt::format(
+            "E_m of the law, {:.10g} Pa; the springs and dashpots of the law differ too much for double precision",
+            E_m));
   }
   return out;
 }
@@ -224,8 +228,8 @@ Law equivalent_law(const PronySeries& relaxation, double alpha, const char* name
 
 CreepSeries creep_series(const PronySeries& relaxation) {
   if (!(relaxation.instantaneous() > 0) || !std::isfinite(relaxation.instantaneous())) {
-    throw InputError("creep of a series", 0, "its modulus", fmt::format("{:g} Pa", relaxation.instantaneous()),
-                     "a positive modulus");
+    throw InputError("creep of a Prony series", 0, "instantaneous modulus of the series",
+                     fmt::format("{:g} Pa", relaxation.instantaneous()), "a positive modulus");
   }
   // At s = −r, E*(s) = E_∞ − Σ g·r·τ/(1 − r·τ) decreases from E_∞ at r = 0, and from ∞ to −∞ between two poles; beyond
   // the last pole it stays positive. The poles of J* = 1/E* are the zeros of E*.

@@ -33,10 +33,17 @@ constexpr double residual_share = 1e-4;
 /// The error estimate contains this fraction of the tolerance, as an allowance for the residuals of the solutions. For
 /// a specimen of 175 particles the residuals alone caused an error of 0.03 times the tolerance.
 constexpr double of_residuals = 0.1;
+/// The largest error of classes of contacts with rock in series, as a fraction of the tolerance.
+constexpr double of_classes = 0.3;
+/// Smallest tolerance if contacts have rock in series. The classes are then at most some thousand per pair type.
+constexpr double least_with_rock = 1e-7;
 // the network is solved at 9 places (values of s) in the first round, at 17, 33 and 65 in the next rounds
 constexpr int first_places = 9, most_rounds = 4;
 /// Number of frequencies at which the series is compared with solutions that were not used to make it.
 constexpr int checks = 3;
+
+/// Returns the spacing of classes with an error of at most `of_classes` times the tolerance (rock_classes.hpp).
+double class_spacing(double tolerance) { return 4 * std::atanh(std::sqrt(std::min(of_classes * tolerance, 0.01))); }
 
 /// The search for the spectrum of one specimen.
 class Finder {
@@ -47,7 +54,7 @@ class Finder {
         network_(network),
         laws_(laws),
         options_(options),
-        model_(specimen, network, {}),
+        model_(specimen, network, {}, {laws, class_spacing(options.tolerance)}),
         weights_(make_inertia(specimen, 1, 1)) {
     to_modulus_ = gauge_length(specimen) / section_area(specimen);
   }
@@ -71,7 +78,7 @@ class Finder {
       out_.relaxation = next;
       // If the number of places is doubled, the relative error is about squared. The estimate assumes less: that the
       // error shrinks by the same factor as in the round before.
-      out_.error = now * std::min(1.0, now / before) + of_residuals * options_.tolerance;
+      out_.error = now * std::min(1.0, now / before) + of_residuals * options_.tolerance + model_.rock().error();
       before = now;
       if (options_.on_progress) options_.on_progress(out_.solutions, out_.error);
       if (out_.error <= options_.tolerance && checked()) return finished();
@@ -172,6 +179,13 @@ Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
   if (!(options.tolerance >= 1e-10)) {
     throw InputError("spectrum", 0, "tolerance", fmt::format("{:g}", options.tolerance),
                      "at least 1e-10, because the solutions are not more accurate");
+  }
+  const auto has_rock = [](const Contact& c) { return c.series > 0; };
+  if (options.tolerance < least_with_rock && std::any_of(network.contacts.begin(), network.contacts.end(), has_rock)) {
+    throw InputError(
+        "spectrum", 0, "tolerance", fmt::format("{:g} for contacts with rock in series", options.tolerance),
+        fmt::format("at least {:g}, because these contacts are divided between a limited number of classes",
+                    least_with_rock));
   }
   require_stiffness(laws);
   for (const auto& law : laws)

@@ -27,9 +27,9 @@ const char* to_string(PairType pair);
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
-/// The way in which a contact gets its stiffness (docs/model/contacts.md, section 5). `centres`: each pair of materials
-/// has a law, which acts over the distance of the centres; `series`: each phase has a law, and mastic and rock act in
-/// series over the parts of the line of centres that lie in them.
+/// The way in which a contact gets its stiffness (docs/model/contacts.md, section 25). `centres`: each pair of
+/// materials has a law, which acts over the distance of the centres; `series`: each phase has a law, and mastic and
+/// rock act in series over the parts of the line of centres that lie in them.
 enum class ContactRule : std::uint8_t { centres, series };
 const char* to_string(ContactRule);
 
@@ -61,7 +61,7 @@ struct Contact {
   PairType pair = PairType::mm;
   double distance = 0;  ///< d: distance between the centres, or from the centre to the wall [m]
   /// Length of the law's material [m]: a contact whose law has the stiffness k resists an opening with k·area/length.
-  /// It equals `distance` unless the network has the rule "series" (docs/model/contacts.md).
+  /// It equals `distance` unless the network has the rule "series" (docs/model/contacts.md, section 25).
   double length = 0;
   /// Compliance of the rock in series with the law [1/Pa]: the stiffness of the contact is k/(1 + series·k) in place of
   /// k, in shear α·k/(1 + series·α·k). Zero unless the network has the rule "series".
@@ -87,6 +87,8 @@ struct ContactNetwork {
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;  ///< of the moment ss + tt, over all contacts: Σ|lumped − exact| / Σ exact
   ContactRule rule = ContactRule::centres;  ///< `series` once the lengths of the contacts are set by this rule
+  double rock_modulus = 0;                  ///< with rule "series": E of the rock in Contact::series [Pa]
+  double mastic_poisson_ratio = 0;          ///< with rule "series": ν in Contact::length of A-A contacts
 
   /// Returns the numbers of a particle's contacts, in rising order.
   std::span<const std::uint32_t> row(std::size_t particle) const {

@@ -32,7 +32,8 @@ struct ModulusParts {
 /// Change of |E*| and φ per unit of a parameter's natural logarithm. A change of the parameter by one per cent changes
 /// |E*| and φ by a hundredth of these values.
 struct Sensitivity {
-  std::string parameter;  ///< "M-A.E_m", "M-A.delta", "M-A.alpha", "rock.E", "density_scaling"
+  /// "M-A.E_m", "M-A.delta", "M-A.alpha", "rock.E", "density_scaling"; of phases "mastic.E_m", "aggregate.E"
+  std::string parameter;
   double d_e_star_pa = 0, d_phase_deg = 0;
 };
 
@@ -43,6 +44,17 @@ struct Sensitivity {
 std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
 std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
                                        double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
+
+/// Returns the derivatives of |E*| and φ for motions e^(s·t) in a network with the rule "series", whose laws are those
+/// of the phases: with respect to every parameter of the mastic's law ("mastic.E_m"), which all pairs with this law
+/// have in common, to the modulus of the rock ("aggregate.E"), and to the density scaling if there is inertia.
+std::vector<Sensitivity> phase_sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
+std::vector<Sensitivity> phase_sensitivities(const ModulusParts&, const LawTable&,
+                                             double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
+
+/// Returns whether the law of a pair is that of the mastic in a network with the rule "series". The law of the other
+/// pairs is that of the rock.
+constexpr bool is_of_mastic(PairType pair) { return pair != PairType::inner && pair != PairType::aw; }
 
 /// Returns the fraction of E* that each pair carries, by PairType: the component of the pair's part along E* (in the
 /// complex plane), divided by |E*|. Without inertia the fractions add up to 1.

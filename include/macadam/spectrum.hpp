@@ -108,7 +108,8 @@ struct Spectrum {
   PronySeries relaxation;
   CreepSeries creep;
   /// Estimate of the largest relative error of E(t) between `shortest` and `longest`. It is computed from the changes
-  /// of E(t) in the last two rounds of solutions and from the effect of the solutions' residuals.
+  /// of E(t) in the last two rounds of solutions, from the effect of the solutions' residuals and, if contacts have
+  /// rock in series, from the error of the classes to which they belong (host/harmonic/rock_classes.hpp).
   double error = 0;
   /// Largest relative difference of E*(iω) of the series from solutions that were not used to make the series, at
   /// frequencies within the range.
@@ -117,8 +118,8 @@ struct Spectrum {
 };
 
 /// Returns the uniaxial relaxation of a specimen without inertia (lateral walls as in the network). \throws InputError
-/// for a law without a series, or for impossible times; RunError as Harmonic, or if the tolerance is not reached;
-/// InterruptedError.
+/// for a law without a series, for impossible times, or for a tolerance below 1e-7 if contacts have rock in series;
+/// RunError as Harmonic, or if the tolerance is not reached; InterruptedError.
 Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
                      const std::array<std::optional<Law>, pair_types>& laws, const SpectrumOptions& options = {});
 

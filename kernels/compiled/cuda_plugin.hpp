@@ -40,6 +40,6 @@ struct CudaPlugin {
 };
 
 /// Version of the interface; increases with every change of CudaCode, or of the types in its functions.
-inline constexpr int cuda_interface = 7;
+inline constexpr int cuda_interface = 8;
 
 }  // namespace macadam::kernels

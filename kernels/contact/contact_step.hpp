@@ -12,6 +12,7 @@
 #include "kernels/contact/carried_frame.hpp"
 #include "kernels/contact/contact_data.hpp"
 #include "kernels/contact/contact_kinematics.hpp"
+#include "kernels/contact/series_factors.hpp"
 #include "macadam/laws/law.hpp"
 
 namespace macadam::kernels {
@@ -25,30 +26,10 @@ struct MotionView {
 inline constexpr int velocity_words = 8;
 inline constexpr int displacement_words = 8;
 
-/// Factors 1/(1 + r·k) and 1/(1 + r·α·k) by which rock in series reduces the change of f in a step (model (6.12)), for
-/// the normal components of a contact (opening, bending) and for its shear components (slips, twist).
-template <class T>
-struct SeriesFactors {
-  T normal, shear;
-
-  /// `series`: compliance r of the rock [1/Pa]; `stiffness`: k, change of f per displacement [Pa].
-  MACADAM_HD static SeriesFactors of(const T& series, const T& stiffness, const T& alpha) {
-    const T weakened = series * stiffness;
-    return {T(1) / (T(1) + weakened), T(1) / (T(1) + alpha * weakened)};
-  }
-  /// Returns the factor of one of the six components.
-  MACADAM_HD const T& of_component(int c) const { return c < 3 ? normal : shear; }
-};
-/// The factors of a contact without rock in series.
-template <>
-struct SeriesFactors<laws::NoFactor> {
-  laws::NoFactor normal, shear;
-  MACADAM_HD laws::NoFactor of_component(int) const { return {}; }
-};
-
 /// Functor that steps the contacts of one group. Everything that may branch (form, geometry, law, units) is a template
 /// argument. `Units`: exact number of Kelvin units; 5 means at most five, all in registers; −1 means any number.
-template <class P, class LawStep, int Units, ContactForm form, Geometry geometry>
+/// `with_series`: whether the group may have contacts with rock in series; if false, there is no code for them.
+template <class P, class LawStep, int Units, ContactForm form, Geometry geometry, bool with_series = true>
 struct ContactForces {
   using Policy = P;
   static constexpr ContactForm form_of = form;
@@ -66,6 +47,9 @@ struct ContactForces {
   ContactView<P> view;
   LawStep law;
   typename P::State dt;  ///< [s]
+
+  /// Returns the functor for a group without rock in series.
+  ContactForces<P, LawStep, Units, form, geometry, false> without_series() const { return {view, law, dt}; }
 
   /// Steps the contacts of `item` and returns their loads.
   template <class Item>
@@ -102,7 +86,7 @@ struct ContactForces {
 
     // Without rock in series, the factors compile to nothing
     const auto with_factors = [&](auto&& f) {
-      if constexpr (takes_factor<LawStep>) {
+      if constexpr (with_series && takes_factor<LawStep>) {
         if (view.series != 0) {
           const auto factors = SeriesFactors<T>::of(word(view.series), T(static_cast<Work>(law.step_stiffness())),
                                                     T(static_cast<Work>(view.alpha)));

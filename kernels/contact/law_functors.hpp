@@ -39,11 +39,18 @@ void dispatch_units(const L& law, F&& f) {
   }
 }
 
+/// Whether any law of a list can have rock in series.
+template <class... L>
+constexpr bool any_series_law(std::type_identity<std::variant<L...>>) {
+  return (series_law<L> || ...);
+}
+
 /// Stands in a list of functors for a law that has no functor.
 struct NoFunctor {};
 
 /// The functor type of a law in a launch for `Units` units, or NoFunctor. Laws without memory fit any number of units.
-template <class P, class L, ContactForm form, Geometry geometry, int Units>
+/// `series`: whether some contact of the launch has rock in series.
+template <class P, class L, ContactForm form, Geometry geometry, int Units, bool series>
 struct StepFunctor {
   static constexpr bool memoryless = memoryless_law<L>;
   static constexpr bool fits =
@@ -52,8 +59,8 @@ struct StepFunctor {
   template <bool any>
   static auto make() {
     if constexpr (any)
-      return std::type_identity<
-          ContactForces<P, typename L::template Step<typename P::State>, memoryless ? 0 : Units, form, geometry>>{};
+      return std::type_identity<ContactForces<P, typename L::template Step<typename P::State>, memoryless ? 0 : Units,
+                                              form, geometry, series>>{};
     else
       return std::type_identity<NoFunctor>{};
   }

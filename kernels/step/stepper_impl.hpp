@@ -337,8 +337,8 @@ class StepperImpl final : public Stepper {
   const LawFacts& fact_of(const FactsTable& facts, PairType pair) const {
     const LawFacts& law = facts[static_cast<std::size_t>(pair)].value();
     if (law.linear || options_.form == ContactForm::points) return law;
-    throw InputError(std::string("contact form of pair ") + to_string(pair) + ": found condensed beside law " +
-                     law.name + ", which is not linear; expected points");
+    throw InputError(std::string("contact form of pair ") + to_string(pair) + ": found \"condensed\" with law " +
+                     law.name + ", which is not linear, expected \"points\"");
   }
 
   void set_group(const ContactNetwork& network, std::size_t number, const Laws& laws, const FactsTable& facts,

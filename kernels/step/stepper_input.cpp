@@ -49,10 +49,11 @@ void require_start(std::size_t particles, const ContactNetwork& network, const F
   for (const WallMotionSpec& wall : options.boundary.wall) {
     for (const WallAxis& axis : wall.axis) {
       if (axis.by == DrivenBy::force)
-        throw InputError("start state: found a wall under a force, expected displacements");
+        throw InputError("start state: found a wall under a force, expected walls with given displacements");
       if (axis.drive && axis.drive->begins())
         throw InputError(
-            "start state: found a drive that begins at step 0, such as one with a ramp, expected one in motion");
+            "start state: found a drive that begins at step 0, such as a drive with a ramp, expected a drive that is "
+            "already in motion at step 0");
     }
   }
 }
@@ -71,7 +72,7 @@ void require_boundary(std::size_t particles, const StepperOptions& options) {
       if (!a.drive) refuse(which, "no drive", "a drive, because the axis is driven");
       if (!(std::abs(a.drive->dt() - options.dt) <= 1e-12 * options.dt)) {
         refuse(which + ": time step of its drive", shown(a.drive->dt()) + " s",
-               shown(options.dt) + " s, the stepper's");
+               shown(options.dt) + " s, the time step of the stepper");
       }
       if (a.by == DrivenBy::displacement && !options.start && a.drive->value(0) != 0) {
         refuse(which + ": displacement at the start", shown(a.drive->value(0)) + " m",
@@ -110,7 +111,7 @@ void require_series(const ContactNetwork& network, const FactsTable& laws) {
       throw InputError(where + "compliance of the rock in series: found " + shown(contact.series) +
                        " 1/Pa, expected 0" + because);
     if (law.coupled && contact.length != contact.distance)
-      throw InputError(where + "length: found " + shown(contact.length) + " m, expected its distance of " +
+      throw InputError(where + "length: found " + shown(contact.length) + " m, expected the distance of the contact, " +
                        shown(contact.distance) + " m" + because);
   }
 }

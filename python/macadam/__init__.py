@@ -8,7 +8,8 @@
 
 All numbers are in SI units (m, kg, s, Pa), angles of results in degrees. docs/python.md shows everything.
 
-Names are loaded when they are first used, so that the parts in plain Python (macadam.report, macadam.study) also work
+Names are loaded when they are first used, so that the parts in plain Python (macadam.mixture, macadam.report,
+macadam.study) also work
 if the compiled library is not installed.
 """
 from __future__ import annotations
@@ -36,7 +37,7 @@ _HOMES = {
     "_calibration": ("calibrate", "Calibration"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
-_MODULES = ("ct", "drives", "shapes", "report", "study")
+_MODULES = ("ct", "drives", "shapes", "mixture", "report", "study")
 
 if TYPE_CHECKING:
     from . import ct, drives, shapes
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from ._scene import Scene
     from ._simulation import creep, harmonic, monotonic, relaxation, run, sweep, test
     from ._specimen import specimen
+    from .mixture.driver import mixture
     from .report.document import report
     from .study.driver import study
     __version__: str

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs `python -m macadam …`, and the command `macadam` of an installed package. The commands report and study are
-Python packages; every other command is passed to the program macadam that comes with the package."""
+"""Runs `python -m macadam …`, and the command `macadam` of an installed package. The commands mixture, report and
+study are Python packages; every other command is passed to the program macadam that comes with the package."""
 from __future__ import annotations
 
 import importlib.util
@@ -11,7 +11,7 @@ import sys
 from ._program import own_program
 
 #: Commands that are Python packages.
-_HERE = ("report", "study")
+_HERE = ("mixture", "report", "study")
 #: Python packages that these commands need.
 _NEEDED = ("numpy", "pandas", "matplotlib")
 
@@ -26,8 +26,9 @@ def _check(command: str) -> None:
         found, expected = "no Python package " + ", ".join(missing), f"{'it' if len(missing) == 1 else 'them'}"
     else:
         return
-    print(f"macadam {command}: {sys.executable}: found {found}, expected {expected}: `scripts/python report` in the source tree "
-          f"or `pip install 'macadam[{command}]'` installs it; MACADAM_PYTHON names another Python", file=sys.stderr)
+    print(f"macadam {command}: {sys.executable}: found {found}, expected {expected}; install with `scripts/python report` "
+          f"in the source tree or with `pip install 'macadam[{command}]'`, or let MACADAM_PYTHON name another Python",
+          file=sys.stderr)
     sys.exit(2)
 
 

@@ -88,7 +88,10 @@ nb::dict fractions_of(const HarmonicResult& r) {
 
 nb::list sensitivities_of(const HarmonicResult& r, const Prepared& p) {
   nb::list out;
-  for (const Sensitivity& s : sensitivities(r.parts, p.scene->laws, HarmonicLoad{r.frequency_hz}.s())) {
+  const std::complex<double> at = HarmonicLoad{r.frequency_hz}.s();
+  const bool of_phases = p.scene->network.rule == ContactRule::series;
+  for (const Sensitivity& s :
+       of_phases ? phase_sensitivities(r.parts, p.scene->laws, at) : sensitivities(r.parts, p.scene->laws, at)) {
     nb::dict one;
     one["parameter"] = s.parameter;
     one["d_e_star_pa"] = s.d_e_star_pa;

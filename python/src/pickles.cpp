@@ -47,7 +47,7 @@ Aggregate aggregate_of(const AggregateState& state) {
   return a;
 }
 
-/// Returns what the rule "series" sets: length and compliance of each contact, and the report of the rock. The true
+/// Returns the length and compliance of each contact and the report of the rock, which the rule "series" sets. The true
 /// surfaces of aggregates, from which this follows, are not part of a specimen. Empty lists with the rule "centres".
 nb::tuple series_of(const Preparation& made) {
   std::vector<double> lengths, compliances, rock;
@@ -71,7 +71,7 @@ void put_series(const nb::tuple& state, Preparation& made) {
 }
 
 /// Returns the data of a generated specimen other than its spheres: composition, aggregates, iterations, times, and
-/// what the rule "series" sets.
+/// the lengths that the rule "series" sets.
 nb::tuple report_of(const Preparation& made) {
   std::vector<Row> composition;
   for (const CompositionRow& r : made.composition)
@@ -91,7 +91,7 @@ void put_report(const nb::tuple& report, Preparation& made) {
   made.relaxation_iterations = nb::cast<int>(report[2]);
   const auto seconds = nb::cast<std::array<double, 3>>(report[3]);
   made.seconds_specimen = seconds[0], made.seconds_tessellation = seconds[1], made.seconds_network = seconds[2];
-  put_series(nb::cast<nb::tuple>(report[4]), made);
+  if (report.size() > 4) put_series(nb::cast<nb::tuple>(report[4]), made);
 }
 
 /// Returns box, particles, voids and source of a specimen, the arrays as NumPy arrays.

@@ -108,7 +108,7 @@ def test_files_are_those_of_the_commands(cube, tmp_path, program):
     assert len(files) == 7 and len(spheres) > 5
     for file in files:
         assert (tmp_path / "own" / file).read_bytes() == (tmp_path / "command" / file).read_bytes(), file
-    with pytest.raises(mc.InputError, match="no other shapes than the ones"):
+    with pytest.raises(mc.InputError, match="no shapes except those"):
         mc.shapes.generate(tmp_path / "own" / "ball", count=1)
     with pytest.raises(mc.InputError, match="circumscribed: found 0"):
         mc.shapes.fill(cube, 1e-3, circumscribed=0)

@@ -123,7 +123,7 @@ def test_the_key_is_of_scene_files_and_version(program: Path, tmp_path: Path) ->
     [
         ({"grids": {}}, "unknown key grids; did you mean grid"),
         ({"grid": {KEY: 1.0}}, f"grid.{KEY}: found 1.0, expected a list"),
-        ({"grid": {"contacts.M-X.delta": [1]}}, "found no 'M-X' in the scene; it has the pairs M-M, M-A"),
+        ({"grid": {"contacts.M-X.delta": [1]}}, "found no 'M-X' in the scene; the scene has the pairs M-M, M-A"),
         ({"grid": {"loading.kind.x": [1]}}, "found the value 'cyclic' in the scene, expected a section"),
         ({"latin_hypercube": {"points": 0, KEY: [1, 2]}}, "points: found 0"),
         ({"latin_hypercube": {"points": True, KEY: [1, 2]}}, "latin_hypercube: points: found True, expected a number"),
@@ -133,7 +133,7 @@ def test_the_key_is_of_scene_files_and_version(program: Path, tmp_path: Path) ->
         ({"latin_hypercube": {"points": 2, "seed": 1.5, KEY: [1, 2]}}, "latin_hypercube: seed: found 1.5, expected"),
         ({"latin_hypercube": {"points": 2, KEY: [2, 1]}}, "expected low below high"),
         ({"latin_hypercube": {"points": 2, KEY: ["1 %", 2]}}, "two numbers of one unit"),
-        ({"grid": {KEY: [1]}, "list": [{KEY: 2}]}, f"{KEY}: set by grid and by list, expected one of them"),
+        ({"grid": {KEY: [1]}, "list": [{KEY: 2}]}, f"{KEY}: set by grid and by list, expected only one of the two"),
         ({"scene": "none.toml"}, "none.toml: No such file"),
         ({"command": "calibrate"}, "command: found 'calibrate', expected run or specimen"),
         ({"run": {"on": "moon"}}, "run.on: found 'moon', expected local, slurm, threads"),

@@ -103,7 +103,7 @@ def test_files_come_first_and_keep_the_order_of_the_pairs(folder: Path) -> None:
     [
         (
             {"latin_hypercube": {"points": 3, DELTA: [2, 4]}, "choice": {"binder": {"a": {DELTA: 1}}}},
-            f"{DELTA}: set by latin_hypercube and by choice.binder.a, expected one of them",
+            f"{DELTA}: set by latin_hypercube and by choice.binder.a, expected only one of the two",
         ),
         (
             {"grid": {DELTA: [2, 3]}, "experiment": {"slow": {DELTA: 1}}},

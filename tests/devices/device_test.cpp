@@ -91,7 +91,8 @@ TEST(OwnLaws, AreResolvedAsMacadamsAre) {
   EXPECT_HAS(make(Backend::cpu)->description(), "mixed");
   options.precision = Precision::single;
   EXPECT_HAS(message_of([&] { make(Backend::cpu); }), "precision: found single, expected double or mixed");
-  EXPECT_HAS(message_of([&] { make(Backend::reference); }), "backend: found reference, expected cpu, cuda or auto");
+  EXPECT_HAS(message_of([&] { make(Backend::reference); }),
+             "backend: found \"reference\", expected \"cpu\", \"cuda\" or \"auto\"");
   EXPECT_THROW(make(Backend::reference), InputError);
   EXPECT_THROW(make(Backend::cuda), RunError);
   options.devices = {0};

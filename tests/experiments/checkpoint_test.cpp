@@ -468,7 +468,7 @@ TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
   ASSERT_EQ(end_of(start("copy", false)), 0);
   EXPECT_HAS(read(folder_ / "stderr.txt"),
              "an earlier run left this checkpoint; the run now starts from the beginning, and --resume would have "
-             "continued it");
+             "continued the earlier run");
   EXPECT_FALSE(fs::exists(file("copy")));
   ASSERT_EQ(end_of(start("out", true)), 0) << read(folder_ / "stderr.txt");
   EXPECT_EQ(read(folder_ / "stderr.txt").find("starts from the beginning"), std::string::npos);

@@ -49,7 +49,7 @@ TEST(Judgement, WhatNoPassiveSpecimenHasIsSaid) {
   }
   experiments::SteppedFrequency f = good_result();
   f.stiffness.e_star_pa = 1.1 * stiffest;
-  EXPECT_HAS(warnings_of(f, {}).at(0), "but even the stiffest contact has only 1.5e+11");
+  EXPECT_HAS(warnings_of(f, {}).at(0), "but even the modulus of the stiffest contact is only 1.5e+11");
   f = good_result();
   f.cyclic.fit_rms = 20;
   EXPECT_HAS(warnings_of(f, {})[0], "the residual of the fit is 20 of the amplitude");

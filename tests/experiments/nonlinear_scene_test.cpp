@@ -34,7 +34,7 @@ constexpr const char* cyclic = "kind = \"cyclic\"\nfrequencies = [20.0]\ncycles 
 TEST_F(NonlinearScene, TheFrequencyDomainNamesPairLawAndWayOut) {
   const auto expect_refused = [&](const std::string& text) {
     EXPECT_HAS(text, "M-M");
-    EXPECT_HAS(text, "brittle_bond, which has no complex stiffness: it is not linear");
+    EXPECT_HAS(text, "brittle_bond, which has no complex stiffness because it is not linear");
     EXPECT_HAS(text, "method = \"explicit\"");
   };
   for (const char* linear : {"auto", "iterative", "direct"}) {

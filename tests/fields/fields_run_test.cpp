@@ -180,7 +180,7 @@ TEST_F(RunFields, KeysOfASceneAreChecked) {
   const auto refused = [&](const std::string& output) { return message_of([&] { scene(output); }); };
   EXPECT_HAS(refused("fields = [\"particle\"]\n"), "found \"particle\", expected one of \"particles\", \"contacts\"");
   EXPECT_HAS(refused("fields = \"particles\"\n"), "[output] fields: found \"particles\", expected an array of");
-  EXPECT_HAS(refused("fields = [\"cells\", \"cells\"]\n"), "entry 2: found \"cells\" twice, expected each once");
+  EXPECT_HAS(refused("fields = [\"cells\", \"cells\"]\n"), "entry 2: found \"cells\" twice, expected each field once");
   EXPECT_HAS(refused("fields = [\"cells\"]\nevery = 0\n"), "[output] every: found 0, expected an integer from 1");
   EXPECT_HAS(refused("fields = [\"cells\"]\nformat = \"vtk\"\n"), "expected one of \"vtkhdf\", \"vtp\"");
   EXPECT_HAS(refused("every = 3\n"), "[output] every: found 3 without the key fields");

@@ -171,5 +171,54 @@ TEST(SeriesContacts, DerivativesAgreeWithDifferences) {
          [&](TestScene& s, double factor) { std::get<laws::Elastic>(law(s, PairType::aa)).alpha *= factor; });
 }
 
+// With the laws of the phases one parameter changes all pairs that have this law, and the rock changes the pairs of the
+// rock and the compliances in series. Tolerances as above.
+TEST(SeriesContacts, DerivativesByPhaseAgreeWithDifferences) {
+  TestScene scene = scene_with_rock(5);
+  laws::GeneralisedKelvin mastic = mastic_am1(), film = mastic;
+  mastic.alpha = 1, film.alpha = 0.2308;
+  scene.laws = same_law(mastic);
+  const auto law = [](TestScene & s, PairType pair) -> auto& { return *s.laws[static_cast<std::size_t>(pair)]; };
+  law(scene, PairType::aa) = film;
+  for (const PairType pair : {PairType::inner, PairType::aw}) {
+    law(scene, pair) = laws::Elastic{6e10, 1};
+    for (Contact& c : scene.network.contacts)
+      if (c.pair == pair) c.series = 0;
+  }
+  const auto solve = [](const TestScene& s) {
+    return Harmonic(s.specimen, s.network, s.laws, s.inertia, {}, 7).solve(7);
+  };
+  const HarmonicResult found = solve(scene);
+  const auto list = phase_sensitivities(found.parts, scene.laws, Complex(0, 2 * std::numbers::pi * 7));
+  EXPECT_EQ(list.size(), 9u) << "E_m, C_m, three pairs of E and C, E of the rock";
+  const auto expect = [&](const std::string& name, auto&& change) {
+    const auto at = [&](double factor) {
+      TestScene changed = scene;
+      change(changed, factor);
+      return solve(changed).top;
+    };
+    const double step = 1e-4;
+    const Stiffness more = at(1 + step), less = at(1 - step);
+    const auto entry =
+        std::find_if(list.begin(), list.end(), [&](const Sensitivity& s) { return s.parameter == name; });
+    ASSERT_NE(entry, list.end()) << name;
+    EXPECT_NEAR(entry->d_e_star_pa, (more.e_star_pa - less.e_star_pa) / (2 * step), 1e-6 * found.top.e_star_pa) << name;
+    EXPECT_NEAR(entry->d_phase_deg, (more.phase_deg - less.phase_deg) / (2 * step), 1e-4) << name;
+  };
+  const auto of_mastic = [&](auto&& change) {
+    return [&, change](TestScene& s, double factor) {
+      for (const PairType pair : {PairType::mm, PairType::ma, PairType::aa, PairType::mw})
+        change(std::get<laws::GeneralisedKelvin>(law(s, pair)), factor);
+    };
+  };
+  expect("mastic.E_m", of_mastic([](auto& l, double factor) { l.E_m *= factor; }));
+  expect("mastic.C_m", of_mastic([](auto& l, double factor) { l.C_m *= factor; }));
+  expect("mastic.C_2", of_mastic([](auto& l, double factor) { l.C[1] *= factor; }));
+  expect("aggregate.E", [&](TestScene& s, double factor) {
+    for (const PairType pair : {PairType::inner, PairType::aw}) std::get<laws::Elastic>(law(s, pair)).E *= factor;
+    for (Contact& c : s.network.contacts) c.series /= factor;
+  });
+}
+
 }  // namespace
 }  // namespace macadam::test

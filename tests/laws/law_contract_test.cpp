@@ -58,11 +58,11 @@ TEST(FrequencyDomain, TakesLawsThatHaveAStiffnessAndNamesOthers) {
   };
   EXPECT_EQ(message(Unknown{}),
             "contacts of M-A: law: found unknown, which has no complex stiffness, expected a law with a complex "
-            "stiffness, which every solution in the frequency domain needs; or method = \"explicit\" with kind = "
+            "stiffness, because solutions in the frequency domain need one; or method = \"explicit\" with kind = "
             "\"cyclic\", which steps any law");
-  EXPECT_NE(
-      message(UnknownAndNotLinear{}).find("unknown_and_not_linear, which has no complex stiffness: it is not linear"),
-      std::string::npos);
+  EXPECT_NE(message(UnknownAndNotLinear{})
+                .find("unknown_and_not_linear, which has no complex stiffness because it is not linear"),
+            std::string::npos);
   static_assert(!has_stiffness<Unknown> && has_stiffness<Elastic> && has_stiffness<GeneralisedKelvin>);
 }
 

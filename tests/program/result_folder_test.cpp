@@ -40,7 +40,7 @@ TEST_F(Folder, RefusedCommandsLeaveEveryFileAsItWas) {
 
   expect_refused(run + " --resume", "no checkpoint");
   expect_refused(specimen, "a specimen in the place of a run");
-  EXPECT_HAS(macadam(specimen).err, "found a run in it (summary.json: \"done\")");
+  EXPECT_HAS(macadam(specimen).err, "found a run (summary.json: status \"done\")");
 
   const std::string particles = read(folder_ / "t8.csv");
   write(folder_ / "t8.csv", particles + "175,0.001,0.001,0.001,-0.5,mastic,-1\n");

@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(
          {{16, "envelope = [[\"5 mm\", \"70 %\", \"50 %\"]]"}},
          16,
          "70 % to 50 % passing 5 mm",
-         "the least before the most"},
+         "the lower limit before the upper limit"},
         {"EnvelopeTwice",
          {{16, "envelope = [[\"5 mm\", 0.5, 0.7],"}, {17, "[\"5 mm\", 0.5, 0.7]]\n[specimen.mastic]"}},
          17,

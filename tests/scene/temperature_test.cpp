@@ -136,7 +136,7 @@ TEST_F(Temperature, WhatMeansNothingIsRefused) {
   EXPECT_HAS(said("shift = \"wlf\"\nC1 = 14\nreference_temperature = 1\n", "", ""), "C2: found nothing");
   EXPECT_HAS(said("C1 = 14\n", "", ""), "expected the key shift as well");
   EXPECT_HAS(said(std::string(wlf) + "activation_energy = 1e5\n", "", ""),
-             "C1, C2, reference_temperature, the keys of shift");
+             "only the keys of shift = \"wlf\": C1, C2, reference_temperature");
   EXPECT_HAS(said("shift = \"WLF\"\n", "", ""), "one of \"wlf\"");
 
   scene(wlf, "", "temperatures = [20]\n", "20", "explicit");

@@ -94,10 +94,10 @@ const std::vector<Wrong> wrong_scenes = {
     {"NegativeModulus", {{25, "E = -1e9"}}, 25, "-1", "1000 Pa or more"},
     {"NegativeAlpha", {{21, "alpha = -0.1"}}, 21, "-0.1", "not negative"},
     {"DeltaZero", {{26, "delta = 0.0"}}, 26, "0", "positive"},
-    {"DeltaOverflow", {{26, "delta = 1e300"}}, 26, "1e+300", "range of a double"},
+    {"DeltaOverflow", {{26, "delta = 1e300"}}, 26, "1e+300", "range of double precision"},
     {"FlatBox", {{2, "box = [0.02, 0.02, 0]"}}, 2, "0", "positive"},
-    {"VolumeUnderflow", {{2, "box = [1e-150, 1e-150, 1e-150]"}}, 2, "a volume of 0 m3", "range of a double"},
-    {"VolumeOverflow", {{2, "box = [1e150, 1e150, 1e150]"}}, 2, "a volume of inf m3", "range of a double"},
+    {"VolumeUnderflow", {{2, "box = [1e-150, 1e-150, 1e-150]"}}, 2, "a volume of 0 m3", "range of double precision"},
+    {"VolumeOverflow", {{2, "box = [1e150, 1e150, 1e150]"}}, 2, "a volume of inf m3", "range of double precision"},
     {"SieveUpsideDown", {{5, "sieve = [0.0095, 0.00475]"}}, 5, "[0.0095, 0.00475]", "min not above max"},
     {"SieveOfZero", {{5, "sieve = [0, 0.00475]"}}, 5, "0", "positive"},
     {"AggregateLargerThanTheBox", {{5, "sieve = [\"5 mm\", \"20 mm\"]"}}, 5, "0.02 m", "smallest edge"},
@@ -177,7 +177,8 @@ INSTANTIATE_TEST_SUITE_P(Scene, WrongScene, ::testing::ValuesIn(wrong_scenes),
 TEST_F(SceneFile, AFileBesideARecipeIsRefused) {
   std::ofstream(folder_ / "particles.csv") << "id\n";
   const std::string what = message(text_of({{3, "file = \"particles.csv\""}}));
-  EXPECT_NE(what.find(":4: [specimen] aggregate: found this key of the generator together with the key file"), std::string::npos)
+  EXPECT_NE(what.find(":4: [specimen] aggregate: found this key of the generator together with the key file"),
+            std::string::npos)
       << what;
 }
 

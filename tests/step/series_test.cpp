@@ -77,6 +77,13 @@ class StepperWithRockInSeries : public BackendTest<StepperCase> {
     expect_forces_of_contacts(scene, *tested, tolerance);
   }
 
+  /// Expects that a device steps condensed contacts in mixed or single precision in tiles.
+  void expect_tiles(const TestScene& scene, const StepperOptions& options, const char* way) const {
+    if (options.form == ContactForm::points || options.precision == Precision::double_) return;
+    const std::string description = stepper(scene, options)->description();
+    EXPECT_NE(description.find(way), std::string::npos) << description;
+  }
+
   /// Expects that the forces of the contacts that a stepper reports add up to the forces on the particles.
   static void expect_forces_of_contacts(const TestScene& scene, const Stepper& stepper, double tolerance) {
     const ContactState contacts = stepper.contacts(scene.network);
@@ -106,7 +113,19 @@ TEST_P(StepperWithRockInSeries, AgreesWithTheReferenceUnderSlowLoad) {
     const StepperOptions options = chosen(slow_options(scene));
     EXPECT_GE(kernels::block_steps(options, facts_of(scene.laws), scene.specimen.box.size), 16);
     compare(scene, options, long_tests ? 600 : 100);
+    if (backend() == Backend::cuda) expect_tiles(scene, options, "tiles");
   }
+}
+
+/// Tiles of a specimen that is too large for the multiprocessors that it may use are read from memory in every step.
+TEST_P(StepperWithRockInSeries, IsSteppedInStreamedTilesToo) {
+  if (backend() != Backend::cuda) return;  // the CPU has one way to step a specimen
+  TestScene scene = make_scene(random_specimen(test_seed() + 80, 14, 14, 16), {}, stiff_in_shear(am1_laws()));
+  put_rock_in_series(scene.network, test_seed() + 81);
+  StepperOptions options = chosen(slow_options(scene));
+  options.multiprocessors = 1;
+  compare(scene, options, 60);
+  expect_tiles(scene, options, "tiles streamed");
 }
 
 TEST_P(StepperWithRockInSeries, TakesLawsOfAnyNumberOfUnits) {

@@ -408,7 +408,7 @@ TEST(ContactNetwork, MessagesNameFileAndLine) {
   s = cubic(3, 0.01);
   s.source = "stones.csv", s.first_line = 2;
   s.radius[13] = 1e-6, s.centre[13] = s.centre[12] + Vec3d{1e-6, 0, 0};
-  EXPECT_EQ(message(s).rfind("stones.csv:15: particles with a Laguerre cell inside the box: found 1 without", 0), 0U)
+  EXPECT_EQ(message(s).rfind("stones.csv:15: Laguerre cells inside the box: found no cell for 1 of ", 0), 0U)
       << message(s);
 }
 

@@ -58,7 +58,7 @@ Contact applied(const Specimen& s, const Contact& c, const RockSurfaces& surface
 double normal(const Contact& c, double E) { return E / (1 + c.series * E) / c.length; }
 double shear(const Contact& c, double E, double alpha) { return alpha * E / (1 + alpha * c.series * E) / c.length; }
 
-/// Returns an aggregate whose surface is that of a list with one entry.
+/// Returns an aggregate whose surface is the first of a list.
 Aggregate shaped(std::int32_t number, const Pose& pose) {
   Aggregate a;
   a.body = number, a.shape = "box", a.surface = 0, a.pose = pose, a.centre = pose.centre, a.size = pose.scale;

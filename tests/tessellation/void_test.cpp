@@ -164,7 +164,7 @@ TEST_F(VoidFiles, OfAHiddenVoidIsSaid) {
   // The smaller of two voids with nearly the same centre has no cell.
   const Specimen s = read_rows(
       "0,0.002,0.005,0.005,0.002,mastic,-1\n1,0.008,0.005,0.005,0.002,void,-1\n2,0.0081,0.005,0.005,0.001,void,-1\n");
-  EXPECT_HAS(message_of([&] { build_network(s, tessellate(s)); }), "1 without (particle 2)");
+  EXPECT_HAS(message_of([&] { build_network(s, tessellate(s)); }), "particles and voids (number 2)");
 }
 
 SpecimenSpec mix(double fraction) {

@@ -126,7 +126,7 @@ TEST_F(FitCommand, AModelBecomesAChain) {
   EXPECT_HAS(read(folder_ / "law" / "law.toml"), "activation_energy = 210000.0");
   EXPECT_HAS(macadam(convert).err, "--from and --to");
   for (const auto& [key, value, said] : {std::tuple{"k = 0.18", "k = 0.6", "less than h"},
-                                         {"beta = 250", "", "which 2s2p1d takes"},
+                                         {"beta = 250", "", "because the model is \"2s2p1d\""},
                                          {"tau = 0.08", "tau = -1", "a positive number"},
                                          {"E_00 = 8e7", "E_00 = 9e10", "less than E_0"},
                                          {"beta = 250", "betta = 250", "beta (the nearest"},
@@ -229,7 +229,8 @@ TEST_F(FitCommand, FaultyDataAreNamedByLineAndColumn) {
   EXPECT_HAS(refused("frequency_hz,phase_deg\n"), "e_star_pa or g_star_pa with phase_deg, or e_prime_pa");
   EXPECT_HAS(refused("frequency_hz,e_star_pa,phase_deg,phase_std\n"), "of both modulus and phase");
   EXPECT_HAS(refused("frequency_hz,g_star_pa,phase_deg\n1,1,1\n"), "--poisson");
-  EXPECT_HAS(refused(header + "1,1e9,10\n", "--poisson 0.3"), "expected none, because the columns have |E*| already");
+  EXPECT_HAS(refused(header + "1,1e9,10\n", "--poisson 0.3"),
+             "expected no Poisson's ratio, because the file already has |E*|");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--shift wlf"), "no column temperature_c");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--units -1"), "--units");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--flow --no-flow"), "--no-flow");

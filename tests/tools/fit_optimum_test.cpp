@@ -191,7 +191,8 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   EXPECT_EQ(std::get<laws::ShiftTable>(named.shift).log10_a_T, table.log10_a_T);
   EXPECT_EQ(named.misfit, fit.misfit);
   options.reference_temperature = 18;
-  EXPECT_HAS(message_of([&] { fit_modulus(data, options); }), "a measured one where the shift is free");
+  EXPECT_HAS(message_of([&] { fit_modulus(data, options); }),
+             "one of the measured temperatures, because the shift is \"free\"");
   options.shift = ShiftKind::none, options.reference_temperature.reset();
   data.points.resize(9);
   EXPECT_NO_THROW(fit_modulus(data, options)) << "one isotherm needs no shift";

@@ -312,7 +312,8 @@ TEST(Fit, WhatCannotBeFittedIsRefused) {
   EXPECT_HAS(message_of([&] { fit_modulus(data, options); }), "found 2, expected at least 3");
   options.shift = ShiftKind::free;
   options.reference_temperature = 5;
-  EXPECT_HAS(message_of([&] { fit_modulus(data, options); }), "a measured one where the shift is free: 0, 10");
+  EXPECT_HAS(message_of([&] { fit_modulus(data, options); }),
+             "one of the measured temperatures, because the shift is \"free\": 0, 10");
   options = {};
   EXPECT_HAS(message_of([&] { fit_modulus(data, options); }), "expected one, or a shift law");
   data = measured(mastic_am1(), frequencies(0.1, 10, 6));

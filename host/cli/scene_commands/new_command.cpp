@@ -48,9 +48,6 @@ void write_new(const std::string& file, const std::string& text) {
 }
 
 void new_command(const NewArguments& arguments) {
-  if (arguments.rule == ContactRule::series && arguments.test != "cyclic" && arguments.test != "sweep")
-    throw InputError("--rule series: cannot be used with --test " + arguments.test +
-                     ", whose response without time steps is not available for this rule; use cyclic or sweep");
   write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test, arguments.rule));
   say("{} is written. Edit it, then run:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)

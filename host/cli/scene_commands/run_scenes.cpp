@@ -43,8 +43,8 @@ void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Ov
     const std::string name = name_of(file);
     if (const auto [other, is_new] = scene_named.emplace(name, file); !is_new) {
       throw InputError(
-          file + ": found the name " + name + ", which " + other->second +
-          " has too, expected different names, because the results folder of a scene has the scene's name");
+          file + ": found the scene name \"" + name + "\", which is also the name of " + other->second +
+          ", expected a different name for each scene, because the results folder of a scene has the scene's name");
     }
     Job one = job;
     one.scene = file;

@@ -23,7 +23,7 @@ DeviceList devices_of(const std::string& text) {
     const bool known = error == std::errc{} && number >= 0 && number <= most;
     if (!known || (stop != end && *stop != ',') || std::count(out.begin(), out.end(), number) > 0)
       options::refuse("--device", text,
-                      fmt::format("all, or different whole numbers from 0 to {} separated by commas", most));
+                      fmt::format("\"all\", or different whole numbers from 0 to {} separated by commas", most));
     out.push_back(number);
     if (stop == end) return out;
     at = stop;

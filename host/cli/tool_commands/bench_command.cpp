@@ -119,9 +119,9 @@ void bench_command(BenchArguments arguments) {
   if (!team) return time_scenes(std::move(arguments));
   as_rank(*team, [&](bool&) {
     if (!arguments.only.empty() && arguments.only != "step")
-      throw InputError("--only together with --ranks: found " + arguments.only + ", expected step");
+      throw InputError("--only together with --ranks: found \"" + arguments.only + "\", expected \"step\"");
     if (arguments.axes.backend == Backend::cpu)
-      throw InputError("--backend together with --ranks: found cpu, expected cuda");
+      throw InputError("--backend together with --ranks: found \"cpu\", expected \"cuda\"");
     arguments.only = "step";
     arguments.axes.devices = device_of(*team, arguments.axes.devices);
     if (team->number() > 0) arguments.json.clear(), arguments.against.clear();
@@ -184,11 +184,11 @@ void add_bench_command(CLI::App& app) {
               {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}});
   add_choices(command, "--geometry", axes.geometries, "fixed,updated",
               {{"fixed", Geometry::fixed}, {"updated", Geometry::updated}});
-  add_list(
-      command, "--blocks", axes.blocks,
-      "number of updates of the viscoelastic states within the shortest time of the load and the laws, in place of "
-      "an update in every step; 4000 is usual",
-      1.0, 1e18);
+  add_list(command, "--blocks", axes.blocks,
+           "number of updates of the viscoelastic states within the shortest characteristic time of the load and the "
+           "laws, in place of "
+           "an update in every step; 4000 is usual",
+           1.0, 1e18);
   add_list(command, "--units", axes.units, "number of Kelvin units that every law gets; -1: as in the scene", -1, 16);
   command.add_flag("--elastic", axes.elastic, "replace every law by its instantaneous spring");
   add_list(command, "--multiprocessors", axes.multiprocessors,

@@ -88,11 +88,11 @@ void add_ct_segment(CLI::App& ct) {
       ->expected(1, 3)
       ->type_name("LENGTH");
   add_out(command, arguments->out);
-  add_text(
-      command, "--region", arguments->region,
-      "region of the scan that the specimen fills: found (detected), whole (all voxels), cylinder or prism (detected "
-      "with this outline), or a given one, cylinder:x,y,diameter[,z0,z1] or prism:x0,y0,z0,x1,y1,z1; default: found",
-      "REGION");
+  add_text(command, "--region", arguments->region,
+           "region of the scan that the specimen fills: \"found\" (detected; the default); \"whole\" (all voxels); "
+           "\"cylinder\" or \"prism\" (detected with this outline); or a given region: "
+           "\"cylinder:x,y,diameter[,z0,z1]\" or \"prism:x0,y0,z0,x1,y1,z1\"",
+           "REGION");
   command.add_flag("--no-slices", arguments->no_slices, "do not correct the grey levels of slices");
   command.add_flag("--no-rings", arguments->no_rings, "do not correct rings");
   command.add_flag("--no-hardening", arguments->no_hardening,

@@ -44,8 +44,8 @@ void twin_command(CtTwinArguments arguments) {
   line.clear();
   write_twin(arguments.out, twin, scene);
   const Vec3d& size = twin.specimen.box.size;
-  say("box of {:.4g} x {:.4g} x {:.4g} mm: {} grains ({} of them several spheres each, {} left out because the box "
-      "holds too little of them), {} void spheres, {} particles\n",
+  say("box of {:.4g} x {:.4g} x {:.4g} mm: {} grains ({} of them clusters of several spheres, {} left out because too "
+      "little of each lies in the box), {} void spheres, {} particles\n",
       1e3 * size.x, 1e3 * size.y, 1e3 * size.z, twin.grains, twin.clusters, twin.lost, twin.specimen.voids.size(),
       twin.specimen.size());
   say("aggregate {:.2f} %, mastic {:.2f} %, voids {:.2f} %; voids of {:.2f} % are left out because they are too "

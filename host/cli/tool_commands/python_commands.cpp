@@ -39,10 +39,10 @@ fs::path package_folder() {
   const std::string look =
       fmt::format("import sys, importlib.util as u; sys.exit(u.find_spec('macadam.{}') is None)", command);
   if (!runs({python, "-c", look})) {
-    throw InputError(
-        fmt::format("macadam {0}: found no Python package macadam.{0} with the interpreter {1}, expected the package: "
-                    "install it with pip, or set MACADAM_PYTHON to an interpreter that has it",
-                    command, python));
+    throw InputError(fmt::format(
+        "macadam {0}: found no Python package macadam.{0} with the interpreter {1}, expected this package; install the "
+        "package \"macadam\" with pip, or set MACADAM_PYTHON to an interpreter that has the package",
+        command, python));
   }
   std::vector<std::string> words{python, "-m", "macadam", command};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -61,6 +61,8 @@ void add_python_commands(CLI::App& app) {
   };
   add("report", "one HTML file about folders of results (by the Python package)",
       {"macadam report results --out report.html", "macadam report --help"});
+  add("mixture", "|E*| of a mixture from binder and recipe (by the Python package)",
+      {"macadam mixture examples/mixture/design.toml --out results/mixture", "macadam mixture --help"});
   add("study", "many scenes, on this machine or several (by the Python package)",
       {"macadam study examples/study/study.toml --out results/study", "macadam study --help"});
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file python_commands.hpp  macadam report, macadam study: commands that are written in Python.
+/// \file python_commands.hpp  macadam report, macadam mixture, macadam study: commands that are written in
+/// Python.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace macadam {
 
-/// Adds both commands to the program. The commands replace the process by `python3 -m macadam …` when the command line
+/// Adds these commands to the program. The commands replace the process by `python3 -m macadam …` when the command line
 /// is parsed.
 void add_python_commands(CLI::App& app);
 

@@ -42,8 +42,8 @@ void choose_precision(const Scene& scene, const Preparation& prepared, Plan& pla
                                                             : Precision::double_;
   decide(
       "precision {}: the estimated error from rounding is {:.1e} in single and {:.1e} in mixed precision, and {:.1e} "
-      "is allowed; these are estimates, not bounds: the largest errors measured so far are {:.1e} (up to {:.1e} steps) "
-      "and {:.1e} (up to {:.1e} steps)",
+      "is allowed; these are estimates, not bounds: the largest errors measured so far are {:.1e} in single precision "
+      "(up to {:.1e} steps) and {:.1e} in mixed precision (up to {:.1e} steps)",
       to_string(plan.precision), single, mixed, share, single_measured.largest,
       static_cast<double>(single_measured.up_to.steps), mixed_measured.largest,
       static_cast<double>(mixed_measured.up_to.steps));

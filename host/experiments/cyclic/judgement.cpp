@@ -42,7 +42,7 @@ std::vector<std::string> faults_of(const Frequency& f, double stiffest) {
     faults.push_back(fmt::format("the phase angle is {:.4g} degrees, but springs and dashpots give 0 to 90", phase));
   }
   if (f.stiffness.e_star_pa > bound_margin * stiffest) {
-    faults.push_back(fmt::format("|E*| is {:.4g} Pa, but even the stiffest contact has only {:.4g} Pa",
+    faults.push_back(fmt::format("|E*| is {:.4g} Pa, but even the modulus of the stiffest contact is only {:.4g} Pa",
                                  f.stiffness.e_star_pa, stiffest));
   }
   return faults;

@@ -34,7 +34,7 @@ experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& secti
                 {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius),
                  "temperatures at which every frequency is tested; they replace temperature in [materials]", "none"},
                 {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain),
-                 "amplitude of the strain: displacement of the top wall over the height"},
+                 "amplitude of the strain: displacement of the top wall divided by the height of the specimen"},
                 {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}}),
                  "start from zero displacement, or in the steady state of the harmonic solution",
                  "\"rest\"; \"steady\" if tolerance is given"},

@@ -54,10 +54,10 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
                    !kernels::blocks_are_exact(plan.geometry, facts_of(scene.laws));
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
-  plan.decisions.push_back(
-      fmt::format("viscoelastic states are not updated in every step but {:.0f} times within the shortest time of the "
-                  "load and the laws; the error that the rarer updates cause is at most {:.1e}",
-                  std::ceil(blocks), block_error(blocks)));
+  plan.decisions.push_back(fmt::format(
+      "viscoelastic states are not updated in every step but {:.0f} times within the shortest characteristic time of "
+      "the load and the laws; the error that the rarer updates cause is at most {:.1e}",
+      std::ceil(blocks), block_error(blocks)));
 }
 
 /// Returns the stepper of one frequency. If `from`, the state in a checkpoint, is not empty, the stepper continues from
@@ -341,10 +341,10 @@ std::unique_ptr<PlannedExperiment> plan_steps(const Scene& scene, const Preparat
     at.cracks.resize(at.plan.frequencies.size());
     decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
-      at.warnings.push_back(
-          fmt::format("law {} of {} has no complex stiffness: |E*| and phi describe the fundamental of the measured "
-                      "loops at this amplitude and after these cycles, and no harmonic solution can check them",
-                      without->law, to_string(without->pair)));
+      at.warnings.push_back(fmt::format(
+          "law {} of {} has no complex stiffness: |E*| and phi describe the fundamental of the stepped loops at this "
+          "strain amplitude and after this number of cycles, and no harmonic solution can check these values",
+          without->law, to_string(without->pair)));
     }
     at.seconds_planning = seconds_since(start);
   }

@@ -24,9 +24,11 @@ Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, 
 
 /// Adds the derivatives of |E*| and φ with respect to the logarithm of each parameter of the laws, and the fraction of
 /// E* that each pair type carries.
-void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Json& out) {
+void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, ContactRule rule, Json& out) {
   out["sensitivities"] = Json::array();
-  for (const Sensitivity& s : sensitivities(f.parts, laws, {0, 2 * std::numbers::pi * f.frequency_hz})) {
+  const std::complex<double> at(0, 2 * std::numbers::pi * f.frequency_hz);
+  const bool of_phases = rule == ContactRule::series;
+  for (const Sensitivity& s : of_phases ? phase_sensitivities(f.parts, laws, at) : sensitivities(f.parts, laws, at)) {
     out["sensitivities"].push_back(
         {{"parameter", s.parameter}, {"d_e_star_pa", s.d_e_star_pa}, {"d_phase_deg", s.d_phase_deg}});
   }
@@ -87,7 +89,7 @@ Json frequency_json(const HarmonicFrequency& f, const Scene& scene) {
   out["iterations"] = f.iterations;
   out["linear"] = to_string(f.linear);
   if (scene.output.sensitivities) {
-    add_sensitivities(f, f.temperature_c ? laws_at(scene, *f.temperature_c) : scene.laws, out);
+    add_sensitivities(f, f.temperature_c ? laws_at(scene, *f.temperature_c) : scene.laws, scene.network.rule, out);
   }
   out["held_force"] = f.held_force;
   return out;

@@ -91,10 +91,11 @@ std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, 
   };
   try {
     const Spectrum found = spectrum_of(prepared.specimen, prepared.network, scene.laws, options);
-    plan.decisions.push_back(fmt::format(
-        "errors are differences from the solution without time steps, which follows from E(t) of the specimen; {} "
-        "solutions give E(t) from {:.3g} to {:.3g} s with a relative error of {:.1e}",
-        found.solutions, options.shortest, options.longest, std::max(found.error, found.checked)));
+    plan.decisions.push_back(
+        fmt::format("errors are differences from the solution without time steps, which is computed from the "
+                    "relaxation modulus E(t) of the specimen; {} solutions in the frequency domain give E(t) from "
+                    "{:.3g} to {:.3g} s with a relative error of {:.1e}",
+                    found.solutions, options.shortest, options.longest, std::max(found.error, found.checked)));
     return UnsteppedAnswer{found.relaxation, std::max(found.error, found.checked)};
   } catch (const InterruptedError&) { throw; } catch (const Error& error) {
     plan.decisions.push_back(fmt::format(

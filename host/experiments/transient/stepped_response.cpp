@@ -109,7 +109,8 @@ std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
   }
   return out + fmt::format(
                    "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
-                   "error: difference from the solution without time steps if there is one, else an estimate; kinetic "
+                   "error: difference from the solution without time steps, or an estimate if there is no such "
+                   "solution; kinetic "
                    "energy: at most {:.1e} of the work\n",
                    modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
                    found.kinetic_share);

@@ -70,7 +70,8 @@ class PlyNumbers {
     const double value = words_.any_number(word, what);
     if (type.is_integer() && !(value >= type.low && value <= type.high && value == std::floor(value)))
       fail(what, in_quotes(word),
-           fmt::format("a whole number from {} to {}, as its type is {}", type.low, type.high, type.name));
+           fmt::format("a whole number from {} to {}, because the type of the property is {}", type.low, type.high,
+                       type.name));
     return type.bytes == sizeof(float) && !type.is_integer() ? static_cast<float>(value) : value;
   }
 

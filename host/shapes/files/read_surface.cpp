@@ -132,7 +132,7 @@ Surface surface_in(const SurfaceFile& file, SurfaceFormat format, double scale) 
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
   if (soup.points.size() > most || soup.triangles() > most)
     file.fail(0, "surface", fmt::format("{} points and {} triangles", soup.points.size(), soup.triangles()),
-              fmt::format("at most {}", most));
+              fmt::format("at most {0} points and {0} triangles", most));
   require_points(file, soup);
   Surface surface{file.name, {}, {}};
   for (const Vec3d& p : soup.points) surface.points.push_back(scale * p);

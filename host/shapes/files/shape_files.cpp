@@ -44,7 +44,7 @@ void refuse_others(const std::filesystem::path& folder, const std::vector<Surfac
     const auto written = [&](const Surface& shape) { return file == shape.name + ".off"; };
     if (is_surface_file(entry.path()) && std::none_of(shapes.begin(), shapes.end(), written))
       throw InputError(folder.string(), 0, "folder", file,
-                       "no other shapes than the ones that are written now; choose another folder");
+                       "no shapes except those that this command writes; choose another folder");
   }
 }
 

@@ -279,8 +279,8 @@ class Calibrator {
       const CalibratedParameter& p = out_.parameters[i];
       if (p.at_bound)
         out_.warnings.push_back(fmt::format(
-            "{} lies at its bound {:.4g}; the standard deviations of the other parameters hold for this value", p.name,
-            p.value));
+            "{} lies at its bound {:.4g}; the standard deviations of the other parameters are valid for this value",
+            p.name, p.value));
     }
     const std::string alone = priors_ > 0 ? " without the priors" : "";
     for (const Combination& c : out_.combinations) {

@@ -20,7 +20,10 @@ std::string calibrated_scene(const Scene& scene, const Calibration& calibration,
   const std::vector<calibration::Parameter> known = calibration::parameters_of(scene);
   for (const CalibratedParameter& p : calibration.parameters) {
     const auto at = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.name == p.name; });
-    text.set_contact(at->pair, at->key, p.value);
+    if (at->phase)
+      text.set_material(*at->phase, at->key, p.value);
+    else
+      text.set_contact(at->pair, at->key, p.value);
   }
   return text.text();
 }

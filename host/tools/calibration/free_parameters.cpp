@@ -26,13 +26,10 @@ constexpr double unbounded = 1e4;
 void require_valid_input(const Scene& scene, const ModulusData& data, const CalibrationOptions& options) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
   if (data.points.empty()) throw InputError(data.source, 0, "measurements", "none", "at least one");
-  if (scene.network.rule == ContactRule::series)
-    throw InputError(scene.file.string(), 0, "rule in [network]", "\"series\"",
-                     "\"centres\", because calibrations are not available for rule \"series\"");
   const bool counts_modulus = options.misfit != Misfit::phase, counts_phase = options.misfit != Misfit::modulus;
   if ((counts_modulus && !data.moduli) || (counts_phase && !data.phases)) {
     throw InputError(data.source, 0, "measurements", data.moduli ? "no phase angles" : "no moduli",
-                     fmt::format("{}, which the misfit {} needs", data.moduli ? "phase angles" : "moduli",
+                     fmt::format("{}, because misfit is \"{}\"", data.moduli ? "phase angles" : "moduli",
                                  to_string(options.misfit)));
   }
   for (std::size_t i = 0; i < data.points.size(); ++i) {

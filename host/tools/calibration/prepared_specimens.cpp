@@ -34,6 +34,11 @@ double scatter(const std::vector<double>& values) {
 /// of E* have only seven, because their error is of first order in the error of the motion.
 constexpr double residual = 1e-8;
 
+/// Classes of contacts with rock in series (host/harmonic/rock_classes.hpp). With this spacing the error of an estimate
+/// is below 1e-5, and correct() removes it at the laws of a solution. The reserve is the largest factor by which one
+/// round of a calibration changes a parameter, e².
+constexpr double class_spacing = 0.01, class_reserve = 8;
+
 double degrees(Complex modulus) { return std::arg(modulus) * 180 / std::numbers::pi; }
 
 /// Frequencies [Hz] and temperatures [°C] of the scene's experiment; empty for experiments in time.
@@ -108,7 +113,8 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
     if (!shifted && *t != *out.front()) {
       refuse("column temperature_c",
              fmt::format("{} and {} degrees C, between which no law of the scene changes", *out.front(), *t),
-             "one temperature, or a scene with shift = \"wlf\", \"arrhenius\" or \"table\" in a section [[contacts]]");
+             fmt::format("one temperature, or a scene with shift = \"wlf\", \"arrhenius\" or \"table\" in {}",
+                         scene.network.rule == ContactRule::series ? "[materials.mastic]" : "a section [[contacts]]"));
     }
     const LawTable laws = laws_at(scene, *t);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -130,11 +136,13 @@ double Specimens::density_scaling_at(double frequency) const {
   const std::vector<double> known = loading_of(scene_).frequencies;
   const auto at = std::find(known.begin(), known.end(), frequency);
   if (at == known.end()) {
-    throw InputError(data_.source, 0, "column frequency_hz",
-                     fmt::format("{}, for which density_scaling of the scene has no entry", frequency),
-                     fmt::format("frequencies of the scene ({}), one density_scaling for all, or method = \"harmonic\" "
-                                 "without inertia",
-                                 fmt::join(known, ", ")));
+    throw InputError(
+        data_.source, 0, "column frequency_hz",
+        fmt::format("{} Hz, for which density_scaling of the scene has no entry", frequency),
+        fmt::format(
+            "frequencies of the scene ({} Hz), one density_scaling for all frequencies, or method = \"harmonic\" "
+            "without inertia",
+            fmt::join(known, ", ")));
   }
   return density_scaling_of(scene_.solver, static_cast<std::size_t>(at - known.begin()));
 }
@@ -173,21 +181,30 @@ Specimens::Specimens(const Scene& scene, const ModulusData& data, int seeds, con
     }
     Preparation prepared = prepare(scene_, watcher.progress);
     Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
-    bodies_.push_back(std::make_unique<Body>(
-        Body{std::move(prepared.specimen), std::move(prepared.network), std::move(inertia), nullptr}));
+    bodies_.push_back(
+        std::make_unique<Body>(Body{std::move(prepared.specimen), std::move(prepared.network), std::move(inertia),
+                                    nullptr, std::vector<Complex>(places_.size(), 1.0), 1}));
     Body& body = *bodies_.back();
     body.seen =
-        std::make_unique<harmonic::ReducedModel>(body.specimen, body.network, inertia_ ? body.inertia : Inertia{});
+        std::make_unique<harmonic::ReducedModel>(body.specimen, body.network, inertia_ ? body.inertia : Inertia{},
+                                                 harmonic::RockClassing{scene.laws, class_spacing, class_reserve});
   }
 }
 
 Specimens::Answer Specimens::answer_of(const ModulusParts& parts, const LawTable& laws, const HarmonicLoad& load,
                                        const std::vector<Parameter>& free) const {
   Answer out{parts.modulus(), {}};
-  const auto all = sensitivities(parts, laws, load.s());
+  const bool of_phases = scene_.network.rule == ContactRule::series;
+  const auto all = of_phases ? phase_sensitivities(parts, laws, load.s()) : sensitivities(parts, laws, load.s());
   for (const Parameter& parameter : free) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.parameter == parameter.name; });
+    if (found == all.end() && parameter.phase) {
+      const bool mastic = *parameter.phase == Phase::mastic;
+      throw InputError("free parameters", 0, parameter.name,
+                       std::string("a specimen without contacts that ") + (mastic ? "mastic" : "rock") + " resists",
+                       "parameters of phases that the specimen contains");
+    }
     if (found == all.end()) {
       throw InputError("free parameters", 0, parameter.name,
                        fmt::format("a specimen without {} contacts", to_string(parameter.pair)),
@@ -199,8 +216,24 @@ Specimens::Answer Specimens::answer_of(const ModulusParts& parts, const LawTable
   return out;
 }
 
+void Specimens::set_rock(Body& body, const LawTable& laws) const {
+  const double rock = rock_compliance(scene_, laws);
+  if (rock == body.rock) return;
+  for (Contact& c : body.network.contacts) c.series *= rock / body.rock;
+  body.rock = rock;
+}
+
+void Specimens::correct(Body& body, const LawTable& laws, const Answers& solved) const {
+  if (body.seen->rock().error() == 0) return;
+  for_each_in_parallel(places_.size(), [&](std::size_t i) {
+    const auto found = body.seen->solve(laws_of(places_[i], laws), load_of(places_[i]), body.rock);
+    body.correction[i] = solved[i].modulus / found.parts.modulus();
+  });
+}
+
 Specimens::Answers Specimens::solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) const {
   Answers out(places_.size());
+  set_rock(body, laws);
   std::vector<harmonic::Vector> motions;
   for (const auto& places : isotherms_) {
     const LawTable at = laws_of(places_[places.front()], laws);
@@ -217,7 +250,7 @@ Specimens::Answers Specimens::solve(Body& body, const LawTable& laws, const std:
       for (std::size_t i = 0; i < count; ++i) {
         loads.push_back(load_of(places_[places[begin + i]]));
         if (body.seen->motions() == 0) continue;
-        near[i] = body.seen->motion(body.seen->solve(at, loads[i]));
+        near[i] = body.seen->motion(body.seen->solve(at, loads[i], body.rock));
         loads[i].near = &near[i];
       }
       std::vector<HarmonicResult> solved = harmonic.solve(loads);
@@ -228,6 +261,7 @@ Specimens::Answers Specimens::solve(Body& body, const LawTable& laws, const std:
     }
   }
   body.seen->add(motions);
+  correct(body, laws, out);
   return out;
 }
 
@@ -246,13 +280,17 @@ std::vector<Predicted> Specimens::solve(const LawTable& laws, const std::vector<
 
 std::vector<Predicted> Specimens::estimate(const LawTable& laws, const std::vector<Parameter>& free) const {
   if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
+  const double rock = rock_compliance(scene_, laws);
   std::vector<Answers> answers;
   for (const auto& body : bodies_) {
     answers.emplace_back(places_.size());
     for_each_in_parallel(places_.size(), [&](std::size_t i) {
       const LawTable at = laws_of(places_[i], laws);
       const HarmonicLoad load = load_of(places_[i]);
-      answers.back()[i] = answer_of(body->seen->solve(at, load).parts, at, load, free);
+      Answer& answer = answers.back()[i];
+      answer = answer_of(body->seen->solve(at, load, rock).parts, at, load, free);
+      answer.modulus *= body->correction[i];
+      for (Complex& by : answer.by) by *= body->correction[i];
     });
   }
   return mean_of(answers, free.size());

@@ -59,6 +59,10 @@ class Specimens {
     ContactNetwork network;
     Inertia inertia;
     std::unique_ptr<harmonic::ReducedModel> seen;  ///< reduced model with the motions of all solutions
+    /// For each frequency and temperature, E* of the last solution over its estimate. It differs from 1 by the error of
+    /// the classes of contacts with rock in series.
+    std::vector<std::complex<double>> correction;
+    double rock = 1;  ///< compliance of the rock in the network, over its compliance in the scene
   };
   /// E* at one frequency and temperature, with its derivatives by the logarithms of the free parameters.
   struct Answer {
@@ -80,6 +84,10 @@ class Specimens {
   /// Solves one specimen at every frequency and temperature in places_, and adds the motions found to the reduced model
   /// of this specimen.
   Answers solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) const;
+  /// Gives the contacts of a specimen the compliance of rock that belongs to the laws.
+  void set_rock(Body& body, const LawTable& laws) const;
+  /// Makes the estimates for these laws equal to their solutions `solved`.
+  void correct(Body& body, const LawTable& laws, const Answers& solved) const;
   /// Returns means and standard deviations over the specimens, for every measurement. `free`: number of free
   /// parameters.
   std::vector<Predicted> mean_of(const std::vector<Answers>& by_body, std::size_t free) const;

@@ -153,7 +153,7 @@ Chain choose_chain(const Problem& problem, const ModulusData& data, Fit& fit) {
     throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
                      options.units
                          ? fmt::format("more measurements for {} Kelvin units and their shift", *options.units)
-                         : "more measurements, because they do not determine even a chain without units");
+                         : "more, because these measurements do not determine even a chain without Kelvin units");
   }
   for (std::size_t i = 1; i < asked.size(); ++i) {
     const FitCandidate &at = fit.candidates[i], &taken = fit.candidates[fit.chosen];

@@ -116,7 +116,8 @@ void add_statistics(const Problem& problem, const Chain& fitted, Fit& fit) {
     fit.warnings.push_back(fmt::format("the data hardly determine {}: standard deviations of 100 % and more", unknown));
   if (!fitted.minimum.determined)
     fit.warnings.emplace_back(
-        "a parameter lies at the limits of plausible values: fewer units, or another model, would fit as well");
+        "a parameter lies at a limit of its plausible values; a chain with fewer units, or another model, would fit "
+        "the data as well");
 }
 
 /// Adds measured and fitted values of each measurement, and the errors.

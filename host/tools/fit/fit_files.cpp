@@ -72,8 +72,9 @@ std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shif
       "# {}\n[[contacts]]\npair = \"M-M\"  # the pair that has this law\nlaw = \"generalised_kelvin\"\nE_m = {}\n",
       origin, real(law.E_m));
   if (std::isfinite(law.C_m)) out += fmt::format("C_m = {}\n", real(law.C_m));
-  out += fmt::format("E = {}\nC = {}\nalpha = 0.1  # shear over normal stiffness: not in the data\n", list_of(law.E),
-                     list_of(law.C));
+  out +=
+      fmt::format("E = {}\nC = {}\nalpha = 0.1  # ratio of shear to normal stiffness; the data do not determine it\n",
+                  list_of(law.E), list_of(law.C));
   struct Write {
     std::string operator()(const laws::NoShift&) const { return ""; }
     std::string operator()(const laws::Wlf& s) const {

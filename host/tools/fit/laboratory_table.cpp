@@ -116,7 +116,7 @@ LaboratoryTable read_laboratory_table(const std::filesystem::path& file, Complai
     if (line.ends_with('\r')) line.pop_back();
     if (line.find_first_not_of(" \t,;") == std::string::npos || line.starts_with('#')) continue;
     if (std::count(line.begin(), line.end(), '"') % 2 != 0) {
-      complaints.add(number, "quotes", in_quotes(line), "as many opening as closing ones");
+      complaints.add(number, "quotes", in_quotes(line), "as many opening as closing quotes");
       continue;
     }
     if (out.names.empty()) {

@@ -76,8 +76,8 @@ void check_shift(const ModulusData& data, const FitOptions& options, const std::
     return distance_from(isotherm, wanted) <= same_isotherm;
   });
   if (options.shift == ShiftKind::none && !(count == 1 && data.temperatures && measured)) {
-    refuse("reference temperature", fmt::format("{} without a shift law", wanted),
-           "none, or measurements at several temperatures");
+    refuse("reference temperature", fmt::format("{} degrees C without a shift law", wanted),
+           "no reference temperature, or measurements at several temperatures and a shift law");
   }
   if (!(wanted > -laws::zero_celsius && std::isfinite(wanted))) {
     refuse("reference temperature", fmt::format("{}", wanted), "a temperature in degrees Celsius");
@@ -86,7 +86,8 @@ void check_shift(const ModulusData& data, const FitOptions& options, const std::
     std::vector<double> temperatures;
     for (const Isotherm& isotherm : isotherms) temperatures.push_back(isotherm.temperature);
     refuse("reference temperature", fmt::format("{}", wanted),
-           fmt::format("a measured one where the shift is free: {}", fmt::join(temperatures, ", ")));
+           fmt::format("one of the measured temperatures, because the shift is \"free\": {} degrees C",
+                       fmt::join(temperatures, ", ")));
   }
 }
 

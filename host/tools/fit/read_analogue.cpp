@@ -33,9 +33,9 @@ ShiftedAnalogue read_analogue(const std::filesystem::path& file) {
   if (m.E_00 >= m.E_0) section.refuse("E_00", fmt::format("{}", m.E_00), fmt::format("less than E_0, {}", m.E_0));
   if (m.k >= m.h) section.refuse("k", fmt::format("{}", m.k), fmt::format("less than h, {}", m.h));
   if ((kind == 0) != section.has("beta")) {
-    section.refuse(
-        "beta", kind == 0 ? "nothing" : "this key",
-        kind == 0 ? "this key, which 2s2p1d takes" : "no beta, because the model huet_sayegh has no dashpot");
+    section.refuse("beta", kind == 0 ? "nothing" : "this key",
+                   kind == 0 ? "this key, because the model is \"2s2p1d\""
+                             : "no beta, because the model huet_sayegh has no dashpot");
   }
   return {m, shift.shift(section)};
 }

@@ -137,7 +137,7 @@ class DataReader {
                       "a ratio in --poisson, because |E*| = 2 (1 + ratio) |G*|");
     if (!shear && poisson_) {
       complaints_.add(table_.header_line, "column e_star_pa", "a Poisson's ratio",
-                      "none, because the columns have |E*| already");
+                      "no Poisson's ratio, because the file already has |E*|");
     } else if (poisson_ && !(*poisson_ > -1 && *poisson_ <= 0.5)) {
       complaints_.add(table_.header_line, "Poisson's ratio", fmt::format("{}", *poisson_),
                       "a number above -1, at most 0.5");
@@ -154,7 +154,8 @@ class DataReader {
     using enum Quantity;
     if (has(deviation_ == e_star_std ? g_star_std : e_star_std))
       complain_of_header(deviation_ == e_star_std ? "g_star_std" : "e_star_std",
-                         "the standard deviation of the modulus that is there");
+                         deviation_ == e_star_std ? "e_star_std, because the moduli are |E*|"
+                                                  : "g_star_std, because the moduli are |G*|");
     const bool modulus = has(deviation_), angle = has(phase_std);
     data_.deviations = (modulus || !needs_modulus_) && (angle || !needs_phase_);
     if (!data_.deviations && (modulus || angle))

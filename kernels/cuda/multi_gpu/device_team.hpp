@@ -198,7 +198,7 @@ class DeviceTeam {
     check_cuda(cudaDeviceCanAccessPeer(&can, from, to), "device");
     if (!can) {
       throw RunError("CUDA: device " + std::to_string(from) + " cannot reach the memory of device " +
-                     std::to_string(to) + ": the two cannot share a specimen");
+                     std::to_string(to) + ", so these two devices cannot share a specimen");
     }
     check_cuda(cudaSetDevice(from), "device");
     const cudaError_t status = cudaDeviceEnablePeerAccess(to, 0);

@@ -63,8 +63,9 @@ class NcclRanks final : public Ranks {
   void connect(int device) override {
     if (device == device_) return;
     if (link_) {
-      throw RunError("ranks: found device " + std::to_string(device) + ", expected " + std::to_string(device_) +
-                     ", which this rank reported to the other ranks");
+      throw RunError("ranks: rank " + std::to_string(number_) + ": found device " + std::to_string(device) +
+                     ", expected device " + std::to_string(device_) + ", because this rank reported device " +
+                     std::to_string(device_) + " to the other ranks");
     }
     ncclUniqueId id{};
     if (number_ == 0) check(ncclGetUniqueId(&id), "start");

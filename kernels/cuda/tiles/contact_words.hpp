@@ -12,6 +12,7 @@
 
 #include <cuda_runtime.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -44,12 +45,24 @@ struct GroupAndWallContact {
   __host__ __device__ constexpr std::uint32_t wall_contact() const { return word >> group_bits; }
 };
 
+/// Which words and which arithmetic the contacts of a specimen need in tiles.
+struct TileContent {
+  bool carried;  ///< the words include frames: updated geometry, or `series`
+  bool series;   ///< some contact has rock in series
+};
+
+/// Returns the content of the tiles of a run. With rock in series, contacts of fixed geometry have the words of updated
+/// geometry too, because the factor of the rock is in one of these words.
+inline TileContent tile_content(const ContactNetwork& network, const StepperOptions& options) {
+  const bool series = std::ranges::any_of(network.contacts, [](const Contact& c) { return c.series != 0; });
+  return {options.geometry == Geometry::updated || series, series};
+}
 template <bool carried, bool memory>
 struct ContactInBlock;
 
 /// The words of a contact: packs, updates and reads them. Its functions have two arguments: `carried`, whether the
-/// contact frame is updated during the run (then the tangent is stored, too), and `memory`, whether some law has a
-/// memory.
+/// words include the contact frame and the factor of rock in series (geometry updated during the run, or some contact
+/// with rock in series), and `memory`, whether some law has a memory.
 class TileContactWords {
   enum Constant {
     normal,    ///< normal n, lever arm of end A
@@ -57,7 +70,7 @@ class TileContactWords {
     moment_b,  ///< area moments 3…5, EndPair of the local numbers of the bodies
     drift_b,   ///< drift of components 4 and 5, EndPair of the cells of loads, GroupAndWallContact
     drift_a,   ///< drift of components 0…3
-    tangent,   ///< first tangent s, unused component; with updated geometry only
+    tangent,   ///< first tangent s, factor of rock in series in normal components (SeriesFactors); if `carried`
   };
   /// The first word of a state holds δf 0…3, the second δf 4, 5 and sum 0, 1, the third sum 2…5.
   enum State { change_a, change_b_sum_a, sum_b };
@@ -98,30 +111,33 @@ class TileContactWords {
                          bits(GroupAndWallContact::of(c.group, c.wall_contact).word)};
   }
   /// Packs an inert contact: its loads are not stored in any cell or under any wall contact number.
-  static void pack_inert(float4* out) {
+  static void pack_inert(float4* out, bool carried) {
+    if (carried) out[tangent * 32].w = 1;
     out[drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndWallContact::of(0, GroupAndWallContact::no_wall).word)};
   }
 
-  /// Sets the constants that change between blocks to their values for the undeformed contact. `word` as in pack().
+  /// Sets the constants that change between blocks to their values for the undeformed contact, and the factor of rock
+  /// in series. `word` as in pack().
   template <bool carried, class Geometry>
-  __device__ __forceinline__ static void begin(float4* out, Geometry&& word) {
+  __device__ __forceinline__ static void begin(float4* out, Geometry&& word, float series_factor) {
     out[drift_a * 32] = {0, 0, 0, 0};
     *reinterpret_cast<float2*>(out + drift_b * 32) = {0, 0};
     if constexpr (carried) {
       out[normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
       out[moment_a * 32].x = word(arm_b);
-      out[tangent * 32] = {0, 0, 0, 0};
+      out[tangent * 32] = {0, 0, 0, series_factor};
     }
   }
-  /// Writes the constants of the next block: the drift and, with updated geometry, the frame.
+  /// Writes the constants of the next block: the drift and, if `carried`, the frame and the factor of rock in series.
   template <bool carried>
-  __device__ __forceinline__ static void settle(float4* out, const Placement<double>& frame, const float (&drift)[6]) {
+  __device__ __forceinline__ static void settle(float4* out, const Placement<double>& frame, const float (&drift)[6],
+                                                float series_factor) {
     out[drift_a * 32] = {drift[0], drift[1], drift[2], drift[3]};
     *reinterpret_cast<float2*>(out + drift_b * 32) = {drift[4], drift[5]};
     if constexpr (carried) {
       out[normal * 32] = {float(frame.n.x), float(frame.n.y), float(frame.n.z), float(frame.arm_a)};
       out[moment_a * 32].x = float(frame.arm_b);
-      out[tangent * 32] = {float(frame.s.x), float(frame.s.y), float(frame.s.z), 0};
+      out[tangent * 32] = {float(frame.s.x), float(frame.s.y), float(frame.s.z), series_factor};
     }
   }
 
@@ -158,7 +174,8 @@ class TileContactWords {
   struct Field {
     int word, components;
   };
-  /// Returns the constants that change between blocks, in the order in which a checkpoint stores them.
+  /// Returns the constants that change between blocks, in the order in which a checkpoint stores them. The factor of
+  /// rock in series is not one of them: begin() sets it.
   static std::vector<Field> settled_fields(bool carried) {
     std::vector<Field> out{{drift_a, 4}, {drift_b, 2}};
     if (carried) out.insert(out.end(), {{normal, 4}, {moment_a, 1}, {tangent, 3}});
@@ -210,6 +227,9 @@ struct ContactInBlock {
   }
   /// Returns the local numbers of the two bodies.
   __device__ __forceinline__ EndPair ends() const { return {__float_as_uint(word[W::moment_b].w)}; }
+
+  /// Returns the factor of rock in series in normal components; only if `carried`.
+  __device__ __forceinline__ float series_factor() const { return word[W::tangent].w; }
 
   /// Reads the drift of the six components; only if some law has a memory.
   __device__ __forceinline__ void read_drift(float (&drift)[6]) const {

@@ -34,13 +34,17 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     Layout layout;
     TilePlan tiles;
     TileFit fit;
+    TileContent content;
   };
   /// Plans the tiles; nothing is allocated on a device. Returns nothing if the tiles do not fit the devices.
   static std::optional<Plan> plan(const Specimen& specimen, const ContactNetwork& network,
                                   const StepperOptions& options) {
     const DeviceTeam team(options.devices, options.ranks);
     const DeviceLimits limits = DeviceLimits::of_each(team, options.multiprocessors);
-    Plan out{make_layout(specimen, network, Base::lanes, tile_size(network, options, team, limits)), {}, {}};
+    Plan out{make_layout(specimen, network, Base::lanes, tile_size(network, options, team, limits)),
+             {},
+             {},
+             tile_content(network, options)};
     const TeamCuts cuts(team, out.layout);
     std::vector<bool>
         begins_share;  // [tile] whether it is the first tile of another device; empty if every array is on one device
@@ -49,7 +53,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
       begins_share[cuts.tile(m)] = true;
     }
     out.tiles = plan_tiles(network, out.layout, begins_share);
-    out.fit = fit_tiles<P>(out.tiles, team, cuts, limits, options.geometry == Geometry::updated);
+    out.fit = fit_tiles<P>(out.tiles, team, cuts, limits, out.content);
     if (out.fit.way == TileFit::Way::none) return std::nullopt;
     return out;
   }
@@ -62,7 +66,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   /// Moves the tiles out of the plan. The plan's layout must outlive the executor.
   ExecCudaTiles(const ContactNetwork& network, Plan& plan, const StepperOptions& options)
       : Base(network, plan.layout, options, RecordOrder::by_number),
-        data_(this->team_, this->cuts_, plan.layout, std::move(plan.tiles), options.geometry, this->crossing_),
+        data_(this->team_, this->cuts_, plan.layout, std::move(plan.tiles), plan.content, this->crossing_),
         launch_(this->team_, this->cuts_, plan.layout, data_, plan.fit),
         blocks_(this->team_, this->cuts_, plan.layout, this->parts_, data_, launch_) {}
 
@@ -73,7 +77,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   void begin(const ExecStart& start) {
     this->rest();
     dt_ = start.options.dt;
-    launch_.set_memory(!blocks_are_exact(start.options.geometry, start.laws));
+    launch_.set_memory(data_.content().series || !blocks_are_exact(start.options.geometry, start.laws));
     blocks_.begin(block_of(start.options, start.laws, start.size), start.options.observed_every > 0);
     if (start.first) this->require_memory(start.group_bytes + data_.bytes_to_come(this->lists_.records));
   }

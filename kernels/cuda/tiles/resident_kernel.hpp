@@ -19,13 +19,13 @@
 namespace macadam::kernels {
 
 /// Takes `steps` steps. The velocities of the first step have the tag `first_tag`. The states of the first packets of
-/// each warp stay in registers.
-template <class P, int Threads, bool carried, bool memory, BodyStorage storage>
+/// each warp stay in registers. `series`: as in ResidentTile.
+template <class P, int Threads, bool carried, bool memory, BodyStorage storage, bool series = false>
 __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileArrays<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   extern __shared__ __align__(16) unsigned char shared[];
   const Tile own_tile = s.tile[s.own_tile()];
-  using OfTile = ResidentTile<P, Threads, carried, memory, storage>;
+  using OfTile = ResidentTile<P, Threads, carried, memory, storage, series>;
   const ResidentMemory<P> memory_map(own_tile, OfTile::words_read, storage, s.shared_bytes);
   OfTile tile(s, own_tile, shared, memory_map);
   const auto mine = tile.packets_of_warp();

@@ -17,8 +17,8 @@ namespace macadam::kernels {
 /// One tile, and the parts of a step that its threads compute. All data of a body is read before any of it is written.
 /// Otherwise each read would wait for the write before it, because the compiler must assume that both may have the same
 /// address. `memory`: some law has a memory. Without memory a contact has fewer constants and no sums, so more
-/// constants fit in shared memory.
-template <class P, int Threads, bool carried, bool memory, BodyStorage storage>
+/// constants fit in shared memory. `series`: some contact has rock in series; `carried` and `memory` are then true.
+template <class P, int Threads, bool carried, bool memory, BodyStorage storage, bool series>
 class ResidentTile {
  public:
   using R = typename P::Particle;
@@ -192,7 +192,7 @@ class ResidentTile {
   __device__ __forceinline__ void step(const Constants& constant, float (&change)[6], float (&sum)[6],
                                        ContactCouple& couple) const {
     const Contact contact(constant);
-    const auto load = step_in_block<first>(contact, law, velocity, change, sum, couple);
+    const auto load = step_in_block<first, series>(contact, law, velocity, change, sum, couple);
     cells.put(contact.cells, load, couple);
   }
   /// Writes the loads on walls to global memory, after the last step.

@@ -35,6 +35,8 @@ template <class P, class Block, int Units, Geometry geometry>
 struct SettleContact {
   /// The update of one contact, as in block_settling.hpp.
   BlockSettling<P, Block, Units, geometry> settling;
+  /// Whether some contact of any group has rock in series; the words of all contacts then include frames.
+  bool series;
 
   /// `position`: the one or two positions of the contact in the tiles; x is UINT32_MAX for an inert slot. `now`,
   /// `before`: displacements now and at the beginning of the block, [body][8]. `steps`: number of steps of the block
@@ -44,7 +46,6 @@ struct SettleContact {
                              const double* now, const double* before, int steps,
                              const LoadRecords<typename P::Particle>& records, std::uint32_t record) const {
     if (position.x == UINT32_MAX) return;
-    constexpr bool carried = geometry == Geometry::updated;
     if (steps == settling_starts) {
       begin(slot, position, constant);
       return;
@@ -54,24 +55,49 @@ struct SettleContact {
     const auto [frame, drift, load] = settling(LaneItem{slot % 32}, slot / 32, change, sum, now, before, steps);
     records.store(record, load);
 
-    for (const std::uint32_t p : {position.x, position.y}) {
-      if (p != UINT32_MAX)
-        TileContactWords::settle<carried>(TileContactWords::at(constant, p, TileContactWords::constants(carried)),
-                                          frame, drift);
-    }
+    const float factor = series_factor(slot);
+    with_words([&](auto is_carried) {
+      constexpr bool carried = decltype(is_carried)::value;
+      for (const std::uint32_t p : {position.x, position.y}) {
+        if (p != UINT32_MAX)
+          TileContactWords::settle<carried>(TileContactWords::at(constant, p, TileContactWords::constants(carried)),
+                                            frame, drift, factor);
+      }
+    });
   }
 
  private:
+  /// Calls f(std::bool_constant) with whether the words of a contact include its frame.
+  template <class F>
+  __device__ void with_words(F&& f) const {
+    if constexpr (geometry == Geometry::updated)
+      f(std::true_type{});
+    else if (series)
+      f(std::true_type{});
+    else
+      f(std::false_type{});
+  }
+  /// Returns the factor of rock in series in the normal components of a contact; 1 without rock.
+  __device__ float series_factor(std::uint32_t slot) const {
+    const ContactView<P>& view = settling.view;
+    if (view.series == 0) return 1;
+    const auto* g = view.geometry + static_cast<std::size_t>(slot / 32) * view.geometry_words * 32 + slot % 32;
+    return static_cast<float>(1 / (1 + static_cast<double>(g[view.series * 32]) * settling.law.rate));
+  }
   /// Writes constants without drift, with the frame of the undeformed contact.
   __device__ void begin(std::uint32_t slot, uint2 position, float4* constant) const {
     const ContactView<P>& view = settling.view;
     const auto* g = view.geometry + static_cast<std::size_t>(slot / 32) * view.geometry_words * 32 + slot % 32;
     const auto word = [&](int k) { return static_cast<float>(g[k * 32]); };
-    constexpr bool carried = geometry == Geometry::updated;
-    for (const std::uint32_t p : {position.x, position.y}) {
-      if (p != UINT32_MAX)
-        TileContactWords::begin<carried>(TileContactWords::at(constant, p, TileContactWords::constants(carried)), word);
-    }
+    const float factor = series_factor(slot);
+    with_words([&](auto is_carried) {
+      constexpr bool carried = decltype(is_carried)::value;
+      for (const std::uint32_t p : {position.x, position.y}) {
+        if (p != UINT32_MAX)
+          TileContactWords::begin<carried>(TileContactWords::at(constant, p, TileContactWords::constants(carried)),
+                                           word, factor);
+      }
+    });
   }
 };
 

@@ -39,16 +39,18 @@ class Settling {
   }
 
   /// Sets the law of group `number` for steps of `dt`. `first_slot`: number of its first slot among all groups.
+  /// `series`: whether some contact of any group has rock in series.
   template <Geometry geometry, class L>
-  void set_group(int number, std::size_t first_slot, const L& law, const ContactView<P>& view, double dt) {
+  void set_group(int number, std::size_t first_slot, const L& law, const ContactView<P>& view, double dt, bool series) {
     using Groups = SettleGroups<P, AnyLaw, geometry>;
     if (!groups_) groups_ = std::make_shared<Groups>();
     auto groups = std::static_pointer_cast<Groups>(groups_);
     groups->group[number].first_slot = static_cast<std::uint32_t>(first_slot);
-    fill_[number] = [groups, number, law, view, dt](int ended, int steps) {
+    fill_[number] = [groups, number, law, view, dt, series](int ended, int steps) {
       const auto block = block_after(law, dt, ended, steps);
       dispatch_units<false>(law, [&](auto units) {
-        groups->group[number].functor.put(SettleContact<P, typename L::Block, units(), geometry>{{view, block}});
+        groups->group[number].functor.put(
+            SettleContact<P, typename L::Block, units(), geometry>{{view, block}, series});
       });
     };
     filled_ended_ = filled_steps_ = 0;  // so that run() computes coefficients for the new law and time step

@@ -71,8 +71,8 @@ struct StreamedMemory {
 };
 
 /// Steps the contacts in step k. Then moves the particles into step k + 1 or, if `last`, writes the loads. `memory`:
-/// some law has a memory.
-template <class P, int Threads, int Blocks, bool carried, bool memory>
+/// some law has a memory. `series`: some contact has rock in series; `carried` and `memory` are then true.
+template <class P, int Threads, int Blocks, bool carried, bool memory, bool series = false>
 __global__ void __launch_bounds__(Threads, Blocks)
     run_streamed(const __grid_constant__ TileArrays<P> s, std::uint32_t k, bool last) {
   using R = typename P::Particle;
@@ -115,7 +115,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
     ContactConstants<carried, memory> constant;
     constant.load(s.constant + at * words * 32 + lane);
     const ContactInBlock<carried, memory> contact(constant);
-    const auto load = step_in_block<false>(contact, s.law, velocity, change, sum, couple);
+    const auto load = step_in_block<false, series>(contact, s.law, velocity, change, sum, couple);
     TileContactWords::write_state<memory>(state, change, sum);
     cells.put(contact.cells, load, couple);
     if (last) store_wall_load(s.wall_load, contact.of, load);

@@ -44,7 +44,7 @@ class TileBlocks {
     }
     data_.set_law(number, {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
                            static_cast<float>(view.alpha), static_cast<float>(block.follow)});
-    settling_.template set_group<geometry>(number, data_.first_slot(number), law, view, dt);
+    settling_.template set_group<geometry>(number, data_.first_slot(number), law, view, dt, data_.content().series);
   }
 
   /// Sets the constants of all contacts to their values for the undeformed contact, and waits until this has finished.

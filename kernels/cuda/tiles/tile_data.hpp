@@ -26,7 +26,7 @@ class TileData {
   using R = typename P::Particle;
 
   /// Takes ownership of `plan`.
-  TileData(const DeviceTeam& team, const TeamCuts& cuts, const Layout& layout, TilePlan plan, Geometry geometry,
+  TileData(const DeviceTeam& team, const TeamCuts& cuts, const Layout& layout, TilePlan plan, TileContent content,
            const std::optional<Crossing>& crossing)
       : team_(team),
         cuts_(cuts),
@@ -34,7 +34,8 @@ class TileData {
         layout_(layout),
         plan_(std::move(plan)),
         owners_(plan_, cuts),
-        carried_(geometry == Geometry::updated),
+        content_(content),
+        carried_(content.carried),
         bodies_(layout.particles()),
         constants_(plan_.contact.size() * static_cast<std::size_t>(TileContactWords::constants(carried_))),
         positions_(layout),
@@ -49,6 +50,7 @@ class TileData {
   const std::vector<Tile>& tiles() const { return plan_.tile; }
   const TileOwners& owners() const { return owners_; }
   const TileMessages<P>& messages() const { return messages_; }
+  TileContent content() const { return content_; }
   bool carried() const { return carried_; }
   /// Number of particles.
   std::size_t particles() const { return bodies_; }
@@ -216,7 +218,7 @@ class TileData {
   /// Uploads the arrays that no start changes, and allocates the others.
   void upload(const LoadLists& lists) {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
-      if (plan_.contact[i].group_slot == UINT32_MAX) TileContactWords::pack_inert(constant_of(i));
+      if (plan_.contact[i].group_slot == UINT32_MAX) TileContactWords::pack_inert(constant_of(i), carried_);
     }
     // Each thread block reads the following arrays at its beginning, so every device has its own copy
     team_.each([&](std::size_t m) {
@@ -268,6 +270,7 @@ class TileData {
   const Layout& layout_;
   TilePlan plan_;  // its contacts are dropped after the upload
   TileOwners owners_;
+  TileContent content_;
   bool carried_, uploaded_ = false;
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
   std::vector<float4> constants_;  // empty after the upload

@@ -20,33 +20,37 @@ using ResidentKernel = void (*)(TileArrays<P>, std::uint32_t steps, std::uint32_
 template <class P>
 using StreamedKernel = void (*)(TileArrays<P>, std::uint32_t step, bool last);
 
-/// Returns the resident kernel for a geometry (`carried`: updated), a storage of bodies, and laws with or without a
-/// memory. With updated geometry, laws with and without a memory have the same kernel.
-template <class P>
-ResidentKernel<P> resident_kernel(bool carried, BodyStorage storage, bool memory) {
-  constexpr int threads = resident_threads;
-  const auto of = [&](auto is_carried, auto has_memory) -> ResidentKernel<P> {
-    constexpr bool c = decltype(is_carried)::value, m = decltype(has_memory)::value;
-    return storage == BodyStorage::shared  ? run_resident<P, threads, c, m, BodyStorage::shared>
-           : storage == BodyStorage::split ? run_resident<P, threads, c, m, BodyStorage::split>
-                                           : run_resident<P, threads, c, m, BodyStorage::global>;
-  };
-  if (carried) return of(std::true_type{}, std::true_type{});
-  return memory ? of(std::false_type{}, std::true_type{}) : of(std::false_type{}, std::false_type{});
-}
-/// Returns the streamed kernel for a geometry, and laws with or without a memory.
-template <class P>
-StreamedKernel<P> streamed_kernel(bool carried, bool memory) {
-  if (carried) return run_streamed<P, streamed_threads, streamed_blocks, true, true>;
-  return memory ? run_streamed<P, streamed_threads, streamed_blocks, false, true>
-                : run_streamed<P, streamed_threads, streamed_blocks, false, false>;
+/// Returns whether tiles can step a network. They cannot if several ranks step contacts with rock in series, because
+/// the messages between ranks do not include the factor of the rock. Such a network is stepped by two kernels
+/// (ExecCuda), whose description gives this reason.
+inline bool tiles_can_step(const ContactNetwork& network, const StepperOptions& options) {
+  return !options.ranks || !tile_content(network, options).series;
 }
 
-/// Returns whether tiles can step a network. They cannot if a contact has rock in series: the words of a contact in a
-/// tile (TileContactWords) do not include the factors by which rock in series reduces the change of its forces. Such a
-/// network is stepped by two kernels (ExecCuda), whose description gives this reason.
-inline bool tiles_can_step(const ContactNetwork& network) {
-  return std::ranges::none_of(network.contacts, [](const Contact& c) { return c.series != 0; });
+/// Returns the resident kernel for a content, a storage of bodies, and laws with or without a memory. With frames, laws
+/// with and without a memory have the same kernel.
+template <class P>
+ResidentKernel<P> resident_kernel(TileContent content, BodyStorage storage, bool memory) {
+  constexpr int threads = resident_threads;
+  const auto of = [&](auto is_carried, auto has_memory, auto has_series) -> ResidentKernel<P> {
+    constexpr bool c = decltype(is_carried)::value, m = decltype(has_memory)::value, r = decltype(has_series)::value;
+    return storage == BodyStorage::shared  ? run_resident<P, threads, c, m, BodyStorage::shared, r>
+           : storage == BodyStorage::split ? run_resident<P, threads, c, m, BodyStorage::split, r>
+                                           : run_resident<P, threads, c, m, BodyStorage::global, r>;
+  };
+  const std::true_type yes;
+  const std::false_type no;
+  if (content.series) return of(yes, yes, yes);
+  if (content.carried) return of(yes, yes, no);
+  return memory ? of(no, yes, no) : of(no, no, no);
+}
+/// Returns the streamed kernel for a content, and laws with or without a memory.
+template <class P>
+StreamedKernel<P> streamed_kernel(TileContent content, bool memory) {
+  if (content.series) return run_streamed<P, streamed_threads, streamed_blocks, true, true, true>;
+  if (content.carried) return run_streamed<P, streamed_threads, streamed_blocks, true, true>;
+  return memory ? run_streamed<P, streamed_threads, streamed_blocks, false, true>
+                : run_streamed<P, streamed_threads, streamed_blocks, false, false>;
 }
 
 /// Says by which kernel the tiles of a plan are stepped.
@@ -61,12 +65,13 @@ struct TileFit {
 /// one with the most data in shared memory.
 template <class P>
 TileFit fit_resident(const TilePlan& plan, const DeviceTeam& team, const TeamCuts& cuts, const DeviceLimits& limits,
-                     bool carried) {
+                     TileContent content) {
   const auto limit = static_cast<std::uint32_t>(limits.shared);
   const auto largest = [&](BodyStorage storage, std::uint32_t available) {
     std::uint32_t bytes = 0;
     for (const Tile& tile : plan.tile)
-      bytes = std::max(bytes, ResidentMemory<P>(tile, TileContactWords::constants(carried), storage, available).total);
+      bytes = std::max(bytes,
+                       ResidentMemory<P>(tile, TileContactWords::constants(content.carried), storage, available).total);
     return bytes;
   };
   TileFit out{TileFit::Way::resident, BodyStorage::global, 0};
@@ -76,7 +81,7 @@ TileFit fit_resident(const TilePlan& plan, const DeviceTeam& team, const TeamCut
   out.shared = largest(out.storage, limit);
   team.each([&](std::size_t m) {
     for (const bool memory : {true, false}) {
-      if (!fits_resident(limits, resident_kernel<P>(carried, out.storage, memory), cuts.tile(m + 1) - cuts.tile(m),
+      if (!fits_resident(limits, resident_kernel<P>(content, out.storage, memory), cuts.tile(m + 1) - cuts.tile(m),
                          resident_threads, out.shared))
         out.way = TileFit::Way::none;
     }
@@ -88,16 +93,16 @@ TileFit fit_resident(const TilePlan& plan, const DeviceTeam& team, const TeamCut
 /// read the memory of other devices.
 template <class P>
 TileFit fit_tiles(const TilePlan& plan, const DeviceTeam& team, const TeamCuts& cuts, const DeviceLimits& limits,
-                  bool carried) {
+                  TileContent content) {
   if (!plan.fits) return {};
   if (!team.ranks()) {
-    const TileFit resident = fit_resident<P>(plan, team, cuts, limits, carried);
+    const TileFit resident = fit_resident<P>(plan, team, cuts, limits, content);
     if (resident.way == TileFit::Way::resident) return resident;
   }
   const std::uint32_t shared = StreamedMemory(plan.most_locals, plan.most_cells).total;
   if (shared > static_cast<std::uint32_t>(limits.shared)) return {};
   team.each([&](std::size_t) {
-    for (const bool memory : {true, false}) allow_all_shared_memory(limits, streamed_kernel<P>(carried, memory));
+    for (const bool memory : {true, false}) allow_all_shared_memory(limits, streamed_kernel<P>(content, memory));
   });
   return {TileFit::Way::streamed, BodyStorage::global, shared};
 }

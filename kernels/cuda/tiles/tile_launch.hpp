@@ -49,13 +49,14 @@ class TileLaunch {
   const char* name() const { return is_resident() ? "tiles on the chip" : "tiles streamed"; }
   KernelUse use() const {
     if (is_resident()) {
-      return kernel_use(name(), resident_kernel<P>(data_.carried(), fit_.storage, memory_), resident_threads,
+      return kernel_use(name(), resident_kernel<P>(data_.content(), fit_.storage, memory_), resident_threads,
                         fit_.shared);
     }
-    return kernel_use(name(), streamed_kernel<P>(data_.carried(), memory_), streamed_threads, fit_.shared);
+    return kernel_use(name(), streamed_kernel<P>(data_.content(), memory_), streamed_threads, fit_.shared);
   }
 
-  /// Sets, for the next steps, whether some law has a memory or the geometry is updated.
+  /// Sets, for the next steps, whether some law has a memory, the geometry is updated or some contact has
+  /// rock in series.
   void set_memory(bool memory) { memory_ = memory; }
   bool has_memory() const { return memory_; }
   /// Prepares for a new start. After a failure, clears the words of the exchange, which hold the release tag. Otherwise
@@ -127,7 +128,7 @@ class TileLaunch {
 
  private:
   void launch_resident(std::uint32_t steps) {
-    const auto kernel = resident_kernel<P>(data_.carried(), fit_.storage, memory_);
+    const auto kernel = resident_kernel<P>(data_.content(), fit_.storage, memory_);
     team_.each([&](std::size_t m) {
       const std::string what = "time steps on device " + std::to_string(team_.device(m));
       launch_together(what.c_str(), kernel, tiles(m), resident_threads, fit_.shared, team_.stream(m),
@@ -137,7 +138,7 @@ class TileLaunch {
     if (waits_for_launches()) team_.wait("time steps");
   }
   void launch_streamed(std::uint32_t steps) {
-    const auto kernel = streamed_kernel<P>(data_.carried(), memory_);
+    const auto kernel = streamed_kernel<P>(data_.content(), memory_);
     team_.each([&](std::size_t m) {
       const auto first = static_cast<std::uint32_t>(data_.owners().first_place(m));
       const auto end =

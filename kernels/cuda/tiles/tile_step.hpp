@@ -148,8 +148,9 @@ struct ContactCouple {
 
 /// Steps one contact by model (6.8), and returns the change of its loads since the beginning of the block. `change` is
 /// δf; `sum` is the sum, over the steps of the block so far, of δf before the step and δf after it. Template arguments:
-/// `first`, whether a couple begins here; `memory`, whether some law has a memory.
-template <bool first, bool carried, bool memory>
+/// `first`, whether a couple begins here; `series`, whether some contact has rock in series; `memory`, whether some law
+/// has a memory.
+template <bool first, bool series = false, bool carried, bool memory>
 __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried, memory>& contact,
                                                             const float4* law, const TileVelocities& velocity,
                                                             float (&change)[6], float (&sum)[6],
@@ -168,8 +169,17 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
   if constexpr (memory) {
     float drift[6];
     contact.read_drift(drift);
+    if constexpr (series) {
+      // normal = 1/(1 + r·k), so 1/(1 + α·r·k) = normal/(normal + α·(1 − normal))
+      const float normal = contact.series_factor();
+      const SeriesFactors<float> factors{normal, __fdividef(normal, normal + l.z * (1 - normal))};
 #pragma unroll
-    for (int c = 0; c < 6; ++c) step_in_block_by<float>({l.x, l.y, l.w}, u[c], drift[c], change[c], sum[c]);
+      for (int c = 0; c < 6; ++c)
+        step_in_block_by<float>({l.x, l.y, l.w}, u[c], drift[c], change[c], sum[c], factors.of_component(c));
+    } else {
+#pragma unroll
+      for (int c = 0; c < 6; ++c) step_in_block_by<float>({l.x, l.y, l.w}, u[c], drift[c], change[c], sum[c]);
+    }
   } else {
 #pragma unroll
     for (int c = 0; c < 6; ++c) change[c] = multiply_add(l.x, u[c], change[c]);

@@ -8,6 +8,8 @@
 /// in every run.
 #pragma once
 
+#include <algorithm>
+
 #include "kernels/cuda/common/body_arrays.hpp"
 #include "kernels/cuda/two_kernels/step_bodies.hpp"
 #include "kernels/cuda/two_kernels/step_contacts.hpp"
@@ -61,7 +63,7 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
     const GroupLayout& group = this->layout_.groups[number];
     this->team_.each([&](std::size_t m) {
       contacts_[m].add(forces, slots_, static_cast<std::uint32_t>(this->cuts_.slot(group, m)),
-                       static_cast<std::uint32_t>(this->cuts_.slot(group, m + 1)));
+                       static_cast<std::uint32_t>(this->cuts_.slot(group, m + 1)), has_series());
     });
     slots_ += static_cast<std::uint32_t>(group.contact.size());
   }
@@ -124,9 +126,9 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   }
 
   std::string description() const {
-    const bool series = std::ranges::any_of(this->layout_.groups, [](const GroupLayout& g) { return g.series; });
-    return this->described(series ? "two kernels a step, because tiles cannot step contacts with rock in series"
-                                  : "two kernels a step");
+    return this->described(has_series() && this->team_.ranks()
+                               ? "two kernels a step, because tiles of several ranks cannot step rock in series"
+                               : "two kernels a step");
   }
   std::vector<KernelUse> kernels() const {
     std::vector<KernelUse> out = contacts_.front().kernels();
@@ -141,6 +143,10 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   std::int64_t bytes() const { return this->held_bytes() + static_cast<std::int64_t>(records_.bytes()); }
 
  private:
+  /// Returns whether some contact has rock in series.
+  bool has_series() const {
+    return std::ranges::any_of(this->layout_.groups, [](const GroupLayout& g) { return g.series; });
+  }
   /// Takes one step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void step() {
     const bool has_external_loads = motion_.wall.by_force || motion_.body.weight;

@@ -17,17 +17,17 @@
 namespace macadam::kernels {
 
 /// The functors of the groups of a launch, passed to the kernel by value. `Units`: as in ContactForces; laws without
-/// memory fit any number.
-template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
+/// memory fit any number. `series`: whether some contact has rock in series.
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units, bool series>
 struct ContactGroups;
-template <class P, class... L, ContactForm form, Geometry geometry, int Units>
-struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
+template <class P, class... L, ContactForm form, Geometry geometry, int Units, bool series>
+struct ContactGroups<P, std::variant<L...>, form, geometry, Units, series> {
   struct Group {
     std::uint32_t first_block = UINT32_MAX;  ///< first thread block of this group
     /// first_slot: number of the group's first slot among the slots of all groups. begin, end: the group's slots in
     /// this launch.
     std::uint32_t first_slot = 0, begin = 0, end = 0;
-    AnyFunctor<typename StepFunctor<P, L, form, geometry, Units>::type...> functor;
+    AnyFunctor<typename StepFunctor<P, L, form, geometry, Units, series>::type...> functor;
   };
   Group group[pair_types];
   int groups = 0;
@@ -72,9 +72,9 @@ __global__ void start_clock(const WallClock<R> clock) {
 
 /// Steps every contact of a launch and writes its loads. If walls are driven, the first thread block advances the step
 /// counter of the walls (WallClock) and steps no contact.
-template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units, bool series>
 __global__ void __launch_bounds__(contact_threads, contact_blocks)
-    step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units> groups,
+    step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units, series> groups,
                   const MotionView<P> motion, const LoadRecords<typename P::Geometry> records,
                   const WallClock<typename P::Particle> clock) {
   std::uint32_t block = blockIdx.x;
@@ -89,7 +89,8 @@ __global__ void __launch_bounds__(contact_threads, contact_blocks)
   });
 }
 
-/// The launches that step all contacts of a device: one for each number of Kelvin units that has its own code.
+/// The launches that step all contacts of a device: one for each number of Kelvin units that has its own code. Scenes
+/// with rock in series have kernels of their own, so that other kernels need no registers for it.
 template <class P, class AnyLaw>
 class ContactLaunches {
  public:
@@ -97,22 +98,13 @@ class ContactLaunches {
   using Clock = WallClock<typename P::Particle>;
 
   /// Adds the slots begin … end − 1 of a group; `first_slot` is the number of its first slot among all groups.
-  template <class LawStep, int Units, ContactForm form, Geometry geometry>
-  void add(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t first_slot,
-           std::uint32_t begin, std::uint32_t end) {
-    constexpr int units = LawStep::memoryless ? 3 : Units;  // so that one launch suffices for most scenes
-    using Groups = ContactGroups<P, AnyLaw, form, geometry, units>;
-    const auto kernel = step_contacts<P, AnyLaw, form, geometry, units>;
-    Launch& to = launches_[units];
-    if (!to.groups) to.groups = std::make_shared<Groups>();
-    auto groups = std::static_pointer_cast<Groups>(to.groups);
-    groups->add(first_slot, begin, end, forces);
-    to.run = [groups, kernel](cudaStream_t stream, const MotionView<P>& motion, const Records& records,
-                              const Clock& clock) {
-      launch("contacts", kernel, groups->blocks + (clock.step ? 1 : 0), contact_threads, 0, stream, *groups, motion,
-             records, clock);
-    };
-    to.use = kernel_use("contacts", kernel, contact_threads, 0);
+  /// `series`: whether some contact of any group has rock in series.
+  template <class Forces>
+  void add(const Forces& forces, std::uint32_t first_slot, std::uint32_t begin, std::uint32_t end, bool series) {
+    if constexpr (any_series_law(std::type_identity<AnyLaw>{})) {
+      if (series) return add_to_launch(forces, first_slot, begin, end);
+    }
+    add_to_launch(forces.without_series(), first_slot, begin, end);
   }
   /// Enqueues the step of all contacts. Only the first launch advances the clock.
   void run(cudaStream_t stream, const MotionView<P>& motion, const Records& records, Clock clock) const {
@@ -128,6 +120,24 @@ class ContactLaunches {
   }
 
  private:
+  template <class LawStep, int Units, ContactForm form, Geometry geometry, bool series>
+  void add_to_launch(const ContactForces<P, LawStep, Units, form, geometry, series>& forces, std::uint32_t first_slot,
+                     std::uint32_t begin, std::uint32_t end) {
+    constexpr int units = LawStep::memoryless ? 3 : Units;  // so that one launch suffices for most scenes
+    using Groups = ContactGroups<P, AnyLaw, form, geometry, units, series>;
+    const auto kernel = step_contacts<P, AnyLaw, form, geometry, units, series>;
+    Launch& to = launches_[units];
+    if (!to.groups) to.groups = std::make_shared<Groups>();
+    auto groups = std::static_pointer_cast<Groups>(to.groups);
+    groups->add(first_slot, begin, end, forces);
+    to.run = [groups, kernel](cudaStream_t stream, const MotionView<P>& motion, const Records& records,
+                              const Clock& clock) {
+      launch("contacts", kernel, groups->blocks + (clock.step ? 1 : 0), contact_threads, 0, stream, *groups, motion,
+             records, clock);
+    };
+    to.use = kernel_use("contacts", kernel, contact_threads, 0);
+  }
+
   struct Launch {
     std::shared_ptr<void> groups;
     KernelUse use;

@@ -141,8 +141,8 @@ def _shares(page: Page, folder: Folder) -> None:
     top = max(NAMES, key=lambda p: rows[-1]["shares"].get(p) or 0)
     page.figure(
         figure,
-        f"Fraction of E* that each type of contact carries. At {_at(rows[-1])} the largest is "
-        f"{NAMES[top]}, {look.percent(rows[-1]['shares'][top], 2)}.",
+        f"Fraction of E* that each type of contact carries. At {_at(rows[-1])} the largest fraction "
+        f"is that of {NAMES[top]}, {look.percent(rows[-1]['shares'][top], 2)}.",
         "shares of E* by type of contact",
     )
 

@@ -128,7 +128,7 @@ def figure(
     if least is None and strongest < 1:
         least = float(np.quantile(np.abs(values), 1 - strongest))
     if least is not None:
-        words.append(f"only those with at least {look.number(least, 2)} are drawn")
+        words.append(f"only values of at least {look.number(least, 2)} are drawn")
         data = _selected_part(data, np.abs((data.point_data if of_points else data.cell_data)["shown"]) >= least, of_points)
         low = low if limits else max(low, least)
     made, axes = look.figure(*size)
@@ -149,7 +149,9 @@ def _read(file: Path, frame: int) -> Any:
         reader = pyvista.get_reader(file)
         frames = _frames(reader)
         if not -frames <= frame < frames:
-            raise ReportError(f"frame {frame}, expected one from 0 to {frames - 1}, or from -{frames} to -1")
+            raise ReportError(
+                f"frame: found {frame}, expected a number from 0 to {frames - 1}, or from -{frames} to -1"
+            )
         if frames > 1:
             reader.reader.SetStep(frame % frames)
         data = reader.read()

@@ -66,7 +66,7 @@ def _facts_of_mix(folder: Folder) -> list[tuple[str, Any]]:
             ("bulk density", f"{look.number(recipe.get('bulk_density'), 4)} kg/m³"),
             ("air voids", look.percent(recipe.get("air_voids"))),
             ("voids in the mineral aggregate (VMA)", look.percent(recipe.get("vma"))),
-            ("filled with binder (VFB)", look.percent(recipe.get("vfb"))),
+            ("voids filled with binder (VFB)", look.percent(recipe.get("vfb"))),
             ("density of the mastic", f"{look.number(recipe.get('mastic', {}).get('density'), 4)} kg/m³"),
         ]
     return rows
@@ -91,8 +91,8 @@ def _composition(page: Page, folders: list[Folder]) -> None:
         page.table(
             ["class"] + [f.label for f in with_classes],
             rows,
-            "Number of aggregates (spheres of the other phases) placed "
-            "in the specimen, and their fraction of the box.",
+            "Number of aggregates, or of spheres of mastic or voids, "
+            "in the specimen, with the fraction of the box that they fill.",
         )
     else:
         for folder in with_classes:

@@ -54,8 +54,8 @@ def add(page: Page, folders: list[Folder]) -> None:
         page.figure(_cole_cole(found), _cole_cole_caption(found), "Cole–Cole diagram", third=True)
         page.figure(
             _black(found),
-            "Black diagram: |E*| over the phase angle. Frequency does not appear in it, so that "
-            "curves of different temperatures fall onto one another where one shift of frequency joins them."
+            "Black diagram: |E*| over the phase angle. The diagram does not show frequency, so "
+            "curves of different temperatures coincide if a shift of frequency makes one master curve of them."
             + _colour_note(found),
             "black diagram",
             third=True,

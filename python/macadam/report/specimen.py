@@ -162,7 +162,7 @@ def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
         axis, (u, v) = 1, (0, 2)
         picture = _plane(folder, box, axis, box[axis] / 2, paint)
         axes.imshow(picture, origin="lower", extent=(0, 1e3 * box[u], 0, 1e3 * box[v]), interpolation="antialiased")
-        where, source = 1e3 * box[axis] / 2, "The cells of the particles fill it."
+        where, source = 1e3 * box[axis] / 2, "The cells of the particles fill the section."
     axes.set(xlim=(0, 1e3 * box[u]), ylim=(0, 1e3 * box[v]), xlabel=f"{'xyz'[u]} (mm)", ylabel=f"{'xyz'[v]} (mm)")
     names = _names(folder)
     if names:

@@ -52,7 +52,7 @@ def _cut(page: Page, label: str, rows: list[Any]) -> list[Any]:
         page.leave_out(
             label,
             f"{len(rows) - ROWS} rows of the table of |E*|",
-            f"it is cut after {ROWS} rows; summary.json has all, and the pictures show all",
+            f"the table is cut after {ROWS} rows; summary.json and the pictures have all rows",
         )
     return rows[:ROWS]
 

@@ -52,7 +52,8 @@ def main(arguments: list[str] | None = None) -> int:
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="macadam study",
-        description="Computes a scene at many points: grids, Latin hypercubes or lists over its keys. "
+        description="Computes one scene many times with different values of its keys (entries of the scene file): "
+        "on a grid, in a Latin hypercube or from a list. "
         "Results that are already in the folder are not computed again.",
         epilog="example: macadam study study.toml --out results/study",
     )

@@ -75,7 +75,7 @@ def read_design(source: str | Path | Table, version: str) -> Design:
     asked, folder = (source, Path.cwd()) if isinstance(source, dict) else (read_toml(Path(source)), Path(source).parent)
     _require_known_keys(asked, _KEYS, "study")
     if not isinstance(asked.get("scene"), (str, dict)):
-        raise StudyError("scene: expected the file of the scene that the study varies")
+        raise StudyError(f"scene: found {asked.get('scene')!r}, expected the file of the scene that the study varies")
     base, folder_of_scene = asked["scene"], folder
     if isinstance(base, str):
         file = folder / base

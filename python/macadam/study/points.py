@@ -113,11 +113,11 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     block = _flat(block, lambda value: "low" in value or "high" in value)
     number, seed = block.pop("points", None), block.pop("seed", 1)
     if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= MOST:
-        raise StudyError(f"latin_hypercube: points: found {number!r}, expected a number of points, at most {MOST:,}")
+        raise StudyError(f"latin_hypercube: points: found {number!r}, expected a number of points from 1 to {MOST:,}")
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise StudyError(f"latin_hypercube: seed: found {seed!r}, expected a whole number, at least 0")
     if not block:
-        raise StudyError("latin_hypercube: found no key with a range")
+        raise StudyError("latin_hypercube: found no key with a range, expected at least one")
     try:
         from scipy.stats import qmc
     except ImportError:

@@ -69,7 +69,7 @@ def _index(entries: list[Any], part: str, key: str) -> int:
         return int(part)
     named = [str(p) for p in pairs if p]
     have = f"the pairs {', '.join(named)}" if named else f"{len(entries)} entries, numbered from 0"
-    raise StudyError(f"key {key}: found no {part!r} in the scene; it has {have}")
+    raise StudyError(f"key {key}: found no {part!r} in the scene; the scene has {have}")
 
 
 def merged(scene: Table, more: Table) -> Table:
@@ -95,7 +95,7 @@ def _contacts(there: Any, new: list[Any]) -> list[Any]:
     pairs = [c.get("pair") for c in new]
     for pair in pairs:
         if pairs.count(pair) > 1:
-            raise StudyError(f"contacts: found the pair {pair!r} more than once in a file, expected it once")
+            raise StudyError(f"contacts: found the pair {pair!r} more than once in a file, expected each pair once")
     kept = [new[pairs.index(c.get("pair"))] if c.get("pair") in pairs else c for c in there]
     had = [c.get("pair") for c in there]
     return kept + [c for c in new if c.get("pair") not in had]

@@ -39,14 +39,14 @@ class Setting:
             if self.key != other.key:
                 return (
                     f"{self.key} and {other.key} are the same entry of the scene: the first is {verb} by {self.place}, "
-                    f"the second by {other.place}; expected one of them"
+                    f"the second by {other.place}; expected only one of the two"
                 )
-            return f"{self.key}: {verb} by {self.place} and by {other.place}, expected one of them"
+            return f"{self.key}: {verb} by {self.place} and by {other.place}, expected only one of the two"
         low, high = (self, other) if len(self.path) > len(other.path) else (other, self)
         if low.path[: len(high.path)] != high.path:
             return ""
         return (
-            f"{low.key}: set by {low.place}, and {high.key}, which contains it, by {high.place}; expected one of them"
+            f"{low.key}: set by {low.place}, and {high.key}, which contains it, by {high.place}; expected only one of the two"
         )
 
 

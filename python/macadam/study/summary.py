@@ -180,8 +180,8 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
         for row, e in zip(rows, found, strict=True):
             row.append(_chance(q, e) + (": the effect is within the scatter" if e.within_scatter else ""))
         notes.append(
-            "The scatter of seeds is the change between these two values that other seeds alone may cause: half the "
-            "95 % interval of seeds that are independent of each other. An F-test over all values of the factor decides "
+            "The scatter of seeds is the change between these two values that other seeds alone may cause. It is half the "
+            "width of a 95 % interval, for seeds that are independent of each other. An F-test over all values of the factor decides "
             "whether its effect is within the scatter. Such an effect may be chance."
         )
     if len(found) > 1:
@@ -301,8 +301,8 @@ def _seeds(page: Page, values: list[Quantity]) -> None:
             ["quantity", "standard deviation", "of the mean over seeds", "points with several seeds", "seeds per point"],
             rows,
             "Deviation of single specimens of a mix from the mean of its point, relative to this mean, pooled over the "
-            "points. The third column is for a point with the fewest seeds. Differences between points that are "
-            "smaller than this may be chance.",
+            "points. The third column is the standard deviation of the mean of a point with the fewest seeds. "
+            "Smaller differences between points may be chance.",
             words=1,
         )
 

@@ -159,7 +159,8 @@ TEST_F(CtHeaders, LengthsOfAnNrrdAreInItsUnits) {
   for (const std::string list : {"\"furlong\" \"furlong\" \"furlong\"", "\"mm\" \"mm\" \"um\""}) {
     write("other.nrrd", nrrd("sizes: 3 2 1", space + "space units: " + list + "\r\n"));
     EXPECT_EQ(read_image_header(folder_ / "other.nrrd").spacing.x, 0) << list;
-    EXPECT_NE(notes("other.nrrd").find("which is not a known unit, so these lengths are not used"), std::string::npos) << list;
+    EXPECT_NE(notes("other.nrrd").find("which is not a known unit, so these lengths are not used"), std::string::npos)
+        << list;
   }
 }
 
@@ -268,7 +269,7 @@ TEST_F(CtHeaders, GreyValuesOfATiffWhoseWhiteIsZeroAreInverted) {
   const Page inverted{{262, Entry{3, 1, 0}}};
   write("a.tif", tiff({inverted, inverted}));
   EXPECT_EQ(voxels("a.tif"), "\x9e\x9d\x9c\x9b\x9a\x99\x9e\x9d\x9c\x9b\x9a\x99");  // 255 minus the bytes a, b, …
-  EXPECT_NE(notes("a.tif").find("0 is white (PhotometricInterpretation 0): its grey values were inverted"),
+  EXPECT_NE(notes("a.tif").find("0 is white (PhotometricInterpretation 0), so the grey values were inverted"),
             std::string::npos);
   write("16.tif", tiff({{{262, Entry{3, 1, 0}}, {258, Entry{3, 1, 16}}, {279, Entry{4, 1, 12}}}}));
   const auto image = read_image<std::uint16_t>(folder_ / "16.tif");
@@ -321,7 +322,8 @@ TEST_F(CtHeaders, AStackOfImageJWithOneDirectoryHasAllItsSlices) {
   refused("c.tif", imagej("images=3\n", {{273, Entry{4, 2, 8}}}, bytes), found + "a directory for each slice");
   refused("c.tif", imagej("images=6\nchannels=2\n", {}, bytes + bytes), "found channels=2, expected one grey value");
   refused("c.tif", imagej("images=6\nframes=2\n", {}, bytes + bytes), "found frames=2, expected one grey value");
-  refused("c.tif", imagej("images=9223372036854775807\n", {}, bytes), "the description of the file says 9223372036854775807");
+  refused("c.tif", imagej("images=9223372036854775807\n", {}, bytes),
+          "the description of the file says 9223372036854775807");
   write("d.tif", imagej("images=1\n", {}, bytes));
   EXPECT_EQ(voxels("d.tif"), "012345");
   write("e.tif", tiff({{}, {}}));

@@ -240,7 +240,8 @@ Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts) {
     if (cut.cut && groups.root(cut.a) == groups.root(cut.b)) {
       throw InputError("cuts", 0, name(cut.a, cut.b),
                        "cut 1, although rows with cut 0 join these two fragments through other fragments",
-                       "cut 0 in this row too, or cut 1 in all rows of the two grains that this row separates");
+                       "cut 0 in this row too; or, to separate two grains, cut 1 in every row that names one fragment "
+                       "of each grain");
     }
   }
   return {groups.numbers(), cuts};

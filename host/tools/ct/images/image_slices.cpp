@@ -74,8 +74,7 @@ int bytes_of(VoxelType type) {
 void ImageSlices::invert_grey() {
   inverts_ = true;
   header_.notes.push_back(
-      "the file says that 0 is white (PhotometricInterpretation 0): its grey values were inverted, so that air is "
-      "dark");
+      "the file says that 0 is white (PhotometricInterpretation 0), so the grey values were inverted and air is dark");
 }
 
 template <class T>

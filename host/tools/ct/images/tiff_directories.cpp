@@ -104,7 +104,7 @@ struct Directory {
     if (tag >= tags::first_of_tiles && tag <= tags::last_of_tiles)
       refuse(tag, "tiles", "rows of voxels (strips), as ImageJ and ITK write them");
     // ITK reserves memory for one pointer for tag 336 (DotRange), but libtiff writes both numbers of the tag there
-    if (tag == 336) refuse(tag, "a range of dots", "none, as in a scan");
+    if (tag == 336) refuse(tag, "a range of dots", "no such range, because a scan has none");
     if (std::ranges::count(of_page, tag) > 0) {
       if (tag == tags::bits && values > 1)
         refuse(tag, fmt::format("bits for {} values per voxel", values),
@@ -130,7 +130,7 @@ struct Directory {
     if (const std::uint64_t meaning = page.at(tags::meaning, 1); meaning > 1 && meaning != palette)
       refuse(tags::meaning, fmt::format("PhotometricInterpretation {}", meaning),
              std::string("grey values, 0 or 1") + to_grey);
-    const char* known = "8 or 16 as a whole number, or 32 as a float";
+    const char* known = "8 or 16 bits per voxel for whole numbers, or 32 bits for floats";
     if (!page.contains(tags::bits)) refuse(tags::bits, "no bits of a voxel", known);
     // sample format 2: signed; 4: undefined, which is read as a whole number too (TIFF 6.0)
     constexpr std::uint64_t whole = 1, floating = 3;

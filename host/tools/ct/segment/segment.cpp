@@ -30,9 +30,10 @@ void say(const SegmentOptions& options, const char* stage, double share = 0) {
 void check_levels(const Histogram& histogram, const GreyLevels& levels) {
   if (levels.contrast() < 2 * levels.deviation || !has_valley(histogram, levels)) {
     throw InputError("the scan", 0, "contrast between mastic and aggregate",
-                     fmt::format("grey {:.5g} and {:.5g} with a standard deviation of {:.3g} each", levels.mastic,
-                                 levels.aggregate, levels.deviation),
-                     "a valley between them in the histogram, without which the two phases cannot be distinguished");
+                     fmt::format("grey values {:.5g} and {:.5g} with a standard deviation of {:.3g} each",
+                                 levels.mastic, levels.aggregate, levels.deviation),
+                     "a valley between these grey values in the histogram, because the two phases cannot be "
+                     "distinguished without it");
   }
 }
 
@@ -47,7 +48,7 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
                      fmt::format("at most a quarter of the smallest grain, {:.4g} mm", 1e3 * options.smallest));
   }
   if (options.cuts && options.recipe == SegmentRecipe::paper)
-    throw InputError("cuts", 0, "recipe", "paper, which has no cuts to change", "recipe own");
+    throw InputError("cuts", 0, "recipe", "\"paper\", which has no cuts to change", "\"own\"");
   if (const double both = options.air_voids.value_or(0) + options.aggregate.value_or(0); both >= 1)
     throw InputError("the scan", 0, "given volume fractions of air voids and aggregate",
                      fmt::format("a sum of {:g}", both), "less than 1, because the remaining volume is mastic");
@@ -89,9 +90,10 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   out.grey = std::move(scan);
   count_shares(out);
   if (out.mastic < 0.05 || out.aggregate < 0.005) {
-    throw InputError("the scan", 0, "volume fractions",
-                     fmt::format("mastic {:.2f} %, aggregate {:.2f} %", 100 * out.mastic, 100 * out.aggregate),
-                     "more than 0 % of both: one phase is missing, or has the grey value of another phase");
+    throw InputError(
+        "the scan", 0, "volume fractions",
+        fmt::format("mastic {:.2f} %, aggregate {:.2f} %", 100 * out.mastic, 100 * out.aggregate),
+        "at least 5 % mastic and 0.5 % aggregate; a phase is missing, or has the grey value of another phase");
   }
 
   trust *= trust_in_axes(out.phases, out.warnings);

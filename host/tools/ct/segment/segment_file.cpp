@@ -121,9 +121,10 @@ Segmentation segment_open(ImageSlices& image, const Vec3d& spacing, const ScanFi
     return segment_scan(std::move(scan), options);
   }
   if (options.recipe == SegmentRecipe::paper) {
-    throw InputError(name, 0, "memory", fmt::format("{:.3g} GB", gigabytes(memory)),
-                     fmt::format("at least {:.3g} GB, because with the recipe paper the whole scan must fit in memory",
-                                 gigabytes(whole)));
+    throw InputError(
+        name, 0, "memory", fmt::format("{:.3g} GB", gigabytes(memory)),
+        fmt::format("at least {:.3g} GB, because with the recipe \"paper\" the whole scan must fit in memory",
+                    gigabytes(whole)));
   }
   fine.block = block_of(fine, name, options, memory);
   CoarseScan coarse = read_coarse(fine, options);

@@ -48,14 +48,16 @@ void read_region(const std::string& text, SegmentOptions& options) {
   const std::size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);
   if (colon == std::string::npos || (kind != "cylinder" && kind != "prism"))
-    refuse("found, whole, cylinder, prism, cylinder:x,y,diameter[,z0,z1] or prism:x0,y0,z0,x1,y1,z1");
+    refuse(
+        "one of \"found\", \"whole\", \"cylinder\", \"prism\", \"cylinder:x,y,diameter[,z0,z1]\" or "
+        "\"prism:x0,y0,z0,x1,y1,z1\"");
   const std::vector<double> at = lengths_in(std::string_view(text).substr(colon + 1));
   GivenRegion given;
   if (kind == "prism") {
-    if (at.size() != 6) refuse("six lengths: prism:x0,y0,z0,x1,y1,z1");
+    if (at.size() != 6) refuse("six lengths, as in \"prism:x0,y0,z0,x1,y1,z1\"");
     given = {{at[0], at[1], at[2]}, {at[3], at[4], at[5]}, false};
   } else {
-    if (at.size() != 3 && at.size() != 5) refuse("three or five lengths: cylinder:x,y,diameter[,z0,z1]");
+    if (at.size() != 3 && at.size() != 5) refuse("three or five lengths, as in \"cylinder:x,y,diameter[,z0,z1]\"");
     constexpr double far = std::numeric_limits<double>::infinity();
     const double radius = at[2] / 2;
     given = {{at[0] - radius, at[1] - radius, at.size() == 5 ? at[3] : -far},

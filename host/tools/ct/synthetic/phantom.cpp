@@ -39,9 +39,12 @@ void check(const PhantomSpec& spec, const Box& box) {
   refuse(!(spec.voxel <= edge - 2 * spec.sawn), "voxel", spec.voxel,
          "at most the shortest edge of the scanned specimen");
   refuse(spec.samples < 1 || spec.samples > 16, "samples", spec.samples, "1 to 16");
-  refuse(!(spec.grey_air >= 0 && spec.grey_mastic > spec.grey_air && spec.grey_aggregate >= spec.grey_mastic &&
-           spec.grey_aggregate <= 65535),
-         "grey values", spec.grey_mastic, "0 <= air < mastic <= aggregate <= 65535");
+  if (!(spec.grey_air >= 0 && spec.grey_mastic > spec.grey_air && spec.grey_aggregate >= spec.grey_mastic &&
+        spec.grey_aggregate <= 65535))
+    throw InputError(
+        "phantom", 0, "grey values",
+        fmt::format("air {}, mastic {}, aggregate {}", spec.grey_air, spec.grey_mastic, spec.grey_aggregate),
+        "0 <= air < mastic <= aggregate <= 65535");
   refuse(!(spec.blur == 0 || (spec.blur >= 0.1 && spec.blur <= 10)), "blur", spec.blur, "0, or 0.1 to 10 voxels");
   for (const auto& [name, value] :
        {std::pair{"noise", spec.noise}, {"cupping", spec.cupping}, {"rings", spec.rings}, {"drift", spec.drift}})

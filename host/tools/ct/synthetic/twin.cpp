@@ -64,7 +64,8 @@ Range voxels_in(const std::array<Vec3d, 2>& box, const Image<std::uint8_t>& phas
   for (std::size_t k = 0; k < 3; ++k) {
     if (out.begin[k] < 0 || out.end[k] > phases.size[k] || out.begin[k] >= out.end[k])
       throw InputError("twin", 0, "box", fmt::format("voxels {} to {} along {}", out.begin[k], out.end[k], "xyz"[k]),
-                       fmt::format("at least one voxel, and only voxels of the image, which has {}", phases.size[k]));
+                       fmt::format("at least one voxel, and only voxels of the image, which has {} along this axis",
+                                   phases.size[k]));
   }
   return out;
 }
