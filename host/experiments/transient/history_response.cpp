@@ -94,7 +94,11 @@ double HistoryResponse::stress(const PronySeries& relaxation, double time) {
 
 std::vector<double> HistoryResponse::jumps() const {
   double largest = 0;
-  for (const RatePiece& piece : pieces_) largest = std::max(largest, std::abs(rate_at(piece, 0)));
+  for (const RatePiece& piece : pieces_) {
+    double sum = 0;
+    for (const drives::RateWave& wave : piece.waves) sum += std::abs(wave.amplitude);
+    largest = std::max(largest, sum);
+  }
   std::vector<double> out{0};
   for (std::size_t k = 1; k < pieces_.size(); ++k) {
     const RatePiece& before = pieces_[k - 1];

@@ -11,9 +11,8 @@
 
 namespace macadam {
 
-/// A strain over time, given by its rate. The stress is the integral of E(t − t′)·ε̇(t′) over t′, model (8.1)'s
-/// hereditary integral: each unit of E adds the convolution of ε̇ with an exponential, which is exact for each wave of
-/// each piece.
+/// A strain over time, given by its rate. The stress is the integral of E(t − t′)·ε̇(t′) over t′. Each unit of E adds
+/// the convolution of ε̇ with an exponential, which has a closed form for each wave of each piece.
 class HistoryResponse {
  public:
   /// `pieces`: at least one; the first begins at 0, each other one at the end of the one before.
