@@ -3,6 +3,8 @@
 add_library(macadam_options INTERFACE)
 target_include_directories(macadam_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra>)
+# A value of an enumeration that a list of names or cases leaves out is an error, never another value's name
+target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror=switch>)
 # A product followed by a sum is rounded twice, with every compiler, option and processor, so that results have the same
 # bits everywhere. Otherwise gcc and clang would use fused multiply-add where the processor has it, each in different
 # places.

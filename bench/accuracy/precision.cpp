@@ -57,8 +57,9 @@ class List {
     return c;
   }
 
-  /// Adds runs with stiffened contacts. The stiffer the contacts, the more steps a run has, so that the error of
-  /// inertia stays small.
+  /// Adds runs with stiffened contacts. Densities are scaled such that a cycle has the given number of steps. Stiffer
+  /// contacts have a shorter critical step, so with the same number of steps the masses, and with them the effect of
+  /// inertia on the result, would be larger. Therefore runs with the stiffest contacts have more steps.
   void stiffer() {
     const auto add_stiff = [&](const char* scene, const char* what, double factor, std::int64_t steps) {
       Case& c = add(scene, "AM1", 20, steps);

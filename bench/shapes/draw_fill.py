@@ -19,7 +19,8 @@ from specimen_colours import AGGREGATE  # noqa: E402
 
 CIRCUMSCRIBED = 6.295  # half of D^I of every shape [mm]
 LIGHT = np.array([-0.45, 0.55, 0.70])
-# numbers of spheres in Figs. 5 and 6 of [1], by radius (mm), and by R_max / R_min at R_min = 0.5 mm
+# Published numbers of spheres ([1], Figs. 5 and 6). First dictionary of a shape: by the radius of equal spheres (mm).
+# Second dictionary: by R_max / R_min, with R_min = 0.5 mm.
 PUBLISHED = [("icosahedron", "*", {0.5: 1568, 2: 24}, {1: 1568}),
              ("aggregate #1", "X", {0.5: 634, 1: 79, 2: 9}, {1: 634, 3: 79})]
 SHOWN = [(0.5, 0.5), (0.75, 0.75), (1.0, 1.0), (2.0, 2.0), (0.5, 1.5)]

@@ -181,9 +181,10 @@ double beyond_rigid(const test::TestScene& scene, std::vector<Vec3d> delta, cons
   return test::largest(delta);
 }
 
-/// Stretches and shears a free assembly uniformly and then releases it. All its contacts have the same law and the same
-/// history, so the displacements of the dashpots are compatible. The assembly therefore keeps y(t₃) times the imposed
-/// displacement.
+/// Stretches and shears a free assembly uniformly and then releases it. All contacts have the same law and the same
+/// history, so the permanent displacements of their dashpots fit together without residual forces. The permanent
+/// deformation is therefore y(t₃) times the imposed one, where y is computed for an imposed displacement of at most 1
+/// (see Exact).
 void assembly_rows(Rows& rows, const Setting& setting, bool flows) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;

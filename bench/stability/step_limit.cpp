@@ -103,8 +103,9 @@ Rows step_sweep(Effort effort) {
                         1 + 1e-3, "", found, true});
         worst = std::max(worst, found);
         if (!linear) continue;
-        // near the stability limit H is the small difference of two large terms, so its relative change is weighted
-        // with 1 − share²
+        // `share`: time step / limit. Close to the limit the conserved energy H is a small difference of two large
+        // terms: H ≥ (1 − share²) × kinetic energy. A rounding error of these terms is then a relative change of H that
+        // is larger by up to 1/(1 − share²), so the change is multiplied by 1 − share².
         const double drift = energy_drift(setting, scene, *modes, options, steps) * (1 - share * share);
         worst_drift = drift > worst_drift || std::isnan(drift) ? drift : worst_drift;
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  Steps a column of spheres with the contact laws of this program and compares the stresses
-// with closed forms.
+// main.cpp  Steps a column of spheres with the contact laws of this program, computes its relaxation and creep without
+// time steps, and compares the results with closed forms.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -78,6 +78,31 @@ bool relaxes() {
   return agree("standard linear solid, after 2 ms of hold", found, law.E_inf * strain + law.E_1 * memory, 2e-4);
 }
 
+/// Checks relaxation, creep and a constant strain rate of the column without time steps. The law has a function
+/// prony(), so equivalent_laws() converts it to a law that all solutions without time steps accept.
+bool responds_without_steps() {
+  const StandardLinearSolid law{1e9, 3e9, 3e6, 0.2};
+  const double at = 2e-3, time = law.C_1 / law.E_1, instantaneous = law.E_inf + law.E_1;
+  const Specimen column = make_column();
+  const ContactNetwork network = build_network(column, tessellate(column));
+  OwnLaws laws;
+  laws.fill(OwnLaw(law));
+  SpectrumOptions options;
+  options.shortest = 1e-5, options.longest = 1;
+  const Spectrum found = spectrum_of(column, network, equivalent_laws(laws), options);
+  // All contacts have the same law, so the column responds as one contact. A creep strain grows from 1/E(0) to 1/E_inf.
+  const double slow = time * instantaneous / law.E_inf;
+  const double creep = 1 / law.E_inf - (1 / law.E_inf - 1 / instantaneous) * std::exp(-at / slow);
+  const double secant = law.E_inf - law.E_1 * time / at * std::expm1(-at / time);
+  // options.tolerance is 1e-6
+  const bool relaxation = agree("relaxation modulus after 2 ms", found.relaxation.modulus(at),
+                                law.E_inf + law.E_1 * std::exp(-at / time), 1e-6);
+  const bool creeps = agree("stress / creep strain after 2 ms", 1 / found.creep.compliance(at), 1 / creep, 1e-6);
+  const bool grows =
+      agree("secant modulus at a constant rate, 2 ms", found.relaxation.after_ramp(at, at), secant, 1e-6);
+  return relaxation && creeps && grows;
+}
+
 /// Checks the stress in a column with bilinear contacts. The column was pulled until its longer contacts passed the
 /// displacement x_0, and is at rest again.
 bool yields() {
@@ -109,6 +134,6 @@ bool yields() {
 }  // namespace
 
 int main() {
-  const bool first = relaxes(), second = yields();
-  return first && second ? 0 : 1;
+  const bool first = relaxes(), second = responds_without_steps(), third = yields();
+  return first && second && third ? 0 : 1;
 }

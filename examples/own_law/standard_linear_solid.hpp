@@ -7,6 +7,7 @@
 #include <string>
 
 #include "macadam/laws/law.hpp"
+#include "macadam/laws/prony_series.hpp"
 #include "macadam/numeric.hpp"
 
 /// Force f = E_inf·x + g. The part g = E_1·(x − y) acts on the dashpot, whose displacement is y: C_1·dy/dt = g. The
@@ -22,6 +23,9 @@ struct StandardLinearSolid {
   double instantaneous() const { return E_inf + E_1; }
   double shortest_time() const { return C_1 / E_1; }
   std::complex<double> stiffness(std::complex<double> s) const { return E_inf + E_1 * s * C_1 / (E_1 + s * C_1); }
+  /// Returns the stress after a sudden strain, E_inf + E_1·e^(−t·E_1/C_1). With this function the law can be used in
+  /// every solution without time steps.
+  macadam::PronySeries prony() const { return {E_inf, {{E_1, C_1 / E_1}}}; }
 
   template <class R>
   struct Step {

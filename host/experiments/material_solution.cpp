@@ -117,14 +117,14 @@ nlohmann::ordered_json relaxation_json(const PronySeries& series) {
 }  // namespace
 
 std::pair<double, double> History::range() const {
-  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  // the last tenth of a change before a time has little effect, so E at shorter times is not needed
+  double shortest = 0.1 * shortest_change, longest = 0;
   for (const double t : times) {
     for (const Ramp& r : ramps) {
       const double since = t - r.begin;
       if (!(since > 0)) continue;
       longest = std::max(longest, since);
-      // the last tenth of `grown`, the part of the ramp before t, has little effect, so E at shorter times is not
-      // needed
+      // `grown`: the part of the ramp before t
       const double grown = std::min(since, r.duration);
       shortest = std::min(shortest, std::max(since - grown, 0.1 * grown));
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host/scene/table.hpp"
@@ -23,6 +24,8 @@ struct History {
     double begin, duration;
   };
   std::vector<Ramp> ramps;
+  /// A shorter time in which the load changes much, if it does so within its ramps [s].
+  double shortest_change = std::numeric_limits<double>::infinity();
 
   /// Returns the shortest and the longest time after a change of the load at which the relaxation of the specimen must
   /// be known [s].

@@ -22,7 +22,15 @@ namespace macadam {
 using namespace harmonic;
 
 const char* to_string(LinearMethod method) {
-  return method == LinearMethod::automatic ? "auto" : method == LinearMethod::iterative ? "iterative" : "direct";
+  switch (method) {
+    case LinearMethod::automatic:
+      return "auto";
+    case LinearMethod::iterative:
+      return "iterative";
+    case LinearMethod::direct:
+      return "direct";
+  }
+  return "unknown";
 }
 
 namespace {

@@ -1,20 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// names.cpp  Defines the names of pair types, quadratures and rules in scenes and results.
-#include <array>
-
+// names.cpp  Defines the names of pair types, quadratures and rules in scenes and results. A value that is missing in a
+// list of names is an error of the compiler (-Werror=switch).
 #include "macadam/contact_network.hpp"
 
 namespace macadam {
 
 const char* to_string(PairType pair) {
-  constexpr std::array<const char*, pair_types> name{"M-M", "M-A", "A-A", "inner", "A-W", "M-W"};
-  return name[static_cast<std::size_t>(pair)];
+  switch (pair) {
+    case PairType::mm:
+      return "M-M";
+    case PairType::ma:
+      return "M-A";
+    case PairType::aa:
+      return "A-A";
+    case PairType::inner:
+      return "inner";
+    case PairType::aw:
+      return "A-W";
+    case PairType::mw:
+      return "M-W";
+  }
+  return "unknown";
 }
 
 const char* to_string(Quadrature quadrature) {
-  return quadrature == Quadrature::exact ? "exact" : quadrature == Quadrature::one_point ? "one_point" : "lumped";
+  switch (quadrature) {
+    case Quadrature::lumped:
+      return "lumped";
+    case Quadrature::exact:
+      return "exact";
+    case Quadrature::one_point:
+      return "one_point";
+  }
+  return "unknown";
 }
 
-const char* to_string(ContactRule rule) { return rule == ContactRule::series ? "series" : "centres"; }
+const char* to_string(ContactRule rule) {
+  switch (rule) {
+    case ContactRule::centres:
+      return "centres";
+    case ContactRule::series:
+      return "series";
+  }
+  return "unknown";
+}
 
 }  // namespace macadam

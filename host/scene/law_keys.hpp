@@ -3,12 +3,15 @@
 /// `[materials]`.
 #pragma once
 
+#include <array>
 #include <limits>
-#include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/scene/table.hpp"
+#include "macadam/laws/all.hpp"
 #include "macadam/laws/values.hpp"
 
 namespace macadam::scene {
@@ -16,19 +19,39 @@ namespace macadam::scene {
 using laws::ValueKind;
 using laws::ValueNeed;
 
-/// Returns the explanation of a value of a law; empty if it is not listed here.
-inline std::string text_of(const std::string& law, const std::string& key) {
-  static const std::map<std::string, std::string> kelvin{{"E_m", "spring of the Maxwell unit"},
-                                                         {"C_m", "dashpot of the Maxwell unit; inf: no dashpot"},
-                                                         {"E", "springs of the Kelvin units, up to 16"},
-                                                         {"C", "dashpots of the Kelvin units, one per spring"}};
-  static const std::map<std::string, std::string> others{
-      {"E", "modulus"},
-      {"tensile_strength", "tensile stress above which a contact point breaks permanently"},
-      {"shear_strength", "shear stress above which a contact point breaks permanently; inf: never"}};
-  const auto& texts = law == "generalised_kelvin" ? kelvin : others;
-  const auto found = texts.find(key);
-  return found == texts.end() ? "" : found->second;
+/// The explanations of the values of a law, each with its key. A law of all.hpp without a list of its own does not
+/// compile, so it cannot get the words of another law.
+/// @{
+using KeyText = std::pair<std::string_view, const char*>;
+template <class L>
+struct TextsOf;
+template <>
+struct TextsOf<laws::Elastic> {
+  static constexpr std::array<KeyText, 1> all{{{"E", "modulus"}}};
+};
+template <>
+struct TextsOf<laws::GeneralisedKelvin> {
+  static constexpr std::array<KeyText, 4> all{{{"E_m", "spring of the Maxwell unit"},
+                                               {"C_m", "dashpot of the Maxwell unit; inf: no dashpot"},
+                                               {"E", "springs of the Kelvin units, up to 16"},
+                                               {"C", "dashpots of the Kelvin units, one per spring"}}};
+};
+template <>
+struct TextsOf<laws::BrittleBond> {
+  static constexpr std::array<KeyText, 3> all{
+      {{"E", "modulus"},
+       {"tensile_strength", "tensile stress above which a contact point breaks permanently"},
+       {"shear_strength", "shear stress above which a contact point breaks permanently; inf: never"}}};
+};
+/// @}
+
+/// Returns the explanation of a value of a law; empty if the law's list does not have its key.
+template <class L>
+std::string text_of_key(std::string_view key) {
+  for (const auto& [name, text] : TextsOf<L>::all) {
+    if (name == key) return text;
+  }
+  return "";
 }
 
 /// A modulus without a unit is in Pa. No solid is softer than 1000 Pa, so a smaller number was probably meant in GPa or
@@ -56,7 +79,7 @@ std::vector<Key> keys_of(L& law) {
     }
     const bool required = need == ValueNeed::required;
     const std::string usual = required || !read.words.usual.empty() ? "" : "none";
-    out.push_back({key, required ? Need::required : Need::optional, std::move(read), text_of(L::name, key), usual});
+    out.push_back({key, required ? Need::required : Need::optional, std::move(read), text_of_key<L>(key), usual});
   });
   return out;
 }

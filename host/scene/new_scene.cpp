@@ -212,9 +212,15 @@ Part loading_of(const std::string& test) {
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
   if (test == "monotonic") give("rate", "1e-4"), give("strain", "1e-3"), give("points", "100");
+  if (test == "history") {
+    give("drive", R"("haversine")"), give("strain", "-1e-4"), give("pulse", R"("0.1 s")"), give("rest", R"("0.9 s")");
+    give("duration", R"("5 s")");
+  }
   // Leaves out keys that must not be given together with the keys above, and keys that only method "explicit" has.
   out.not_these = {"temperatures", "points", "platen_mass"};
   if (test == "monotonic") out.not_these = {"times", "points_per_decade"};
+  if (test == "history")  // keys of other drives
+    out.not_these = {"times", "strains", "file", "ramp", "hold", "smooth", "rate", "frequency"};
   return out;
 }
 

@@ -98,7 +98,7 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         Need::optional,
         {[](const Value&) {}, {"number", &rate}},  // read_damping() reads the value, once damping_kind is known
         "chi of local damping (a number below 1), or beta of viscous damping [1/s]",
-        "0; chosen for stepped relaxation, creep and constant rates"},
+        "0; chosen for stepped relaxation, creep, constant rates and histories"},
        {"form", Need::optional,
         into<ContactForm>(spec.form, {{"condensed", ContactForm::condensed}, {"points", ContactForm::points}}),
         "six generalised displacements per contact, or three per contact point",

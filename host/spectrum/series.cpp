@@ -91,21 +91,14 @@ constexpr double beyond = 60;
 
 }  // namespace
 
-PronySeries prony_series(const Law& law) {
-  if (const auto* elastic = std::get_if<laws::Elastic>(&law)) return {elastic->E, {}};
-  if (!std::holds_alternative<laws::GeneralisedKelvin>(law)) {
-    throw InputError(
-        "relaxation of a contact law", 0, "law", std::visit([](const auto& l) { return l.name; }, law),
-        fmt::format("{} or {}, whose relaxation times are known", laws::Elastic::name, laws::GeneralisedKelvin::name));
-  }
-  const auto& chain = std::get<laws::GeneralisedKelvin>(law);
+PronySeries laws::GeneralisedKelvin::prony() const {
   // At s = −r the compliance 1/E_m − 1/(r·C_m) + Σ 1/(E_l − r·C_l) increases from −∞ to ∞ between two poles, and also
   // beyond the last pole. The poles of k*(s) are the zeros of this compliance.
   struct Pole {
     double rate, E, C;
   };
   std::vector<Pole> poles;
-  for (std::size_t l = 0; l < chain.E.size(); ++l) poles.push_back({chain.E[l] / chain.C[l], chain.E[l], chain.C[l]});
+  for (std::size_t l = 0; l < E.size(); ++l) poles.push_back({E[l] / C[l], E[l], C[l]});
   std::sort(poles.begin(), poles.end(), [](const Pole& a, const Pole& b) { return a.rate < b.rate; });
   // units with the same time are merged into one: two equal poles would have no zero between them
   std::vector<Pole> apart;
@@ -118,14 +111,14 @@ PronySeries prony_series(const Law& law) {
       apart.push_back(p);
     }
   }
-  const bool flows = std::isfinite(chain.C_m);
+  const bool flows = std::isfinite(C_m);
   const auto compliance = [&](double r) {
-    double out = 1 / chain.E_m - (flows ? 1 / (r * chain.C_m) : 0);
+    double out = 1 / E_m - (flows ? 1 / (r * C_m) : 0);
     for (const Pole& p : apart) out += 1 / (p.E - r * p.C);
     return out;
   };
   const auto slope = [&](double r) {  // derivative by r
-    double out = flows ? 1 / (r * r * chain.C_m) : 0;
+    double out = flows ? 1 / (r * r * C_m) : 0;
     for (const Pole& p : apart) out += p.C / ((p.E - r * p.C) * (p.E - r * p.C));
     return out;
   };
@@ -134,7 +127,7 @@ PronySeries prony_series(const Law& law) {
   for (std::size_t i = 0; i <= apart.size(); ++i) {
     if (i == 0 && !flows) continue;  // without a dashpot the first pole is not at 0, and no zero lies before it
     const bool last = i == apart.size();
-    const double fastest = apart.empty() ? chain.E_m / chain.C_m : apart.back().rate;
+    const double fastest = apart.empty() ? E_m / C_m : apart.back().rate;
     const double low =
         i == 0 ? std::log(apart.empty() ? fastest : apart.front().rate) - beyond : std::log(apart[i - 1].rate);
     const double high = last ? std::log(fastest) + beyond : std::log(apart[i].rate);
@@ -144,17 +137,92 @@ PronySeries prony_series(const Law& law) {
     sum += modulus;
   }
   std::sort(out.units.begin(), out.units.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
-  double at_rest = 1 / chain.E_m;
+  double at_rest = 1 / E_m;
   for (const Pole& p : apart) at_rest += 1 / p.E;
   out.long_term = flows ? 0 : 1 / at_rest;
-  if (!(std::abs((sum + out.long_term) / chain.E_m - 1) < 1e-9)) {
+  if (!(std::abs((sum + out.long_term) / E_m - 1) < 1e-9)) {
     throw InputError(
         "relaxation of a contact law", 0, "sum of the moduli of all relaxation terms",
         fmt::format("{:.10g} Pa", sum + out.long_term),
         fmt::format(
             "E_m of the law, {:.10g} Pa; the springs and dashpots of the law differ too much for double precision",
-            chain.E_m));
+            E_m));
   }
+  return out;
+}
+
+InputError without_prony(const char* law, bool linear) {
+  return InputError("relaxation of a contact law", 0, "law",
+                    std::string(law) + (linear ? ", which has no function prony()" : ", which is not linear"),
+                    linear ? "a law with the function prony(), its relaxation as a sum of exponentials (laws/law.hpp); "
+                             "or method = \"explicit\", which steps any law"
+                           : "a linear law; or method = \"explicit\", which steps any law");
+}
+
+namespace {
+
+/// Returns the series of a law in order of rising times, with units of equal times joined and without units of
+/// modulus 0. \throws InputError naming
+/// the law if a unit or the long-term modulus is negative or not finite, or if the series is zero.
+PronySeries in_order(PronySeries series, const char* law) {
+  const auto refuse = [&](const std::string& found) {
+    throw InputError("relaxation of a contact law", 0, std::string("prony() of law ") + law, found,
+                     "moduli of at least 0 with positive times, and a long-term modulus of at least 0");
+  };
+  const auto is_positive = [](double x) { return x > 0 && std::isfinite(x); };
+  if (!(series.long_term >= 0) || !std::isfinite(series.long_term))
+    refuse(fmt::format("a long-term modulus of {:g} Pa", series.long_term));
+  for (const auto& u : series.units) {
+    if (!(u.modulus >= 0) || !std::isfinite(u.modulus) || !is_positive(u.time))
+      refuse(fmt::format("a unit of {:g} Pa with a time of {:g} s", u.modulus, u.time));
+  }
+  if (!(series.instantaneous() > 0)) refuse("no unit and no long-term modulus");
+  std::sort(series.units.begin(), series.units.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  std::vector<PronySeries::Unit> apart;
+  for (const auto& u : series.units) {
+    if (u.modulus == 0) continue;
+    if (!apart.empty() && u.time <= apart.back().time * (1 + 1e-12))
+      apart.back().modulus += u.modulus;
+    else
+      apart.push_back(u);
+  }
+  series.units = std::move(apart);
+  return series;
+}
+
+}  // namespace
+
+PronySeries prony_series(const Law& law) {
+  return std::visit(
+      []<class L>(const L& one) -> PronySeries {
+        if constexpr (has_prony<L>) {
+          PronySeries out = in_order(one.prony(), L::name);
+          // A series of another stiffness than the law's own would give results of another material. The constants of
+          // a law have at most 1e-9 of rounding error in the series.
+          if (!(std::abs(out.instantaneous() / one.instantaneous() - 1) < 1e-8)) {
+            throw InputError("relaxation of a contact law", 0, std::string("prony() of law ") + L::name,
+                             fmt::format("{:g} Pa for a sudden strain", out.instantaneous()),
+                             fmt::format("{:g} Pa, its instantaneous()", one.instantaneous()));
+          }
+          return out;
+        } else {
+          throw without_prony(L::name, linear_law<L>);
+        }
+      },
+      law);
+}
+
+Law equivalent_law(const PronySeries& relaxation, double alpha, const char* name) {
+  const PronySeries series = in_order(relaxation, name);
+  if (series.units.empty()) return laws::Elastic{series.long_term, alpha};
+  const CreepSeries creep = creep_series(series);
+  laws::GeneralisedKelvin out;
+  out.E_m = 1 / creep.instantaneous;
+  if (creep.fluidity > 0) out.C_m = 1 / creep.fluidity;
+  for (const auto& u : creep.units) out.E.push_back(1 / u.compliance), out.C.push_back(u.time / u.compliance);
+  out.alpha = alpha;
+  if (const auto fault = out.fault())
+    throw InputError(std::string("relaxation of law ") + name, 0, "chain", fault->found, fault->expected);
   return out;
 }
 

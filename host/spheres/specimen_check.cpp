@@ -15,7 +15,15 @@
 namespace macadam {
 
 const char* to_string(Phase phase) {
-  return phase == Phase::aggregate ? "aggregate" : phase == Phase::mastic ? "mastic" : "void";
+  switch (phase) {
+    case Phase::aggregate:
+      return "aggregate";
+    case Phase::mastic:
+      return "mastic";
+    case Phase::air_void:
+      return "void";
+  }
+  return "unknown";
 }
 
 Specimen with_voids_as_cells(const Specimen& specimen) {

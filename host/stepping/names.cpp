@@ -4,31 +4,59 @@
 
 namespace macadam {
 
-const char* to_string(Backend b) {
-  switch (b) {
+const char* to_string(Backend backend) {
+  switch (backend) {
+    case Backend::automatic:
+      return "auto";
     case Backend::cpu:
       return "cpu";
     case Backend::cuda:
       return "cuda";
     case Backend::reference:
       return "reference";
-    default:
-      return "auto";
   }
+  return "unknown";
 }
-const char* to_string(Precision p) {
-  switch (p) {
+const char* to_string(Precision precision) {
+  switch (precision) {
+    case Precision::double_:
+      return "double";
     case Precision::mixed:
       return "mixed";
     case Precision::single:
       return "single";
-    default:
-      return "double";
   }
+  return "unknown";
 }
-const char* to_string(ContactForm f) { return f == ContactForm::points ? "points" : "condensed"; }
-const char* to_string(Geometry g) { return g == Geometry::fixed ? "fixed" : "updated"; }
-const char* to_string(Damping d) { return d == Damping::none ? "none" : d == Damping::local ? "local" : "viscous"; }
+const char* to_string(ContactForm form) {
+  switch (form) {
+    case ContactForm::condensed:
+      return "condensed";
+    case ContactForm::points:
+      return "points";
+  }
+  return "unknown";
+}
+const char* to_string(Geometry geometry) {
+  switch (geometry) {
+    case Geometry::updated:
+      return "updated";
+    case Geometry::fixed:
+      return "fixed";
+  }
+  return "unknown";
+}
+const char* to_string(Damping damping) {
+  switch (damping) {
+    case Damping::none:
+      return "none";
+    case Damping::local:
+      return "local";
+    case Damping::viscous:
+      return "viscous";
+  }
+  return "unknown";
+}
 
 std::string to_string(const DeviceList& devices) {
   if (devices == DeviceList{every_device}) return "all";

@@ -89,8 +89,9 @@ FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& 
 std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNetwork& network,
                                        const ContactState& state, const std::vector<Vec3d>& displacement);
 
-/// Returns the arrays of the particles in a steady state (HarmonicResult::motion) in which the top wall moves as
-/// amplitude·cos ωt: real and imaginary part of the factor of e^(iωt), amplitude and phase.
+/// Returns the arrays of the particles in a steady state in which the top wall moves as `amplitude`·cos ωt. `motion` is
+/// HarmonicResult::motion. For every component of a particle's motion, which is the real part of z·e^(iωt), the arrays
+/// have the real part, imaginary part, magnitude and phase of z.
 std::vector<FieldArray> particle_arrays(const std::vector<std::complex<double>>& motion, double amplitude);
 /// Returns the arrays of the contacts in a steady state. Forces are computed from the complex stiffness of the laws at
 /// the frequency, with the initial geometry.

@@ -7,35 +7,21 @@
 /// numbers. Solutions at further s are added until E(t) is accurate enough.
 #pragma once
 
-#include <complex>
 #include <functional>
 #include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "macadam/backend.hpp"
 #include "macadam/contact_network.hpp"
+#include "macadam/error.hpp"
 #include "macadam/laws/all.hpp"
+#include "macadam/laws/prony_series.hpp"
 #include "macadam/linear_method.hpp"
 
 namespace macadam {
-
-/// Relaxation modulus as a sum of Maxwell units, in order of rising times.
-struct PronySeries {
-  struct Unit {
-    double modulus;  ///< g [Pa], positive
-    double time;     ///< τ [s]
-  };
-  double long_term = 0;  ///< E_∞ [Pa]; 0 for a fluid
-  std::vector<Unit> units;
-
-  double instantaneous() const;    ///< E(0) [Pa]
-  double modulus(double t) const;  ///< E(t) [Pa]: stress after a step of strain, over the strain; 0 for t < 0
-  /// Returns stress over strain if the strain grows linearly from t = 0 to `duration` and is then held; duration 0: a
-  /// step.
-  double after_ramp(double t, double duration) const;
-  std::complex<double> stiffness(std::complex<double> s) const;  ///< E*(s) [Pa], for motions e^(s·t)
-  std::complex<double> stiffness(double) const = delete;         // deleted, so that ω cannot be passed instead of iω
-};
 
 /// Creep compliance as a chain of Kelvin units in series with a spring and a dashpot, in order of rising times.
 struct CreepSeries {
@@ -53,13 +39,46 @@ struct CreepSeries {
   double after_ramp(double t, double duration) const;
 };
 
-/// Returns the relaxation of a contact law, from the poles and residues of its complex stiffness. \throws InputError
-/// for a law that is not a chain with positive constants.
+/// Returns the relaxation of a contact law, as its function prony() gives it (laws/law.hpp), sorted by time.
+/// \throws InputError naming the law if it has no such function, or if the series is not a sum of positive units that
+/// has the law's instantaneous stiffness.
 PronySeries prony_series(const Law& law);
 
 /// Returns the creep of the material with this relaxation. The retardation times follow from the zeros of E*(s), which
 /// lie between the poles of E*(s). \throws InputError for a series whose moduli are all zero.
 CreepSeries creep_series(const PronySeries& relaxation);
+
+/// Returns the error for a law without the function prony(); it says what such a law lacks and how it can be used.
+InputError without_prony(const char* law, bool linear);
+
+/// Returns a law of Macadam's list that responds exactly as a series: `elastic` if the series has no units, otherwise
+/// the chain `generalised_kelvin` of its creep. `alpha`: shear stiffness over normal stiffness. `name`: a name for
+/// messages. \throws InputError for a series that is not a sum of positive units, or that needs more units than a chain
+/// may have.
+Law equivalent_law(const PronySeries& relaxation, double alpha, const char* name);
+
+/// Returns laws of Macadam's list that respond exactly as these laws, which may belong to a list of the user's own
+/// program. Such laws can then be used wherever a LawTable is required: in spectrum_of(), in Harmonic, and in a Scene.
+/// \throws InputError naming the law if it is neither in Macadam's list nor has a function prony(); also as
+/// equivalent_law() does.
+template <class... L>
+LawTable equivalent_laws(const std::array<std::optional<std::variant<L...>>, pair_types>& laws) {
+  LawTable out;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (!laws[pair]) continue;
+    out[pair] = std::visit(
+        []<class Own>(const Own& own) -> Law {
+          if constexpr (std::is_constructible_v<Law, std::in_place_type_t<Own>, Own>)
+            return own;
+          else if constexpr (has_prony<Own>)
+            return equivalent_law(own.prony(), own.alpha, Own::name);
+          else
+            throw without_prony(Own::name, linear_law<Own>);
+        },
+        *laws[pair]);
+  }
+  return out;
+}
 
 /// Returns a series with only a few of the units of `series`, with new moduli. The returned series reproduces E(0), and
 /// E(t) from `shortest` to `longest` [s], within a relative tolerance.

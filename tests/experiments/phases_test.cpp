@@ -57,8 +57,8 @@ TEST(Phases, EndWithWhatIsThrown) {
 /// Largest wall time of a run that may belong to no phase [s].
 constexpr double left_out = 0.05;
 
-/// Runs a scene of some tenths of a second, and checks the phases that its summary.json must have. Returns how far the
-/// sum of the phases is below nine tenths of the wall time [s].
+/// Runs a scene that takes some tenths of a second of wall time, and checks that its summary.json has the times of the
+/// expected phases. Returns by how much the sum of all phases' times falls short of 90 % of the wall time [s].
 double missing_time(SolverMethod method, const std::vector<std::string>& expected) {
   Scene scene;
   scene.specimen.file = MACADAM_TEST_DATA "/t8.csv";

@@ -169,7 +169,8 @@ TEST_F(SteppedLoad, ARunInPiecesGivesTheBitsOfOne) {
 }
 
 // The processor, devices, and the reference, which has its own implementation of platens, give the same result. Only
-// rounding differs: 1e-16 times a few hundred steps, and stresses are sums of forces that are a hundred times as large.
+// rounding differs: about 1e-16 per step over a few hundred steps, times a hundred, because the forces that are summed
+// to a stress are about a hundred times as large as their sum.
 TEST_F(SteppedLoad, EveryBackendFindsTheSame) {
   const std::string creep =
       "kind = \"creep\"\nstress = 1e5\nramp = 5e-3\nrelease = 1e-2\ntimes = [4e-3, 8e-3, 16e-3]\n";

@@ -10,6 +10,7 @@
 
 #include "macadam/harmonic.hpp"
 #include "tests/support/talbot.hpp"
+#include "tests/support/test_files.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace macadam::test {
@@ -47,6 +48,95 @@ TEST(Series, CreepOfALawIsItsChain) {
     for (std::size_t l = 0; l < law.E.size(); ++l) expected -= std::expm1(-t * law.E[l] / law.C[l]) / law.E[l];
     EXPECT_NEAR(creep.compliance(t) / expected, 1, 1e-11) << t;
   }
+}
+
+/// A law that is not in Macadam's list: a spring beside Maxwell units.
+struct MaxwellUnits {
+  static constexpr const char* name = "maxwell_units";
+  PronySeries series;
+  double alpha = 0;
+  PronySeries prony() const { return series; }
+  template <class R>
+  struct Step {};
+};
+/// A linear law without a function prony(), and a law that is not linear.
+struct Silent {
+  static constexpr const char* name = "silent";
+  double alpha = 0;
+};
+struct Nonlinear : Silent {
+  static constexpr const char* name = "hardening";
+  static constexpr bool linear = false;
+};
+using UsersLaw = std::variant<MaxwellUnits, Silent, Nonlinear, laws::Elastic>;
+using UsersLaws = std::array<std::optional<UsersLaw>, pair_types>;
+
+UsersLaws users_laws(const UsersLaw& law) {
+  UsersLaws out;
+  out.fill(law);
+  return out;
+}
+
+// The equivalent law is computed from the series by two searches for zeros, each with a relative error near 1e-15; the
+// moduli are quotients of sums of a few terms.
+TEST(Series, AUsersLawHasAnEquivalentLaw) {
+  const PronySeries solid{1e9, {{3e9, 1e-3}, {2e9, 5}}}, fluid{0, {{3e9, 1e-3}, {2e9, 5}}};
+  // out of order, one time twice, and a unit without stiffness
+  const PronySeries shuffled{1e9, {{2e9, 5}, {1e9, 1e-3}, {0, 0.1}, {2e9, 1e-3}}};
+  for (const PronySeries& series : {solid, fluid, shuffled}) {
+    const Law law = *equivalent_laws(users_laws(MaxwellUnits{series, 0.3}))[0];
+    const auto& chain = std::get<laws::GeneralisedKelvin>(law);
+    EXPECT_EQ(chain.alpha, 0.3);
+    EXPECT_EQ(chain.units(), series.long_term > 0 ? 2 : 1);
+    EXPECT_EQ(std::isfinite(chain.C_m), series.long_term == 0);
+    for (const Complex s : {Complex(1e-6, 0), Complex(0, 0.1), Complex(3, 40), Complex(0, 1e5)}) {
+      EXPECT_LT(std::abs(chain.stiffness(s) / series.stiffness(s) - 1.0), 1e-12) << s;
+    }
+  }
+  const Law spring = *equivalent_laws(users_laws(MaxwellUnits{{2e9, {}}, 0.1}))[0];
+  EXPECT_EQ(std::get<laws::Elastic>(spring).E, 2e9);
+  EXPECT_EQ(std::get<laws::Elastic>(spring).alpha, 0.1);
+  EXPECT_EQ(std::get<laws::Elastic>(*equivalent_laws(users_laws(laws::Elastic{4e9, 0.2}))[0]).E, 4e9);
+}
+
+TEST(Series, LawsWithoutASeriesAreRefusedByName) {
+  const auto message = [](const UsersLaw& law) { return message_of([&] { equivalent_laws(users_laws(law)); }); };
+  EXPECT_HAS(message(Silent{}), "law: found silent, which has no function prony(), expected a law with the function");
+  EXPECT_HAS(message(Nonlinear{}), "law: found hardening, which is not linear, expected a linear law; or method = ");
+  EXPECT_HAS(message(MaxwellUnits{{-1e9, {{3e9, 1}}}}),
+             "prony() of law maxwell_units: found a long-term modulus of -1e+09 Pa");
+  EXPECT_HAS(message(MaxwellUnits{{1e9, {{3e9, 0}}}}),
+             "law maxwell_units: found a unit of 3e+09 Pa with a time of 0 s");
+  EXPECT_HAS(message(MaxwellUnits{{1e9, {{-3e9, 1}}}}), "found a unit of -3e+09 Pa with a time of 1 s");
+  EXPECT_HAS(message(MaxwellUnits{{0, {}}}), "found no unit and no long-term modulus");
+  PronySeries long_series{1e9, {}};
+  for (int l = 0; l < 17; ++l) long_series.units.push_back({1e8, std::pow(10.0, l)});
+  EXPECT_HAS(message(MaxwellUnits{long_series}),
+             "law maxwell_units: chain: found 17 Kelvin units, expected at most 16");
+  EXPECT_HAS(message_of([] { prony_series(laws::BrittleBond{}); }), "found brittle_bond, which is not linear");
+}
+
+/// A column of cubes of a user's law relaxes, creeps and stretches at a constant rate as one contact does. The
+/// tolerance of the spectrum is 1e-6.
+TEST(Spectrum, OfAUsersLawIsTheClosedForm) {
+  const double E_inf = 1e9, E_1 = 3e9, time = 1e-2, at = 5e-3;
+  Specimen specimen;
+  specimen.box.size = {2e-3, 2e-3, 4e-3};
+  for (const double z : {1e-3, 3e-3}) {
+    specimen.centre.push_back({1e-3, 1e-3, z});
+    specimen.radius.push_back(1e-3);
+    specimen.phase.push_back(Phase::mastic);
+    specimen.body.push_back(-1);
+  }
+  const LawTable table = equivalent_laws(users_laws(MaxwellUnits{{E_inf, {{E_1, time}}}, 0.2}));
+  const TestScene scene = make_scene(specimen, {}, table);
+  SpectrumOptions options;
+  options.shortest = 1e-4, options.longest = 10;
+  const Spectrum found = spectrum_of(scene.specimen, scene.network, scene.laws, options);
+  EXPECT_NEAR(found.relaxation.modulus(at) / (E_inf + E_1 * std::exp(-at / time)), 1, 1e-6);
+  EXPECT_NEAR(found.relaxation.after_ramp(at, at) / (E_inf - E_1 * time / at * std::expm1(-at / time)), 1, 1e-6);
+  const double first = 1 / (E_inf + E_1), last = 1 / E_inf, slow = time * last / first;
+  EXPECT_NEAR(found.creep.compliance(at) / (last - (last - first) * std::exp(-at / slow)), 1, 1e-6);
 }
 
 /// Two spheres between the walls, joined by one contact with a chain.

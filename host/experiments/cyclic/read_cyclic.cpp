@@ -10,7 +10,15 @@ namespace macadam {
 
 using namespace scene;
 
-const char* to_string(Start start) { return start == Start::steady ? "steady" : "rest"; }
+const char* to_string(Start start) {
+  switch (start) {
+    case Start::rest:
+      return "rest";
+    case Start::steady:
+      return "steady";
+  }
+  return "unknown";
+}
 
 template <>
 experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& section) {

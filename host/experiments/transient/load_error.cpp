@@ -38,6 +38,14 @@ LoadTimes on_steps(const LoadTimes& asked, double ramp, double dt) {
   return out;
 }
 
+/// Returns the largest absolute value of a quantity among the row and the rows before it.
+template <class F>
+double largest_of(const SteppedPoint& row, const std::vector<SteppedPoint>& before, F&& of) {
+  double out = std::abs(of(row));
+  for (const SteppedPoint& p : before) out = std::max(out, std::abs(of(p)));
+  return out;
+}
+
 /// Returns the range of times after a change of the load for which the relaxation must be known to compute the rows of
 /// the result. The range covers both the ramp of the scene and the ramp of the run.
 std::pair<double, double> range_of(const TransientExperiment& test, const LoadPlan& plan) {
@@ -46,7 +54,7 @@ std::pair<double, double> range_of(const TransientExperiment& test, const LoadPl
   std::pair<double, double> out{std::numeric_limits<double>::infinity(), 0};
   for (const double ramp : {test.grows ? plan.ramp : test.when.ramp, plan.ramp}) {
     const LoadTimes when = on_steps(test.when, ramp, plan.dt);
-    History history{times, {{0, ramp}}};
+    History history{times, {{0, ramp}}, test.history.shortest_change};
     if (when.release) history.ramps.push_back({*when.release, ramp});
     const auto [shortest, longest] = history.range();
     out = {std::min(out.first, shortest), std::max(out.second, longest)};
@@ -118,7 +126,10 @@ double LoadErrors::of(const SteppedPoint& row, const std::vector<SteppedPoint>& 
   if (is_known(row, before)) {
     const ResponsePoint asked = test_.unstepped(*spectrum_, row.time_s, asked_);
     const double scale =
-        std::abs(value(is_released(row.time_s) ? test_.unstepped(*spectrum_, *asked_.release, asked_) : asked));
+        test_.reverses
+            ? largest_of(row, before, [&](const SteppedPoint& p) { return value(p); })
+            : std::abs(value(is_released(row.time_s) ? test_.unstepped(*spectrum_, *asked_.release, asked_) : asked));
+    if (scale == 0) return std::abs(value(asked)) > 0 ? 1 : spectrum_->error;  // the specimen has not been loaded
     return std::abs(value(row) - value(asked)) / scale + spectrum_->error;
   }
   const Parts parts = estimated(row, before);
@@ -188,6 +199,7 @@ double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>
 // afterwards the load is r/2 late. Viscous damping β delays the particles by β/ω², where ω is the frequency of the
 // slowest wave, and inertia delays them by up to 1/ω.
 LoadErrors::Parts LoadErrors::estimated(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {
+  if (test_.reverses) return {0, estimated_of_history(row, before)};
   const double stiffness = modulus(row, before), omega = std::sqrt(wave_ * stiffness);
   const double drag = plan_.damping_kind == Damping::viscous ? plan_.damping / (omega * omega) : 0;
   const double late = drag + 1 / omega, ramp = !test_.grows && asked_ramp() == 0 ? plan_.ramp : 0;
@@ -195,6 +207,20 @@ LoadErrors::Parts LoadErrors::estimated(const SteppedPoint& row, const std::vect
   const double since = is_released(row.time_s) ? row.time_s - *asked_.release : row.time_s;
   const double missing = since < ramp ? 1 - since / ramp : 0;
   return {missing + std::min(1.0, changes * ramp / 2), walls(row) + std::min(1.0, changes * late)};
+}
+
+/// Returns the estimated error of a row of a strain history, relative to the largest stress so far: the difference
+/// between the stresses on the two walls, plus the largest change of the stress within the time by which the particles
+/// are late. The stress is taken to change in the time in which the strain does.
+double LoadErrors::estimated_of_history(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {
+  const double stress = largest_of(row, before, [](const SteppedPoint& p) { return p.stress_pa; });
+  const double strain = largest_of(row, before, [](const SteppedPoint& p) { return p.strain; });
+  if (stress == 0) return 0;
+  const double stiffness = strain > 0 ? std::min(stress / strain, affine_modulus_) : affine_modulus_;
+  const double omega = std::sqrt(wave_ * stiffness);
+  const double drag = plan_.damping_kind == Damping::viscous ? plan_.damping / (omega * omega) : 0;
+  const double late = (drag + 1 / omega) / std::min(row.time_s, test_.history.shortest_change);
+  return std::abs(row.top_pa - row.bottom_pa) / stress + std::min(1.0, late);
 }
 
 std::string LoadErrors::ramp_words() const {
@@ -216,6 +242,12 @@ std::string LoadErrors::ramp_words() const {
 
 std::string LoadErrors::meaning() const {
   const char* of = test_.by_stress ? "strain" : "stress";
+  if (test_.reverses) {
+    return fmt::format("error: {}", spectrum_
+                                        ? "difference of the stress from the solution without time steps, divided "
+                                          "by the largest stress so far"
+                                        : "estimated error of the stress, divided by the largest stress so far");
+  }
   if (!spectrum_) return fmt::format("error: estimated relative error of the {}", of);
   return fmt::format("error: relative difference of the {} from the solution without time steps{}", of,
                      updated_ ? "; an estimate once the strain has exceeded 0.1 %" : "");

@@ -53,6 +53,8 @@ class LoadErrors {
   bool is_known(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
   Parts measured(const experiments::SteppedPoint& row) const;
   Parts estimated(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
+  double estimated_of_history(const experiments::SteppedPoint& row,
+                              const std::vector<experiments::SteppedPoint>& before) const;
   double walls(const experiments::SteppedPoint& row) const;
   double modulus(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
   double rate(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before,

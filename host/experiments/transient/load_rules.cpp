@@ -32,6 +32,11 @@ double shortest_pause(const TransientExperiment& test, double ramp) {
     }
     out = std::min(out, pause);
   }
+  for (const double jump : test.jumps) {
+    const auto& times = test.history.times;
+    const auto next = std::upper_bound(times.begin(), times.end(), jump * (1 + 1e-9));
+    if (next != times.end()) out = std::min(out, *next - jump);
+  }
   return out;
 }
 
@@ -47,9 +52,9 @@ double ramp_of(const TransientExperiment& test, double slowest) {
 }
 
 // Weak damping leaves waves, and strong damping delays the slow motion. Therefore β is the smallest value with which
-// the waves have decayed at the points. A ramp causes waves. Their amplitude relative to the stress is the time that a
-// wave takes through the specimen, divided by the duration of the ramp. After a time t, viscous damping leaves the
-// fraction e^(−β·t/2) of this amplitude.
+// the waves have decayed by the times of the points of the result. A ramp causes waves. Their amplitude relative to the
+// stress is the time that a wave takes through the specimen, divided by the duration of the ramp. After a time t,
+// viscous damping leaves the fraction e^(−β·t/2) of this amplitude.
 LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, double ramp, double slowest) {
   LoadDamping out{solver.damping_kind, solver.damping};
   if (solver.damping_given) return out;
@@ -73,7 +78,7 @@ double load_step(const TransientExperiment& test, const SolverSpec& solver, doub
   const double end = test.history.times.back();
   require_possible(end / step, step, fmt::format("until {:g} s", end));
   require_possible(ramp / step, step, fmt::format("in the ramp of {:g} s", ramp));
-  return ramp / std::ceil(ramp / step);
+  return test.step ? test.step(step) : ramp / std::ceil(ramp / step);
 }
 
 }  // namespace macadam

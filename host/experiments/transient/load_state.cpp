@@ -24,7 +24,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadPlan, form, geometry, precision, critical
 namespace experiments {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Peak, time_s, strain, stress_pa)
 }
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, peak, seconds_planning, seconds, warnings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, peak, checksum, seconds_planning, seconds, warnings)
 
 namespace {
 

@@ -12,7 +12,8 @@ namespace macadam {
 /// Everything that a run needs to continue, with results that have the same bits.
 struct LoadState {
   LoadPlan plan;
-  experiments::Peak peak;  ///< largest stress until now
+  experiments::Peak peak;      ///< largest stress until now
+  std::uint32_t checksum = 0;  ///< TransientExperiment::checksum
   /// Relaxation, against which errors are measured; if empty, errors are estimated.
   std::optional<UnsteppedAnswer> unstepped;
   double seconds_planning = 0, seconds = 0;       ///< wall time [s]; `seconds`: of the stepping until now

@@ -180,10 +180,11 @@ class SteppedLoad : public PlannedExperiment {
 
  private:
   std::string head(const LoadWords& words) const {
-    return fmt::format(
-        "# {}, stepped in time; {}: ratio of the strain and stress in its row; {}\n{},error,{}bottom_pa,kinetic_j{}",
-        modulus_words(scene_.network.lateral_walls), words.ratio, errors_.meaning(), csv_head(words),
-        test_.by_stress ? "top_pa," : "", cracks_.active() ? ",broken_points" : "");
+    const std::string ratio =
+        words.ratio ? fmt::format("{}: ratio of the strain and stress in its row; ", words.ratio) : "";
+    return fmt::format("# {}, stepped in time; {}{}\n{},error,{}bottom_pa,kinetic_j{}",
+                       modulus_words(scene_.network.lateral_walls), ratio, errors_.meaning(), csv_head(words),
+                       test_.by_stress ? "top_pa," : "", cracks_.active() ? ",broken_points" : "");
   }
   std::string line(const LoadWords& words, const SteppedPoint& p) const {
     return fmt::format("{},{:.2e},{}{},{}{}", csv_line(words, p), p.error,
@@ -193,7 +194,7 @@ class SteppedLoad : public PlannedExperiment {
 
   /// Returns whether the largest stress is recorded: only in a strength test, in which the strain grows and contact
   /// points can break.
-  bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
+  bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress && !test_.reverses; }
   /// Keeps the largest stress so far, with its time and strain.
   void follow_peak(const Observation& now) {
     const Box& box = prepared_.specimen.box;
@@ -268,7 +269,7 @@ class SteppedLoad : public PlannedExperiment {
       out.ratio = test_.when.release && now.time > *test_.when.release + 0.5 * at_.plan.dt ? none : out.strain / load;
     } else {
       out.stress_pa = out.top_pa;
-      out.ratio = out.stress_pa / out.strain;
+      out.ratio = out.strain == 0 ? none : out.stress_pa / out.strain;
     }
     out.error = errors_.of(out, at_.points);
     return out;
@@ -294,7 +295,8 @@ class SteppedLoad : public PlannedExperiment {
   /// Adds a warning if the error of a row is large. A specimen in two pieces has no equilibrium, so its rupture is
   /// reported instead of an error. In a strength test the rupture is a result and causes no warning.
   void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
-    if (found.rupture && !test_.grows) return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
+    if (found.rupture && (!test_.grows || test_.reverses))
+      return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
     std::vector<SteppedPoint> whole = found.points;
     if (found.rupture && !whole.empty()) whole.pop_back();  // at the last point the specimen was in two pieces
     if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
@@ -325,7 +327,13 @@ std::unique_ptr<PlannedExperiment> plan_load_steps(const TransientExperiment& te
   LoadState at;
   if (resumed) {
     at = to_load_state(std::move(resumed->checkpoint), resumed->file);
+    if (at.checksum != test.checksum) {
+      throw InputError(
+          resumed->file.string(), 0, "file in [loading]", fmt::format("a load with the checksum {:08x}", at.checksum),
+          fmt::format("{:08x}, because a run continues only with the load with which it began", test.checksum));
+    }
   } else {
+    at.checksum = test.checksum;
     at.plan = make_load_plan(test, scene, prepared, inertia);
     const InPhase harmonic(result.phases, &PhaseSeconds::harmonic);
     at.unstepped = solve_unstepped(test, scene, prepared, watcher, result.backend, at.plan);

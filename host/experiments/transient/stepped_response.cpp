@@ -68,7 +68,8 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
                 {"kinetic_share", found.kinetic_share},
                 {"solve_s", found.seconds}};
     add_load(load_test_of(scene), out);
-    out["ramp_s"] = found.ramp_s;
+    if (words.ratio) out["ramp_s"] = found.ramp_s;
+    add_extremes(found.kind, found.points, out);
     if (measures_strength(found)) add_strength(found, out);
     if (found.rupture) out["rupture"] = rupture_json(*found.rupture, *found.cracks);
     if (found.platen_mass_kg > 0) out["platen_mass_kg"] = found.platen_mass_kg;

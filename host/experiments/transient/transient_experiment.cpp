@@ -25,7 +25,7 @@ using experiments::SpectrumResponse;
 
 namespace {
 
-constexpr std::array<LoadWords, 3> all_words{{
+constexpr std::array<LoadWords, 4> all_words{{
     {"relaxation", "relaxation.csv", "modulus_pa",
      "modulus_pa: modulus after an instantaneous strain; error: relative error of stress and modulus", false,
      "E(t) (MPa)", "stress/strain (MPa)", 1e6},
@@ -34,13 +34,14 @@ constexpr std::array<LoadWords, 3> all_words{{
      "J(t) (1/GPa)", "strain/stress (1/GPa)", 1e-9},
     {"monotonic", "monotonic.csv", "secant_pa", "error: relative error of stress and modulus", false, "secant (MPa)",
      "secant (MPa)", 1e6},
+    {"history", "history.csv", nullptr, "error: relative error of stress", false, nullptr, nullptr, 1},
 }};
 
 constexpr bool is_listed(std::string_view kind) {
   return std::any_of(all_words.begin(), all_words.end(), [&](const LoadWords& words) { return words.kind == kind; });
 }
 
-/// Returns whether all_words has an entry for every relaxation, creep and constant-rate test.
+/// Returns whether all_words has an entry for every test of a load.
 template <class... Spec>
 constexpr bool are_all_listed(const std::variant<Spec...>* /*experiments*/) {
   const auto listed = []<class One>(const One* /*spec*/) {
@@ -62,7 +63,9 @@ const LoadWords& load_words(const std::string& kind) {
   for (const LoadWords& words : all_words) {
     if (words.kind == kind) return words;
   }
-  throw RunError("test of a load: found kind \"" + kind + "\", expected relaxation, creep or monotonic");
+  std::string known;
+  for (const LoadWords& words : all_words) known += (known.empty() ? "" : ", ") + std::string(words.kind);
+  throw RunError("test of a load: found kind \"" + kind + "\", expected one of " + known);
 }
 
 TransientExperiment load_test_of(const Scene& scene) {
@@ -77,16 +80,19 @@ TransientExperiment load_test_of(const Scene& scene) {
 }
 
 std::string csv_head(const LoadWords& words) {
-  return fmt::format("time_s,{},{}", words.stress_first ? "stress_pa,strain" : "strain,stress_pa", words.ratio);
+  return fmt::format("time_s,{}{}", words.stress_first ? "stress_pa,strain" : "strain,stress_pa",
+                     words.ratio ? std::string(",") + words.ratio : "");
 }
 
 std::string csv_line(const LoadWords& words, const ResponsePoint& p) {
-  return fmt::format("{},{},{},{}", p.time_s, words.stress_first ? p.stress_pa : p.strain,
-                     words.stress_first ? p.strain : p.stress_pa, number(p.ratio));
+  return fmt::format("{},{},{}{}", p.time_s, words.stress_first ? p.stress_pa : p.strain,
+                     words.stress_first ? p.strain : p.stress_pa, words.ratio ? "," + number(p.ratio) : "");
 }
 
 nlohmann::ordered_json point_json(const LoadWords& words, const ResponsePoint& p) {
-  return {{"time_s", p.time_s}, {"strain", p.strain}, {"stress_pa", p.stress_pa}, {words.ratio, p.ratio}};
+  nlohmann::ordered_json out = {{"time_s", p.time_s}, {"strain", p.strain}, {"stress_pa", p.stress_pa}};
+  if (words.ratio) out[words.ratio] = p.ratio;
+  return out;
 }
 
 namespace {
@@ -96,12 +102,18 @@ std::size_t width_of(const char* title) { return std::max<std::size_t>(14, std::
 }  // namespace
 
 std::string shown_head(const char* ratio) {
-  return fmt::format("\n{:>12} {:>12} {:>14} {:>{}}", "t (s)", "strain", "stress (MPa)", ratio, width_of(ratio));
+  std::string out = fmt::format("\n{:>12} {:>12} {:>14}", "t (s)", "strain", "stress (MPa)");
+  if (ratio) out += fmt::format(" {:>{}}", ratio, width_of(ratio));
+  return out;
 }
 
 std::string shown_line(const LoadWords& words, const char* ratio, const ResponsePoint& p) {
-  return fmt::format("\n{:>12.5g} {:>12.5g} {:>14.6g} {:>{}}", p.time_s, p.strain, p.stress_pa / 1e6,
-                     std::isnan(p.ratio) ? "-" : fmt::format("{:.6g}", p.ratio / words.unit), width_of(ratio));
+  std::string out = fmt::format("\n{:>12.5g} {:>12.5g} {:>14.6g}", p.time_s, p.strain, p.stress_pa / 1e6);
+  if (ratio) {
+    out += fmt::format(" {:>{}}", std::isnan(p.ratio) ? "-" : fmt::format("{:.6g}", p.ratio / words.unit),
+                       width_of(ratio));
+  }
+  return out;
 }
 
 void add_load(const TransientExperiment& test, nlohmann::ordered_json& out) {
@@ -144,6 +156,7 @@ void ResultOf<SpectrumResponse>::summarise(const SpectrumResponse& found, const 
                                            nlohmann::ordered_json& summary) {
   nlohmann::ordered_json out = material_json(found.kind.c_str(), found.material);
   add_load(load_test_of(scene), out);
+  add_extremes(found.kind, found.points, out);
   for (const ResponsePoint& p : found.points) out["points"].push_back(point_json(load_words(found.kind), p));
   summary["results"].push_back(std::move(out));
 }

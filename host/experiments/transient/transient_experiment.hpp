@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file transient_experiment.hpp  Defines the common part of relaxation, creep and constant-rate tests: a load on the
-/// top wall that varies in time, and the response at some times.
+/// \file transient_experiment.hpp  Defines the common part of relaxation, creep, constant-rate tests and strain
+/// histories: a load on the top wall that varies in time, and the response at some times.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -23,8 +26,8 @@ struct LoadTimes {
   std::optional<double> release;  ///< time at which the removal begins [s]; empty: never
 };
 
-/// Describes a relaxation, creep or constant-rate test. The same description is used for stepped tests and for tests
-/// computed without time steps.
+/// Describes a relaxation, creep or constant-rate test, or a strain history. The same description is used for stepped
+/// tests and for tests computed without time steps.
 struct TransientExperiment {
   std::string kind;
   History history;
@@ -38,12 +41,21 @@ struct TransientExperiment {
   LoadTimes when;          ///< times as given in the scene
   /// Whether the load grows during the whole test; the ramp then lasts as long as the test.
   bool grows = false;
+  /// Whether the load may pass through 0 (strain histories). Errors are then relative to the largest stress so far.
+  bool reverses = false;
+  /// Times at which the rate of the load jumps, in addition to those that `when` gives [s], rising.
+  std::vector<double> jumps;
   std::optional<double> platen_mass;  ///< mass of the top wall if a stress loads it [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand
   double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
   /// Returns the load as a drive, [m] or [N]. `unit`: the displacement at a strain of 1, or the force at a stress of 1
   /// Pa. `dt` and `ramp`: time step and ramp of the run.
   std::function<std::shared_ptr<const Drive>(double unit, double dt, double ramp)> drive;
+  /// Returns a time step, at most `largest`, of which the durations of the load are whole numbers [s]. Empty: the time
+  /// step divides the ramp.
+  std::function<double(double largest)> step = {};
+  /// Checksum of a load that is read from a file of its own; a run is resumed only with the same load.
+  std::uint32_t checksum = 0;
 };
 
 /// Return the description of a test. Each function is defined in the source file of its test.
@@ -51,16 +63,18 @@ struct TransientExperiment {
 TransientExperiment load_test(const experiments::Relaxation& spec);
 TransientExperiment load_test(const experiments::Creep& spec);
 TransientExperiment load_test(const experiments::Monotonic& spec);
+TransientExperiment load_test(const experiments::StrainHistory& spec);
 /// @}
 /// Returns the description of the scene's experiment, or an empty one if the experiment is not a transient one.
 TransientExperiment load_test_of(const Scene& scene);
 
 /// Names and units of the numbers in the results of one kind of test.
 struct LoadWords {
-  const char *kind, *file, *ratio;  ///< ratio: the name of ResponsePoint::ratio in files
-  const char* comment;              ///< comment in the file of a run without time steps
-  bool stress_first;                ///< whether the column of the stress comes before the column of the strain
-  const char* shown;                ///< name of the ratio in printed text, with its unit
+  const char *kind, *file;
+  const char* ratio;    ///< the name of ResponsePoint::ratio in files; null if files do not have it
+  const char* comment;  ///< comment in the file of a run without time steps
+  bool stress_first;    ///< whether the column of the stress comes before the column of the strain
+  const char* shown;    ///< name of the ratio in printed text, with its unit; null: not printed
   /// Name of the ratio in printed text for a stepped run, where the ratio is computed from strain and stress of a row.
   const char* shown_stepped;
   double unit;  ///< unit of the ratio in printed text
@@ -77,6 +91,19 @@ nlohmann::ordered_json point_json(const LoadWords& words, const experiments::Res
 std::string shown_head(const char* ratio);
 std::string shown_line(const LoadWords& words, const char* ratio, const experiments::ResponsePoint& point);
 /// @}
+
+/// Adds the largest stress and the last stress of a strain history to an entry of `results`; adds nothing for other
+/// kinds of test and before the first point. `points`: points of the result, in the order of their times.
+template <class Point>
+void add_extremes(const std::string& kind, const std::vector<Point>& points, nlohmann::ordered_json& out) {
+  if (kind != experiments::StrainHistory::kind || points.empty()) return;
+  const auto peak = std::max_element(points.begin(), points.end(), [](const Point& a, const Point& b) {
+    return std::abs(a.stress_pa) < std::abs(b.stress_pa);
+  });
+  out["peak_stress_pa"] = peak->stress_pa;
+  out["peak_time_s"] = peak->time_s;
+  out["final_stress_pa"] = points.back().stress_pa;
+}
 
 /// Adds the load that the scene requests to an entry of `results`.
 void add_load(const TransientExperiment& test, nlohmann::ordered_json& out);

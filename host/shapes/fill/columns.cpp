@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file columns.cpp  Intersects columns with facets and spheres, and integrates the common volume.
+/// \file columns.cpp  Intersects columns (rays along z) with a surface of facets and with spheres, and integrates
+/// the volumes of the surface, of the union of the spheres, and of the part that lies in both.
 #include "host/shapes/fill/columns.hpp"
 
 #include <algorithm>

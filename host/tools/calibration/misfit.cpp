@@ -8,8 +8,17 @@
 namespace macadam {
 
 const char* to_string(Misfit misfit) {
-  constexpr const char* names[] = {"modulus-and-phase", "modulus", "phase", "parts"};
-  return names[static_cast<std::size_t>(misfit)];
+  switch (misfit) {
+    case Misfit::modulus_and_phase:
+      return "modulus-and-phase";
+    case Misfit::modulus:
+      return "modulus";
+    case Misfit::phase:
+      return "phase";
+    case Misfit::parts:
+      return "parts";
+  }
+  return "unknown";
 }
 
 Measured measured_for(Misfit misfit) {

@@ -15,21 +15,38 @@
 namespace macadam {
 
 const char* to_string(FitModel model) {
-  return model == FitModel::kelvin ? "kelvin" : model == FitModel::two_s2p1d ? "2s2p1d" : "huet-sayegh";
+  switch (model) {
+    case FitModel::kelvin:
+      return "kelvin";
+    case FitModel::two_s2p1d:
+      return "2s2p1d";
+    case FitModel::huet_sayegh:
+      return "huet-sayegh";
+  }
+  return "unknown";
 }
 const char* to_string(ShiftKind shift) {
   switch (shift) {
+    case ShiftKind::none:
+      return "none";
     case ShiftKind::wlf:
       return "wlf";
     case ShiftKind::arrhenius:
       return "arrhenius";
     case ShiftKind::free:
       return "free";
-    default:
-      return "none";
   }
+  return "unknown";
 }
-const char* to_string(Criterion criterion) { return criterion == Criterion::bic ? "BIC" : "AICc"; }
+const char* to_string(Criterion criterion) {
+  switch (criterion) {
+    case Criterion::aicc:
+      return "AICc";
+    case Criterion::bic:
+      return "BIC";
+  }
+  return "unknown";
+}
 
 std::complex<double> Fit::stiffness(std::complex<double> s) const {
   return std::visit([&](const auto& m) { return m.stiffness(s); }, model);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_chain.cpp  Fits chains of every length, each starting also from the shorter ones.
+// choose_chain.cpp  Fits chains of every length. The fit of a chain starts from several points: its usual starting
+// values, and the fitted smaller chains that are special cases of it.
 #include "host/tools/fit/choose_chain.hpp"
 
 #include <fmt/format.h>

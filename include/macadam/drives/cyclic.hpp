@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "macadam/drives/drive.hpp"
+#include "macadam/drives/spec.hpp"
 
 namespace macadam::drives {
 
@@ -54,6 +55,43 @@ struct Cyclic final : Drive {
     const double s =
         std::sin(std::numbers::pi / 2 * ((static_cast<double>(k) + 0.5 * half) / static_cast<double>(ramp_steps)));
     return s * s;
+  }
+};
+
+/// Description of a sine that begins with compression (for a positive amplitude). Its amplitude may grow over a ramp.
+struct CyclicSpec {
+  static constexpr const char* name = "cyclic";
+  double strain = 0;     ///< amplitude A
+  double frequency = 0;  ///< [Hz]
+  double ramp = 0;       ///< time in which the amplitude grows to A [s]
+
+  template <class F>
+  void each_key(F&& f) {
+    f("strain", strain, ValueKind::strain, ValueNeed::required, "amplitude of the strain");
+    f("frequency", frequency, ValueKind::frequency, ValueNeed::required, "frequency of the sine");
+    f("ramp", ramp, ValueKind::pause, ValueNeed::optional, "time in which the amplitude grows");
+  }
+  std::optional<SpecFault> fault(double) const { return {}; }
+  StrainRange range(double) const { return {-std::abs(strain), std::abs(strain)}; }
+  double shortest_time(double) const { return 1 / (2 * std::numbers::pi * frequency); }
+  double step(double largest, double) const { return dividing_step({1 / frequency, ramp}, largest); }
+  std::shared_ptr<const Drive> drive(double unit, double dt, double) const {
+    const std::int64_t steps = std::llround(1 / (frequency * dt));
+    return std::make_shared<Cyclic>(unit * strain, frequency, steps, std::llround(ramp / dt));
+  }
+  /// Within the ramp, r = ½·(1 − cos κt) with κ = π/ramp, so that −A·r·sin ωt is a sum of three sines.
+  std::vector<RatePiece> pieces(double duration) const {
+    const double w = 2 * std::numbers::pi * frequency;
+    std::vector<RatePiece> out;
+    if (ramp > 0) {
+      const double k = std::numbers::pi / ramp;
+      if (!append_piece(out, ramp, duration,
+                        {{-0.5 * strain * w, w}, {0.25 * strain * (w + k), w + k}, {0.25 * strain * (w - k), w - k}}))
+        return out;
+    }
+    append_piece(out, duration, duration,
+                 {{-strain * w * std::polar(1.0, std::fmod(w * ramp, 2 * std::numbers::pi)), w}});
+    return out;
   }
 };
 

@@ -3,11 +3,13 @@
 /// deformation and fatigue.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "macadam/drives/drive.hpp"
+#include "macadam/drives/spec.hpp"
 
 namespace macadam::drives {
 
@@ -47,6 +49,51 @@ struct Haversine final : Drive {
   /// Returns the fraction of the pulse that has passed at step k; 0 in a pause.
   double share(std::int64_t k) const {
     return within(k) ? static_cast<double>(k % period()) / static_cast<double>(pulse_steps) : 0;
+  }
+};
+
+/// Description of pulses with pauses between them.
+struct HaversineSpec {
+  static constexpr const char* name = "haversine";
+  double strain = 0;                   ///< peak
+  double pulse = 0;                    ///< duration of a pulse [s]
+  double rest = 0;                     ///< pause after a pulse [s]
+  std::optional<std::int64_t> pulses;  ///< empty: until the end of the test
+
+  template <class F>
+  void each_key(F&& f) {
+    f("strain", strain, ValueKind::strain, ValueNeed::required, "peak of the strain");
+    f("pulse", pulse, ValueKind::time, ValueNeed::required, "duration of a pulse");
+    f("rest", rest, ValueKind::pause, ValueNeed::optional, "pause after each pulse");
+    f("pulses", pulses, ValueKind::number, ValueNeed::optional, "number of pulses");
+  }
+  std::optional<SpecFault> fault(double duration) const {
+    if (rest > 0 && duration / (pulse + rest) > most_pieces / 2)
+      return SpecFault{"pulse", "more than 500000 pulses until the end of the test", "at most 500000"};
+    return {};
+  }
+  StrainRange range(double) const { return {std::min(0.0, strain), std::max(0.0, strain)}; }
+  double shortest_time(double) const { return pulse / (2 * std::numbers::pi); }
+  double step(double largest, double) const { return dividing_step({pulse, rest}, largest); }
+  std::shared_ptr<const Drive> drive(double unit, double dt, double) const {
+    return std::make_shared<Haversine>(unit * strain, dt, std::llround(pulse / dt), std::llround(rest / dt),
+                                       pulses.value_or(Haversine::forever));
+  }
+  /// The rate within a pulse is strain·π/pulse·sin(2πu/pulse).
+  std::vector<RatePiece> pieces(double duration) const {
+    const RateWave wave{{0, -strain * std::numbers::pi / pulse}, 2 * std::numbers::pi / pulse};
+    std::vector<RatePiece> out;
+    if (rest == 0) {
+      append_piece(out, pulses ? static_cast<double>(*pulses) * pulse : duration, duration, {wave});
+    } else {
+      for (std::int64_t k = 0; !pulses || k < *pulses; ++k) {
+        const double begin = static_cast<double>(k) * (pulse + rest);
+        if (!append_piece(out, begin + pulse, duration, {wave})) return out;
+        if (!append_piece(out, begin + (pulse + rest), duration, {})) return out;
+      }
+    }
+    append_piece(out, duration, duration, {});
+    return out;
   }
 };
 

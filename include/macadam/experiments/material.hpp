@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file material.hpp  Defines the viscoelastic functions of the mixture that a test in time determines in addition to
-/// its own response.
+/// \file material.hpp  Defines the viscoelastic functions of the mixture. Tests in time (relaxation, creep, constant
+/// rates) compute them in addition to the response to their own load.
 #pragma once
 
 #include "macadam/spectrum.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file response.hpp  Defines the results of relaxation, creep and monotonic tests: strain and stress at given times.
+/// \file response.hpp  Defines the results of relaxation, creep and monotonic tests and of strain histories:
+/// strain and stress at given times.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,9 @@ namespace macadam::experiments {
 /// Strain and stress at one time, tension positive.
 struct ResponsePoint {
   double time_s, strain, stress_pa;
-  /// Relaxation: E(t) after a step of strain [Pa]. Creep: J(t) after a step of stress [1/Pa]. Constant rate: stress
-  /// over strain [Pa]. In stepped tests it is computed from the strain and the stress of this point; NaN while the load
-  /// is off.
+  /// Relaxation: E(t) after a step of strain [Pa]. Creep: J(t) after a step of stress [1/Pa]. Constant rate and
+  /// history: stress over strain [Pa], NaN at a strain of 0. In stepped tests it is computed from the strain and the
+  /// stress of this point; NaN while the load is off.
   double ratio;
 };
 

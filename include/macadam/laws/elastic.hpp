@@ -27,6 +27,7 @@ struct Elastic {
   std::complex<double> stiffness(std::complex<double>) const { return E; }
   std::complex<double> stiffness(double) const = delete;  // deleted, so that ω cannot be passed instead of iω
   std::complex<double> unit_compliance(int, std::complex<double>) const { return 0; }
+  PronySeries prony() const { return {E, {}}; }
   template <class F>
   void each_parameter(std::complex<double>, F&& f) const {
     f(std::string("E"), std::complex<double>(1));

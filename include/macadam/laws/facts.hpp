@@ -14,6 +14,8 @@
 #include <type_traits>
 #include <variant>
 
+#include "macadam/laws/prony_series.hpp"
+
 namespace macadam {
 
 inline constexpr int pair_types = 6;  ///< number of PairTypes (contact_network.hpp)
@@ -21,7 +23,15 @@ inline constexpr int pair_types = 6;  ///< number of PairTypes (contact_network.
 /// Whether and how a contact point is broken: by tension or by shear.
 enum class Break : std::uint8_t { none, tension, shear };
 inline constexpr const char* to_string(Break how) {
-  return how == Break::tension ? "tension" : how == Break::shear ? "shear" : "none";
+  switch (how) {
+    case Break::none:
+      return "none";
+    case Break::tension:
+      return "tension";
+    case Break::shear:
+      return "shear";
+  }
+  return "unknown";
 }
 
 /// Properties of a law of any type; the contract in law.hpp explains them.
@@ -78,6 +88,11 @@ inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std
   law.stiffness(s);
   law.unit_compliance(0, s);
   law.each_parameter(s, each);
+};
+/// Whether a law gives its relaxation as a sum of exponentials.
+template <class L>
+inline constexpr bool has_prony = linear_law<L>&& requires(const L& law) {
+  { law.prony() } -> std::same_as<PronySeries>;
 };
 /// Whether a law can be stepped in blocks.
 template <class L>

@@ -73,6 +73,10 @@ struct GeneralisedKelvin {
     return 1.0 / (E[unit] + s * C[unit]);
   }
 
+  /// Returns the relaxation, from the poles and residues of k*(s). Defined in host/spectrum/series.cpp. \throws
+  /// InputError if the constants are not positive, or are beyond the range of a double.
+  PronySeries prony() const;
+
   /// Calls f(name, ∂ln k/∂ln θ) for each parameter θ. k = 1/Σ c_j, so that ∂ln k/∂ln θ = −k·∂c/∂ln θ. Parameters: E_m,
   /// C_m if it is finite, E_1, C_1, E_2, …
   template <class F>

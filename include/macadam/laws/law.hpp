@@ -44,6 +44,12 @@
 ///     each parameter θ of the stiffness, by its symbol in docs/model.md ("E_m", "C_1");
 ///     `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], for l
 ///     below units();
+///   - `PronySeries prony() const` — its relaxation as a sum of exponentials (prony_series.hpp): the stress after a
+///   step
+///     of strain, f/x [Pa]. All moduli are positive, and E(0) is instantaneous(). Relaxation, creep and constant rates
+///     without time steps need it, in addition to the members of the frequency domain; without it they refuse the law
+///     and name it. A law with this member that is not in the library's list can be converted to a law of the list
+///     (equivalent_laws(), spectrum.hpp);
 ///   - `static constexpr int only_units` — units(), if it is always the same number;
 ///   - `Step::coupled = true` — opening and slips of a contact point act on one another. For example, a bond that has
 ///     broken under tension has no shear stiffness either. Such a law is not linear, has only_units, and has in place

@@ -99,8 +99,9 @@ struct SpreadSums {
   int first, count;
 };
 
-/// Returns the sums of v over the threads of a warp that work on the same lane. In each step two threads exchange half
-/// of their numbers. Each thread then holds the sums of one half of the numbers.
+/// Sums v over the threads of a warp that have the same position in their slices, and so work on the same lane of the
+/// solver. In each step two threads exchange halves of the numbers that they hold, and each keeps the sums of one half.
+/// Steps repeat until the sums are distributed over the threads as SpreadSums says.
 template <unsigned W>
 __device__ SpreadSums<W> spread_sums(const double (&v)[6]) {
   double held[6];

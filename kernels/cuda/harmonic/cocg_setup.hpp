@@ -10,8 +10,8 @@
 
 namespace macadam::kernels {
 
-/// Computes K_ii⁻¹ of every body, packed. `singular_body` receives the first body whose own stiffness is singular for
-/// more motions than `own_motions` says.
+/// Computes K_ii⁻¹ of every body, packed. `own_motions`: the number of motions of each body that its contacts are known
+/// not to resist. `singular_body` receives the first body that has more motions without stiffness.
 static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
                                      const double* series, RealStiffness typical, const std::uint8_t* own_motions,
                                      double* inverse, unsigned long long* singular_body) {

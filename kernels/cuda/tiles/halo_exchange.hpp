@@ -51,8 +51,9 @@ __device__ __forceinline__ void put_velocity(ulonglong2* to, const float (&y)[6]
 __device__ __forceinline__ bool has_come(const ulonglong2& word, std::uint32_t tag) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(word.y >> 32) - tag) >= 0;
 }
-/// Returns the tag of the words that replace all others after a failure, when no more velocities will come. Every
-/// reader then continues, with meaningless numbers. `tag`: tag of the next step.
+/// Returns the tag that ends all waiting. After a failure no more velocities arrive, so all words are overwritten with
+/// this tag. Threads that wait for a word then stop waiting and continue with meaningless numbers. `tag`: tag of the
+/// next step.
 constexpr std::uint32_t release_of(std::uint32_t tag) { return tag + (1u << 30); }
 /// Returns the three numbers of a word; the fourth component is 0.
 __device__ __forceinline__ float4 numbers_of(const ulonglong2& word) {

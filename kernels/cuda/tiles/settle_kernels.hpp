@@ -2,16 +2,21 @@
 /// \file settle_kernels.hpp  Defines the kernels that run between two blocks of steps on the tile path. They update the
 /// viscoelastic states in full precision and prepare the next block.
 ///
-/// TileBlocks launches two kernels in this order. settle_contacts (through Settling in settle_launch.hpp) takes each
-/// contact's δf and sum from the tiles' states, updates the contact's chain by model (6.9), writes the drift (and with
-/// updated geometry the frame) for the next block into the tiles' constants, and stores the loads of the current f as
-/// records. sum_base sums the records of each body to its new base loads and stores the body's displacement as its
-/// displacement at the beginning of the block. The formulas of one contact are in block_settling.hpp.
+/// Words: to settle is to update a contact between two blocks. f is the force density of one displacement component of
+/// a contact; δf is its change since the beginning of the block. The drift is the change of f per step without motion.
+/// A record is the load of one contact on one of its two bodies; the records of a body are consecutive (its load list).
+/// The base load of a body is the sum of its records at the beginning of a block. The slot of a contact is its number
+/// in the layout.
 ///
-/// Words: to settle is to update a contact between two blocks. A record is the load of one contact on one of its two
-/// bodies; the records of a body are consecutive (its load list). Each contact is settled once, by its slot in the
-/// layout; its words are written to all its positions in the tiles (one or two). docs/gpu-step.md explains the whole
-/// path.
+/// TileBlocks launches two kernels in this order:
+/// 1. settle_contacts (through Settling in settle_launch.hpp), one thread per slot. It reads the two numbers that the
+///    tiles have accumulated per component: δf, and the sum over the steps of the block of δf before and after the
+///    step. It updates the contact's chain by model (6.9), writes the drift (and with updated geometry the frame) for
+///    the next block into the tiles' constants, at the one or two positions of the contact in the tiles, and stores the
+///    loads of the current f as records.
+/// 2. sum_base sums the records of each body to its new base load, and stores the body's displacement as its
+///    displacement at the beginning of the block.
+/// The formulas of one contact are in block_settling.hpp. docs/gpu-step.md explains the whole path.
 #pragma once
 
 #include "kernels/contact/block_settling.hpp"

@@ -25,7 +25,8 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   using AnyLaw = Laws;
   using R = typename P::Particle;
   using G = typename P::Geometry;
-  /// ContactForces has code for exactly three Kelvin units and for up to five, whose states are then in registers.
+  /// ContactForces is compiled for exactly three and for up to five Kelvin units. Both versions keep the states of the
+  /// units in registers. A third version, for any number of units, does not.
   static constexpr bool five_units_in_registers = true;
 
   using Plan = LayoutPlan;

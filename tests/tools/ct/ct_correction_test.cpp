@@ -125,8 +125,8 @@ TEST_F(CtCorrection, RingsGoAndTheRestStays) {
   EXPECT_LT(difference(clean, true_).second, 0.03);
 }
 
-/// The stated strength of the rings is their root mean square over all radii, and the recorded correction can be
-/// evaluated anywhere.
+/// The reported strength of the rings is the root mean square over all radii. The recorded correction can be evaluated
+/// at any position, and there gives the grey value of the corrected scan.
 TEST(CtRings, AreAsStrongAsIsSaidAndStepsTakeTheSameOutOfEveryPlace) {
   // The scan has two layers, so that every ring contains the same fractions of both phases. Rings of 0.1 of the
   // contrast are at 4 of the 43 whole radii.

@@ -20,8 +20,9 @@ double passing_at(const std::vector<SievePassing>& gradation, double size, doubl
 std::string gradation_csv(const std::vector<ScannedGrain>& grains, const std::vector<SievePassing>& laboratory = {},
                           double smallest = 0);
 
-/// Checks that the grains are as large as the laboratory's. Returns 1, or `doubtful` with a warning. An image contains
-/// no lengths, so a wrong edge of the voxels is found only here.
+/// Compares the sizes of the grains with the laboratory's sieve curve. Returns 1 if they agree, otherwise `doubtful`
+/// with a warning. An image contains no lengths, so only this check can find that the given edge length of a voxel is
+/// wrong.
 double trust_in_sizes(const std::vector<ScannedGrain>& grains, const std::vector<SievePassing>& laboratory,
                       double smallest, std::vector<std::string>& warnings);
 
