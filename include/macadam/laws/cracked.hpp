@@ -23,7 +23,7 @@ struct Cracked : Inner {
   static constexpr bool needs_double = true;
   static constexpr int crack_numbers = 2;
   static constexpr int only_units = units_of<Inner>() < 0 ? -1 : units_of<Inner>() + crack_numbers;
-  static constexpr int most_units = Inner::max_units + crack_numbers;
+  static constexpr int known_units = 3 + crack_numbers;  ///< a number of units that has code of its own
   Crack crack;
 
   int units() const { return Inner::units() + crack_numbers; }
@@ -53,6 +53,7 @@ struct Cracked : Inner {
   template <class R>
   struct Step {
     static constexpr bool memoryless = false, coupled = true;
+    static constexpr int most_units = Inner::max_units + crack_numbers;
     typename Inner::template Step<R> chain;
     CrackSolve<R> crack;
     R alpha, inverse_alpha;

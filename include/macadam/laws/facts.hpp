@@ -146,4 +146,12 @@ inline bool can_break(const FactsTable& laws) {
   return false;
 }
 
+/// Returns whether the table has a law whose contact points crack gradually.
+inline bool can_crack(const FactsTable& laws) {
+  for (const auto& law : laws) {
+    if (law && law->cracks) return true;
+  }
+  return false;
+}
+
 }  // namespace macadam

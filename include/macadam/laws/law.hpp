@@ -46,8 +46,8 @@
 ///     below units();
 ///   - `static constexpr int only_units` — units(), if it is always the same number;
 ///   - `Step::coupled = true` — opening and slips of a contact point act on one another. For example, a bond that has
-///     broken under tension has no shear stiffness either. Such a law is not linear, has only_units, or most_units if
-///     their number is only known at run time, and has in place of advance()
+///     broken under tension has no shear stiffness either. Such a law is not linear, has only_units, or
+///     Step::most_units if their number is only known at run time, and has in place of advance()
 ///     `template <int L, class S, class State> void advance_point(const S (&dx)[3], S d, State&& state) const`. It takes
 ///     the increments of the opening and of the slips along s and t, and the contact's distance d [m], so that f/d is
 ///     the normal stress and α·f/d a shear stress. state(c, 0) is the f of component c, state(c, 1 + l) its x(l)
@@ -173,7 +173,7 @@ concept HasOnlyUnits = requires {
 };
 template <class L>
 concept HasMostUnits = requires {
-  { L::most_units } -> std::convertible_to<int>;
+  { L::template Step<double>::most_units } -> std::convertible_to<int>;
 };
 template <class L>
 concept IsNotLinear = !linear_law<L>;

@@ -17,17 +17,17 @@
 namespace macadam::kernels {
 
 /// The functors of the groups of a launch, passed to the kernel by value. `Units`: as in ContactForces; laws without
-/// memory fit any number.
-template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
+/// memory fit any number. `coupled`: whether the laws advance the components of a point together.
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units, bool coupled>
 struct ContactGroups;
-template <class P, class... L, ContactForm form, Geometry geometry, int Units>
-struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
+template <class P, class... L, ContactForm form, Geometry geometry, int Units, bool coupled>
+struct ContactGroups<P, std::variant<L...>, form, geometry, Units, coupled> {
   struct Group {
     std::uint32_t first_block = UINT32_MAX;  ///< first thread block of this group
     /// first_slot: number of the group's first slot among the slots of all groups. begin, end: the group's slots in
     /// this launch.
     std::uint32_t first_slot = 0, begin = 0, end = 0;
-    AnyFunctor<typename StepFunctor<P, L, form, geometry, Units>::type...> functor;
+    AnyFunctor<typename StepFunctor<P, L, form, geometry, Units, coupled>::type...> functor;
   };
   Group group[pair_types];
   int groups = 0;
@@ -72,9 +72,9 @@ __global__ void start_clock(const WallClock<R> clock) {
 
 /// Steps every contact of a launch and writes its loads. If walls are driven, the first thread block advances the step
 /// counter of the walls (WallClock) and steps no contact.
-template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units, bool coupled>
 __global__ void __launch_bounds__(contact_threads, contact_blocks)
-    step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units> groups,
+    step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units, coupled> groups,
                   const MotionView<P> motion, const LoadRecords<typename P::Geometry> records,
                   const WallClock<typename P::Particle> clock) {
   std::uint32_t block = blockIdx.x;
@@ -89,7 +89,8 @@ __global__ void __launch_bounds__(contact_threads, contact_blocks)
   });
 }
 
-/// The launches that step all contacts of a device: one for each number of Kelvin units that has its own code.
+/// The launches that step all contacts of a device: one for each number of Kelvin units that has its own code, and for
+/// each such number of coupled laws.
 template <class P, class AnyLaw>
 class ContactLaunches {
  public:
@@ -101,9 +102,10 @@ class ContactLaunches {
   void add(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t first_slot,
            std::uint32_t begin, std::uint32_t end) {
     constexpr int units = LawStep::memoryless ? 3 : Units;  // so that one launch suffices for most scenes
-    using Groups = ContactGroups<P, AnyLaw, form, geometry, units>;
-    const auto kernel = step_contacts<P, AnyLaw, form, geometry, units>;
-    Launch& to = launches_[units];
+    constexpr bool coupled = coupled_step<LawStep>;
+    using Groups = ContactGroups<P, AnyLaw, form, geometry, units, coupled>;
+    const auto kernel = step_contacts<P, AnyLaw, form, geometry, units, coupled>;
+    Launch& to = launches_[{units, coupled}];
     if (!to.groups) to.groups = std::make_shared<Groups>();
     auto groups = std::static_pointer_cast<Groups>(to.groups);
     groups->add(first_slot, begin, end, forces);
@@ -133,7 +135,7 @@ class ContactLaunches {
     KernelUse use;
     std::function<void(cudaStream_t, const MotionView<P>&, const Records&, const Clock&)> run;
   };
-  std::map<int, Launch> launches_;
+  std::map<std::pair<int, bool>, Launch> launches_;
 };
 
 }  // namespace macadam::kernels
