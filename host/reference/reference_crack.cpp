@@ -69,8 +69,8 @@ struct Point {
     out.friction = Vector2d::Zero();
     if (stiffness_shear == 0) return out;
     // Shear: a slider acts in parallel with the cohesive spring, and bears what the spring does not.
-    const double mu = crack.residual_friction + (crack.friction - crack.residual_friction) * cohesive_stress(crack, y) /
-                                                    crack.tensile_strength;
+    const double mu = crack.residual_friction +
+                      (crack.friction - crack.residual_friction) * cohesive_stress(crack, y) / crack.tensile_strength;
     const Vector2d kept = trial_shear - shear_secant(y) * slip_before;  // on the slider if it does not move
     if (out.opening == 0 && pressure > 0 && kept.norm() <= mu * pressure) {
       out.friction = kept;
@@ -152,8 +152,8 @@ void advance(const ReferenceLaw& chain, const Crack& crack, double area, double 
   }
 
   // Energies
-  const Vector2d friction_before = y > 0 ? Vector2d(shear_before - point.shear_secant(y) * point.slip_before)
-                                         : end.friction;
+  const Vector2d friction_before =
+      y > 0 ? Vector2d(shear_before - point.shear_secant(y) * point.slip_before) : end.friction;
   state[1].stretch[1] += (friction_before + end.friction).dot(end.slip - point.slip_before) / 2;
   if (crack.softening == Softening::brittle) {
     if (y == 0) state[2].stretch[1] += (normal_before * end.opening + shear_before.dot(end.slip)) / 2;
@@ -179,9 +179,8 @@ void advance(const ReferenceLaw& chain, const Crack& crack, double area, double 
 
 Break break_of(const Crack& crack, const ChainState (&state)[3]) {
   const double y = state[0].stretch[1], end = Crack::separated_stress * crack.tensile_strength;
-  const bool separated =
-      y > 0 && (crack.softening == Softening::exponential ? cohesive_stress(crack, y) <= end
-                                                          : cohesive_stress(crack, y) == 0);
+  const bool separated = y > 0 && (crack.softening == Softening::exponential ? cohesive_stress(crack, y) <= end
+                                                                             : cohesive_stress(crack, y) == 0);
   if (!separated) return Break::none;
   return slip_weight(crack) * length_of_slip(state) > state[0].stretch[0] ? Break::shear : Break::tension;
 }

@@ -34,9 +34,10 @@ void require_one_answer(const Scene& scene, const ContactNetwork& network, PairT
   if (crack.softening == laws::Softening::brittle || crack.fracture_energy > least) return;
   const double shear = crack.shear_term(law.alpha);
   const std::string why =
-      shear > 1 ? fmt::format("shear decides: beta_c*beta_w/alpha = {:.4g}*{:.4g}/{:g} = {:.4g} times the energy that "
-                              "tension needs; a larger alpha or a smaller shear_strength needs less",
-                              crack.strength_ratio(), crack.slip_weight(), law.alpha, shear)
+      shear > 1 ? fmt::format(
+                      "shear decides: beta_c*beta_w/alpha = {:.4g}*{:.4g}/{:g} = {:.4g} times the energy that "
+                      "tension needs; a larger alpha or a smaller shear_strength needs less",
+                      crack.strength_ratio(), crack.slip_weight(), law.alpha, shear)
                 : fmt::format("tension decides: beta_c*beta_w/alpha = {:.4g} is at most 1", shear);
   throw InputError(scene.file.string(), 0, fmt::format("fracture_energy in crack of pair {}", to_string(pair)),
                    fmt::format("{:g} J/m2", crack.fracture_energy),

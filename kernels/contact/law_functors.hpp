@@ -67,8 +67,9 @@ inline constexpr bool suits_precision = !needs_double_law<L> || std::is_same_v<t
 template <class P, class L, ContactForm form, Geometry geometry, int Units, bool coupled>
 struct StepFunctor {
   static constexpr bool memoryless = memoryless_law<L>;
-  static constexpr bool fits_units = coupled ? units_of<L>() < 0 && (Units == known_units_of<L> || Units < 0)
-                                             : memoryless || (units_of<L>() < 0 && (Units == 3 || Units == 5 || Units < 0));
+  static constexpr bool fits_units = coupled
+                                         ? units_of<L>() < 0 && (Units == known_units_of<L> || Units < 0)
+                                         : memoryless || (units_of<L>() < 0 && (Units == 3 || Units == 5 || Units < 0));
   static constexpr bool fits = (linear_law<L> || form == ContactForm::points) && coupled_law<L> == coupled &&
                                suits_precision<P, L> && (units_of<L>() == Units || fits_units);
   template <bool any>

@@ -22,15 +22,15 @@ inline constexpr const char* to_string(Softening kind) {
 
 /// Parameters of a cohesive crack. Energies are per area of the facet.
 struct Crack {
-  double tensile_strength = 0;             ///< f_t [Pa]
-  double fracture_energy = 0;              ///< G_f, mode I [J/m²]; 0 if the softening is brittle
-  double shear_strength = 0;               ///< c_0, without pressure [Pa]
-  double shear_fracture_energy = 0;        ///< G_f2, mode II [J/m²]; 0 if the softening is brittle
-  double friction = 0;                     ///< μ_0, coefficient of friction of an intact point
-  double residual_friction = 0;            ///< μ_r, coefficient of friction of a separated point
+  double tensile_strength = 0;       ///< f_t [Pa]
+  double fracture_energy = 0;        ///< G_f, mode I [J/m²]; 0 if the softening is brittle
+  double shear_strength = 0;         ///< c_0, without pressure [Pa]
+  double shear_fracture_energy = 0;  ///< G_f2, mode II [J/m²]; 0 if the softening is brittle
+  double friction = 0;               ///< μ_0, coefficient of friction of an intact point
+  double residual_friction = 0;      ///< μ_r, coefficient of friction of a separated point
   Softening softening = Softening::linear;
-  double kink_opening = 0.8;               ///< ρ: the bilinear curve has its kink at y = ρ·G_f/f_t
-  double kink_stress = 1.0 / 3;            ///< r: the bilinear curve has the stress r·f_t at its kink
+  double kink_opening = 0.8;     ///< ρ: the bilinear curve has its kink at y = ρ·G_f/f_t
+  double kink_stress = 1.0 / 3;  ///< r: the bilinear curve has the stress r·f_t at its kink
 
   /// The stress of the exponential curve, divided by f_t, below which a point counts as separated.
   static constexpr double separated_stress = 1e-3;
@@ -76,20 +76,20 @@ struct Crack {
 
 /// State of the crack of a contact point, for results.
 struct PointCrack {
-  double opening = 0;     ///< w_n [m]
-  double slip = 0;        ///< |w_s| [m]
-  double damage = 0;      ///< 0: intact, 1: separated
-  double energy = 0;      ///< energy per area that damage has dissipated or that the crack stores [J/m²]
-  double friction = 0;    ///< work of friction per area [J/m²]
+  double opening = 0;   ///< w_n [m]
+  double slip = 0;      ///< |w_s| [m]
+  double damage = 0;    ///< 0: intact, 1: separated
+  double energy = 0;    ///< energy per area that damage has dissipated or that the crack stores [J/m²]
+  double friction = 0;  ///< work of friction per area [J/m²]
 };
 
 /// The softening curve in precision R.
 template <class R>
 struct SofteningCurve {
   Softening kind;
-  R strength;           ///< f_t [Pa]
-  R kink, end;          ///< openings at the kink and at separation [m]
-  R slope, slope_end;   ///< −dt/dy before and after the kink [Pa/m]; exponential: slope/strength is 1/the unit of y
+  R strength;          ///< f_t [Pa]
+  R kink, end;         ///< openings at the kink and at separation [m]
+  R slope, slope_end;  ///< −dt/dy before and after the kink [Pa/m]; exponential: slope/strength is 1/the unit of y
 
   static SofteningCurve of(const Crack& crack) {
     const double f = crack.tensile_strength, end = crack.separation(), unit = crack.fracture_energy / f;

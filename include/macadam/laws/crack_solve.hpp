@@ -36,12 +36,9 @@ struct CrackSolve {
 
   static CrackSolve of(const Crack& crack, double alpha) {
     const double fall = (crack.friction - crack.residual_friction) / crack.tensile_strength;
-    return {SofteningCurve<R>::of(crack),
-            R(alpha),
-            R(crack.strength_ratio() * crack.slip_weight()),
-            R(crack.slip_weight()),
-            R(crack.residual_friction),
-            R(fall)};
+    return {
+        SofteningCurve<R>::of(crack), R(alpha), R(crack.strength_ratio() * crack.slip_weight()), R(crack.slip_weight()),
+        R(crack.residual_friction),   R(fall)};
   }
 
   /// Returns the stresses at the end of a step and updates the openings `w`. `normal`, `shear`: the stresses that the

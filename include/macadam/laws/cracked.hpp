@@ -92,7 +92,8 @@ struct Cracked : Inner {
     template <class S>
     MACADAM_HD S friction_work(const CrackOpenings<S>& old, const CrackOpenings<S>& now, const CrackStresses<S>& stress,
                                const S (&before)[3]) const {
-      const S zero(0), y = old.largest, secant = S(crack.strengths) * stress.cohesion_before / select(y > zero, y, S(1));
+      const S zero(0), y = old.largest,
+                       secant = S(crack.strengths) * stress.cohesion_before / select(y > zero, y, S(1));
       S out(0);
       for (int k = 0; k < 2; ++k) {
         const S friction_before = select(y > zero, before[1 + k] - secant * old.slip[k], stress.friction[k]);

@@ -36,10 +36,10 @@ struct LawFacts {
   bool memoryless = false, linear = true, blocks = false;  ///< see law.hpp
   /// Whether opening and slips of a contact point act on one another.
   bool coupled = false;
-  bool stiffness = true;  ///< whether the law can be used in the frequency domain
-  bool breaks = false;    ///< whether its contact points can break
-  bool series = true;     ///< whether contacts of the law can have rock in series (Contact::series)
-  bool cracks = false;    ///< whether its contact points crack gradually, so that they have a crack energy
+  bool stiffness = true;      ///< whether the law can be used in the frequency domain
+  bool breaks = false;        ///< whether its contact points can break
+  bool series = true;         ///< whether contacts of the law can have rock in series (Contact::series)
+  bool cracks = false;        ///< whether its contact points crack gradually, so that they have a crack energy
   bool needs_double = false;  ///< whether its states must be double
 };
 

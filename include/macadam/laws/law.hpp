@@ -48,9 +48,9 @@
 ///   - `Step::coupled = true` — opening and slips of a contact point act on one another. For example, a bond that has
 ///     broken under tension has no shear stiffness either. Such a law is not linear, has only_units, or
 ///     Step::most_units if their number is only known at run time, and has in place of advance()
-///     `template <int L, class S, class State> void advance_point(const S (&dx)[3], S d, State&& state) const`. It takes
-///     the increments of the opening and of the slips along s and t, and the contact's distance d [m], so that f/d is
-///     the normal stress and α·f/d a shear stress. state(c, 0) is the f of component c, state(c, 1 + l) its x(l)
+///     `template <int L, class S, class State> void advance_point(const S (&dx)[3], S d, State&& state) const`. It
+///     takes the increments of the opening and of the slips along s and t, and the contact's distance d [m], so that
+///     f/d is the normal stress and α·f/d a shear stress. state(c, 0) is the f of component c, state(c, 1 + l) its x(l)
 ///     (references); it updates all of them. L is units(), or −1 if it is only known at run time;
 ///   - `static constexpr bool needs_double = true` — states in single precision would be too inaccurate. A stepper in
 ///     single precision refuses such a law;
@@ -59,8 +59,8 @@
 ///     coupled. Stepped tests then count broken points (host/run/cracks.hpp);
 ///   - `PointCrack crack_of(const double* state) const` — for laws whose contact points crack gradually: returns
 ///     opening, damage and energies of a point (crack.hpp) from the same numbers;
-///   - the members that a crack in series with the law needs (cracked.hpp): `static constexpr const char* cracked_name`,
-///     `static constexpr int max_units`, and the two parts of advance() as separate functions of Step:
+///   - the members that a crack in series with the law needs (cracked.hpp): `static constexpr const char*`
+///     `cracked_name`, `static constexpr int max_units`, and the two parts of advance() as separate functions of Step:
 ///     `trial<L>(f, dx, x, factor)` returns f(t+Δt), `follow<L>(sum, x)` updates the unit states from f(t+Δt) + f(t);
 ///   - `struct Block` — M steps taken as one block in which f changes little (without it, a device takes two kernels
 ///     per step), made by
@@ -71,9 +71,9 @@
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
 ///     follows δf' = δf + rate·dx + drift + follow·s − relax·δf. The drift is computed from f and x(l) at the beginning
 ///     of the block; s is the sum of δf' + δf over its steps so far. At the end, settle() receives Σ (f' + f) and
-///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the block is
-///     zero. A memoryless law must have relax = follow = drift = 0. `rate` is step_stiffness(). With rock in series, the
-///     stepper multiplies δf' − δf by 1/(1 + r·rate), and f of a memoryless law is rate·x/(1 + r·rate).
+///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the
+///     block is zero. A memoryless law must have relax = follow = drift = 0. `rate` is step_stiffness(). With rock in
+///     series, the stepper multiplies δf' − δf by 1/(1 + r·rate), and f of a memoryless law is rate·x/(1 + r·rate).
 /// S is a number or, on the CPU, a packet of numbers. So a law must not branch; it uses select().
 ///
 /// Laws do not own memory and do not depend on arrays or threads. A law may use its units for states of any kind:
@@ -188,8 +188,8 @@ concept StepsComponents = Advances<typename L::template Step<R>, R> &&
     (HasMemory<L> || HasValue<typename L::template Step<R>, R>);
 /// The law advances the three components of a point together.
 template <class L, class R>
-concept StepsPoints =
-    AdvancesPoints<typename L::template Step<R>, R> && IsNotLinear<L> && (HasOnlyUnits<L> || HasMostUnits<L>)&&HasMemory<L>;
+concept StepsPoints = AdvancesPoints<typename L::template Step<R>, R> && IsNotLinear<L> &&
+    (HasOnlyUnits<L> || HasMostUnits<L>)&&HasMemory<L>;
 }  // namespace contract
 
 /// The members that a stepper requires of a law; see the top of the file.
