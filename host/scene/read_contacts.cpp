@@ -124,6 +124,10 @@ void read_limits_of_pairs(const std::vector<Section>& sections, NetworkSpec& net
                        "only pair, gap_max and area_min: with this rule the laws of all pairs follow from the laws in "
                        "[materials.mastic] and [materials.aggregate]");
     }
+    if (section.has("crack")) {
+      section.refuse("crack", "this key with rule = \"series\" in [network]",
+                     "rule = \"centres\", because contacts with rock in series cannot crack");
+    }
     std::size_t pair = 0;
     FacetLimits limits;
     std::vector<Key> keys{{"pair", Need::required, {[&](const Value& v) { pair = v.choice(pairs); }}}};
