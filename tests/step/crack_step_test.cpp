@@ -68,7 +68,7 @@ struct Bar {
     ++made.network.count[static_cast<std::size_t>(weak_pair)];
     dt = options.dt = 0.5 * critical_step(made.network, laws, made.inertia, options).dt;
     options.damping = 0.3;  // otherwise the waves of the separation crack other facets
-    rate = 5e-3;
+    rate = 1e-2;
     // The crack is separated at an opening of 2·G_f/f_t = 6.1e-5 m
     const double end = 1e-4 / rate;
     options.boundary.move(wall_z_hi, 2,
@@ -87,7 +87,7 @@ TEST_P(CrackStep, ABarOfAnyLengthTakesTheFractureEnergy) {
       double work = 0, force = 0;
       bool separated = false;
       for (int k = 0; k < 2000 && !separated; ++k) {
-        const std::int64_t steps = 50;
+        const std::int64_t steps = 100;
         bar.stepper->advance(steps);
         const double now = -bar.stepper->observe().wall_force[wall_index(wall_z_hi)].z;
         work += 0.5 * (now + force) * bar.rate * bar.dt * static_cast<double>(steps);
@@ -108,8 +108,9 @@ TEST_P(CrackStep, ABarOfAnyLengthTakesTheFractureEnergy) {
       }
       const double right = Bar::energy * contact.area;
       EXPECT_NEAR(energy, right, 1e-8 * right) << facets;
-      // The trapezoidal rule over 50 steps and the damping of waves; viscoelastic contacts dissipate too
-      EXPECT_GT(work, 0.999 * right) << facets;
+      // The sum over samples of 100 steps misses a part of the first wave, and the damping of waves takes some energy;
+      // viscoelastic contacts dissipate too
+      EXPECT_GT(work, 0.97 * right) << facets;
       EXPECT_LT(work, (weak == PairType::ma ? 1.2 : 1.02) * right) << facets;
     }
   }
@@ -121,12 +122,23 @@ TestScene cracking_scene(unsigned seed, const NetworkSpec& spec = {}) {
   using laws::Softening;
   Laws laws = am1_laws();
   const auto at = [&](PairType pair) -> Law& { return *laws[static_cast<std::size_t>(pair)]; };
-  at(PairType::mm) = cracked(mastic_am1(), 2e4, 0.01, 0.5);
+  at(PairType::mm) = cracked(mastic_am1(), 2e4, 0.0025, 0.5);
   at(PairType::ma) =
-      cracked(laws::GeneralisedKelvin{3e10, 8e9, {1e9, 5e9}, {2e4, 1e6}, 0.1}, 3e4, 0.01, 0.3, Softening::bilinear);
-  at(PairType::aa) = cracked(laws::Elastic{5e10, 0.05}, 5e4, 0.02, 0.6, Softening::exponential);
+      cracked(laws::GeneralisedKelvin{3e10, 8e9, {1e9, 5e9}, {2e4, 1e6}, 0.1}, 3e4, 0.004, 0.3, Softening::bilinear);
+  at(PairType::aa) = cracked(laws::Elastic{5e10, 0.05}, 5e4, 0.015, 0.6, Softening::exponential);
   at(PairType::inner) = cracked(laws::Elastic{5e10, 0.05}, 8e4, 0.02, 0.6);
   return make_scene(random_specimen(seed), spec, laws);
+}
+
+/// Returns shaking_options() with a load of 10 kHz, which opens and closes cracks within some hundred steps.
+StepperOptions fast_options(const TestScene& scene) {
+  StepperOptions out = shaking_options(scene);
+  drives::Cyclic loading = top_drive(out);
+  loading.frequency = 1e4;
+  loading.steps_per_period = static_cast<std::int64_t>(1 / (loading.frequency * out.dt)) + 1;
+  out.boundary = moving_top(loading);
+  out.dt = loading.dt();
+  return out;
 }
 
 /// Counts of a list of cracks: damaged, separated, shut although damaged.
@@ -141,46 +153,48 @@ CrackCounts counts_of(const std::vector<laws::PointCrack>& cracks) {
   return out;
 }
 
-// A specimen is shaken until most of its points are damaged, many are separated, and many have closed again. It must
-// agree with the reference implementation, which solves each point by bisection.
+// A specimen is shaken until most of its points are damaged and many have closed again. It must agree with the
+// reference implementation, which solves each point by bisection. Where faces meet again, rounding errors grow
+// exponentially with time: from 1e-16 to 1e-12 of the forces in 300 steps, and to 1e-8 in 600. So the comparison is
+// tight at 300 steps; at 600, where many points have separated, it is wider, and only for double precision.
 TEST_P(CrackStep, SpecimensCrackAsTheReferenceDoes) {
   const TestScene scene = cracking_scene(12);
-  StepperOptions given = shaking_options(scene);
+  StepperOptions given = fast_options(scene);
   given.form = options().form, given.geometry = options().geometry;
   const auto reference =
       make_stepper(Backend::reference, scene.specimen, scene.network, scene.laws, scene.inertia, given);
   given.precision = options().precision;
   const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, given);
-  const std::int64_t steps = 800;
-  reference->advance(steps);
-  stepper->advance(steps / 3);
-  stepper->advance(steps - steps / 3);
-  // Ten times the tolerance of other laws, because the law subtracts stresses of 1e2 strengths
-  const double tolerance = (in_double() ? 1000 * 0x1p-53 : 100 * 0x1p-24) * static_cast<double>(steps);
-  const ParticleState want = reference->particles(), have = stepper->particles();
-  EXPECT_LT(relative_difference(have.displacement, want.displacement), tolerance);
-  EXPECT_LT(relative_difference(have.velocity, want.velocity), tolerance);
-  EXPECT_LT(relative_difference(have.spin, want.spin), tolerance);
-  EXPECT_LT(relative_difference(have.force, want.force), tolerance);
-  const auto right = reference->point_cracks(scene.network), found = stepper->point_cracks(scene.network);
-  ASSERT_EQ(found.size(), right.size());
-  double energy[2] = {0, 0}, friction[2] = {0, 0};
-  for (std::size_t j = 0; j < right.size(); ++j) {
-    const double area = scene.network.point_area[j];
-    energy[0] += found[j].energy * area, energy[1] += right[j].energy * area;
-    friction[0] += found[j].friction * area, friction[1] += right[j].friction * area;
-    EXPECT_NEAR(found[j].damage, right[j].damage, 10 * tolerance) << j;
-    EXPECT_NEAR(found[j].opening, right[j].opening, tolerance * 1e-5) << j;
-    EXPECT_NEAR(found[j].slip, right[j].slip, tolerance * 1e-5) << j;
-  }
-  EXPECT_NEAR(energy[0], energy[1], tolerance * energy[1]);
-  EXPECT_NEAR(friction[0], friction[1], tolerance * (friction[1] + energy[1]));
-  EXPECT_GT(friction[1], 0);
-  const auto [damaged, separated, shut] = counts_of(right);
-  EXPECT_GT(damaged, std::ssize(right) / 5);
-  EXPECT_GT(separated, 100);
-  EXPECT_GT(shut, 100);
-  if (in_double()) { EXPECT_EQ(stepper->point_breaks(scene.network), reference->point_breaks(scene.network)); }
+  const auto compare = [&](double tolerance) {
+    const ParticleState want = reference->particles(), have = stepper->particles();
+    EXPECT_LT(relative_difference(have.displacement, want.displacement), tolerance);
+    EXPECT_LT(relative_difference(have.velocity, want.velocity), 100 * tolerance);
+    EXPECT_LT(relative_difference(have.spin, want.spin), 100 * tolerance);
+    EXPECT_LT(relative_difference(have.force, want.force), 100 * tolerance);
+    const auto right = reference->point_cracks(scene.network), found = stepper->point_cracks(scene.network);
+    ASSERT_EQ(found.size(), right.size());
+    double energy[2] = {0, 0}, friction[2] = {0, 0};
+    for (std::size_t j = 0; j < right.size(); ++j) {
+      const double area = scene.network.point_area[j];
+      energy[0] += found[j].energy * area, energy[1] += right[j].energy * area;
+      friction[0] += found[j].friction * area, friction[1] += right[j].friction * area;
+      EXPECT_NEAR(found[j].damage, right[j].damage, 1000 * tolerance) << j;
+      EXPECT_NEAR(found[j].opening, right[j].opening, 1e-6 * 100 * tolerance) << j;  // openings are about 1e-6 m
+      EXPECT_NEAR(found[j].slip, right[j].slip, 1e-6 * 100 * tolerance) << j;
+    }
+    EXPECT_NEAR(energy[0], energy[1], 100 * tolerance * energy[1]);
+    EXPECT_NEAR(friction[0], friction[1], 100 * tolerance * energy[1]);
+    EXPECT_GT(friction[1], 0);
+    EXPECT_GT(counts_of(right).damaged, std::ssize(right) / 3);
+    EXPECT_GT(counts_of(right).shut, 50);
+  };
+  for (Stepper* one : {reference.get(), stepper.get()}) one->advance(100), one->advance(200);
+  compare(in_double() ? 2e-12 : 2e-6);
+  if (!in_double()) return;
+  for (Stepper* one : {reference.get(), stepper.get()}) one->advance(300);
+  compare(2e-8);
+  EXPECT_GT(counts_of(reference->point_cracks(scene.network)).separated, 100);
+  EXPECT_EQ(stepper->point_breaks(scene.network), reference->point_breaks(scene.network));
 }
 
 // A crack exerts equal and opposite forces on its two particles, at the same points, so a free assembly keeps its
@@ -195,7 +209,7 @@ TEST_P(CrackStep, FreeAssembliesKeepTheirMomentum) {
   std::vector<Vec3d> kick;
   for (std::size_t i = 0; i < scene.specimen.size(); ++i) {
     const double n = static_cast<double>(i);
-    kick.push_back({0.02 * std::sin(n), 0.02 * std::cos(3 * n), 0.02 * std::sin(7 * n)});
+    kick.push_back({0.2 * std::sin(n), 0.2 * std::cos(3 * n), 0.2 * std::sin(7 * n)});
   }
   stepper->set_velocities(kick, std::vector<Vec3d>(kick.size()));
   const std::int64_t steps = 500;
