@@ -23,6 +23,8 @@ constexpr Unit rates[] = {{"1/s", 0}, {"s^-1", 0}, {"1/ms", 3}};
 constexpr Unit temperatures[] = {{"degC", 0}, {"\u00b0C", 0}, {"C", 0}};
 constexpr Unit differences[] = {{"K", 0}, {"degC", 0}, {"\u00b0C", 0}};
 constexpr Unit molar_energies[] = {{"J/mol", 0}, {"kJ/mol", 3}};
+constexpr Unit fracture_energies[] = {{"J/m2", 0},   {"J/m^2", 0},      {"J/m\u00b2", 0}, {"kJ/m2", 3},
+                                      {"kJ/m^2", 3}, {"kJ/m\u00b2", 3}, {"N/m", 0},       {"N/mm", 3}};
 constexpr Unit ratios[] = {{"%", -2}};
 
 std::string_view trimmed(std::string_view text) {
@@ -61,6 +63,7 @@ const Quantity rate{"rate", rates};
 const Quantity temperature{"temperature", temperatures};
 const Quantity temperature_difference{"difference of temperatures", differences};
 const Quantity molar_energy{"molar energy", molar_energies};
+const Quantity fracture_energy{"fracture energy", fracture_energies};
 const Quantity ratio{"ratio", ratios};
 
 std::string accepted(const Quantity& quantity) {

@@ -33,6 +33,7 @@ extern const Quantity rate;                    ///< [1/s]
 extern const Quantity temperature;             ///< [°C]
 extern const Quantity temperature_difference;  ///< [K]
 extern const Quantity molar_energy;            ///< [J/mol]
+extern const Quantity fracture_energy;         ///< [J/m²]
 extern const Quantity ratio;                   ///< [1]; text must be a percentage
 
 /// Describes, for messages, how a value of this quantity may be written: `a number in Pa, or text with one of: Pa, kPa,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "host/reference/reference_crack.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::reference {
@@ -69,6 +70,12 @@ ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
     chain[1].force = chain[2].force = 0;
   };
   return out;
+}
+
+template <class Chain>
+ReferenceLaw read(const laws::Cracked<Chain>& law, const std::string& pair) {
+  require(law.instantaneous() > 0, pair, "modulus", law.instantaneous(), "a positive modulus, because it has a crack");
+  return with_crack(read(static_cast<const Chain&>(law), pair), law.crack, pair);
 }
 
 }  // namespace

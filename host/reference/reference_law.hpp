@@ -41,6 +41,8 @@ struct ReferenceLaw {
   int kept = 0;      ///< how many numbers `point` keeps in each component's `stretch`
   /// Returns how a point broke; this member is empty if the law cannot break.
   std::function<Break(const ChainState (&chain)[3])> break_of = {};
+  /// Returns the crack of a point; this member is empty if the law has no crack.
+  std::function<laws::PointCrack(const ChainState (&chain)[3])> crack_of = {};
 
   /// Returns how many numbers each chain keeps in its `stretch`.
   std::size_t states() const { return point ? static_cast<std::size_t>(kept) : units.size(); }

@@ -125,6 +125,19 @@ class ReferenceStepper : public Stepper {
     return out;
   }
 
+  std::vector<laws::PointCrack> point_cracks(const ContactNetwork& network) const override {
+    std::vector<laws::PointCrack> out;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const auto& crack_of = law(contacts_[c].pair).crack_of;
+      if (!crack_of) continue;
+      out.resize(network.point_area.size());
+      const std::uint32_t first = network.contacts[c].point_begin;
+      for (std::size_t j = 0; j < contacts_[c].points.size(); ++j)
+        out[first + j] = crack_of(contacts_[c].points[j].chain);
+    }
+    return out;
+  }
+
   std::vector<StateArray> state() const override { refuse_checkpoints(); }
   void set_state(const std::vector<StateArray>&) override { refuse_checkpoints(); }
 

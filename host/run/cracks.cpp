@@ -26,8 +26,10 @@ std::string grouped(std::int64_t number) {
 }
 
 std::string of_breakable(const Cracks& cracks) {
-  return fmt::format("{} of {} contact points that can break are broken", grouped(cracks.points()),
-                     grouped(cracks.breakable()));
+  std::string out = fmt::format("{} of {} contact points that can break are broken", grouped(cracks.points()),
+                                grouped(cracks.breakable()));
+  if (cracks.sums) out += fmt::format("; {} have begun to crack", grouped(cracks.sums->cracked));
+  return out;
 }
 
 }  // namespace
@@ -42,6 +44,7 @@ CrackWatch::CrackWatch(const Scene& scene, const Preparation& prepared, const st
       active_(can_break(laws_)),
       joined_at_start_(prepared.spanning_clusters > 0) {
   if (!active_) return;
+  if (can_crack(laws_)) found_.sums.emplace();
   broken_.resize(network_.point_area.size(), false);
   for (const Contact& c : network_.contacts) {
     const auto pair = static_cast<std::size_t>(c.pair);
@@ -80,6 +83,16 @@ std::vector<CrackEvent> CrackWatch::look(const Stepper& stepper, double time) {
     }
   }
   for (const CrackEvent& event : out) add(event);
+  if (sums()) {
+    experiments::CrackSums now;
+    const std::vector<laws::PointCrack> cracks = stepper.point_cracks(network_);
+    for (std::size_t point = 0; point < cracks.size(); ++point) {
+      now.cracked += cracks[point].damage > 0;
+      now.crack_energy_j += cracks[point].energy * network_.point_area[point];
+      now.friction_energy_j += cracks[point].friction * network_.point_area[point];
+    }
+    found_.sums = now;
+  }
   return out;
 }
 

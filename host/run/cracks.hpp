@@ -28,6 +28,8 @@ class CrackWatch {
 
   /// Returns whether the scene has contact points that can break, so that there is something to count.
   bool active() const { return active_; }
+  /// Returns whether the scene has laws with a crack, so that look() also sums damage and energies.
+  bool sums() const { return found_.sums.has_value(); }
   /// Adds an event for each point that has broken since the last call. Returns the events of this call. All processes
   /// of a run must call this together. \throws RunError as Stepper::contacts() does.
   std::vector<experiments::CrackEvent> look(const Stepper& stepper, double time);

@@ -18,7 +18,8 @@ bool is_section(const KnownKey& key) { return key.words.type.starts_with("sectio
 
 /// Returns "[specimen.mastic]" for the key mastic of [specimen].
 std::string title_of(const KnownKey& key) {
-  const std::string outer = key.section.empty() ? "" : key.section.substr(1, key.section.size() - 2) + ".";
+  const auto begin = key.section.find_first_not_of('['), end = key.section.find(']');
+  const std::string outer = key.section.empty() ? "" : key.section.substr(begin, end - begin) + ".";
   return key.words.type == "sections" ? "[[" + outer + key.name + "]]" : "[" + outer + key.name + "]";
 }
 

@@ -2,6 +2,7 @@
 /// \file read_contacts.cpp  Reads `[[contacts]]`: one law for each pair type.
 #include <fmt/format.h>
 
+#include "host/scene/crack_keys.hpp"
 #include "host/scene/law_keys.hpp"
 #include "host/scene/sections.hpp"
 #include "host/scene/shift_keys.hpp"
@@ -9,13 +10,15 @@
 namespace macadam::scene {
 namespace {
 
-/// Appends the name and an empty value of every kind of law.
+/// Appends the name and an empty value of every kind of law that a scene can name.
 template <std::size_t I = 0>
 void list_laws(std::vector<std::string>& names, std::vector<Law>& laws) {
   if constexpr (I < std::variant_size_v<Law>) {
     using Alternative = std::variant_alternative_t<I, Law>;
-    names.emplace_back(Alternative::name);
-    laws.emplace_back(Alternative{});
+    if constexpr (named_law<Alternative>) {
+      names.emplace_back(Alternative::name);
+      laws.emplace_back(Alternative{});
+    }
     list_laws<I + 1>(names, laws);
   }
 }
@@ -67,9 +70,10 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
     double delta = 1;
     ShiftKeys shift;
     FacetLimits limits;
+    std::optional<laws::Crack> crack;
     Law read_law = law_named_in(section);
     std::visit(
-        [&](auto& law) {
+        [&]<class L>(L& law) {
           std::vector<Key> keys{
               {"pair",
                Need::required,
@@ -84,6 +88,7 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
                "factor on all moduli and viscosities of the pair, not on strengths"}};
           for (Key& key : keys_of(law)) keys.push_back(std::move(key));
           for (Key& key : keys_of(limits)) keys.push_back(std::move(key));
+          if constexpr (can_have_crack<L>) keys.push_back(crack_key(crack));
           const bool flows = laws::flows(law);
           if (flows)
             for (Key& key : shift.keys()) keys.push_back(std::move(key));
@@ -100,7 +105,8 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
         },
         read_law);
     if (table[pair]) section.refuse("pair", fmt::format("\"{}\" again", pairs[pair]), "each pair once");
-    table[pair] = std::move(read_law);
+    if (crack) require_particles(section, static_cast<PairType>(pair));
+    table[pair] = crack ? with_crack(std::move(read_law), *crack) : std::move(read_law);
     deltas[pair] = delta;
     set_limits(section, pair, limits, network);
   }
@@ -116,6 +122,10 @@ void read_limits_of_pairs(const std::vector<Section>& sections, NetworkSpec& net
         section.refuse(key, "this key of a pair with rule = \"series\" in [network]",
                        "only pair, gap_max and area_min: with this rule the laws of all pairs follow from the laws in "
                        "[materials.mastic] and [materials.aggregate]");
+    }
+    if (section.has("crack")) {
+      section.refuse("crack", "this key with rule = \"series\" in [network]",
+                     "rule = \"centres\", because contacts with rock in series cannot crack");
     }
     std::size_t pair = 0;
     FacetLimits limits;

@@ -161,6 +161,8 @@ struct ContactState {
   std::vector<double> broken = {};
   /// Whether and how each contact point broke, in the order of the network's points. Empty if no law can break.
   std::vector<Break> point_breaks = {};
+  /// Cracks of the contact points, in the order of the network's points. Empty if no law has a crack.
+  std::vector<laws::PointCrack> point_cracks = {};
 };
 
 /// Steps a network in time (leapfrog: velocities at half steps, displacements and forces at whole steps).
@@ -193,6 +195,12 @@ class Stepper {
   /// scene can break. Every backend has this. `network`: as in contacts().
   virtual std::vector<Break> point_breaks(const ContactNetwork& network) const {
     return contacts(network).point_breaks;
+  }
+
+  /// Returns the crack of each contact point, in the order of the network's points; empty if no law of the scene has a
+  /// crack. Every backend has this. `network`: as in contacts().
+  virtual std::vector<laws::PointCrack> point_cracks(const ContactNetwork& network) const {
+    return contacts(network).point_cracks;
   }
 
   /// Returns the addresses of the motion in device memory; empty for steppers on the CPU.

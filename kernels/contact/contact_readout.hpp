@@ -26,6 +26,7 @@ class GroupReading {
       : network_(network),
         layout_(layout),
         group_(group),
+        parameters_(law),
         law_(law.template step<double>(options.dt)),
         shape_(layout, group, facts_of(law), options),
         updated_(options.geometry == Geometry::updated),
@@ -68,6 +69,10 @@ class GroupReading {
     double* chain = &out.chain[out.chain_begin[number]];
     const FacetLoad<double> load = shape_.by_points ? points(slot, c, u, chain) : condensed(slot, c, u, chain);
     if constexpr (breakable_law<L>) read_breaks(c, chain, out.broken[number], out.point_breaks);
+    if constexpr (cracking_law<L>) {
+      for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j)
+        out.point_cracks[c.point_begin + j] = parameters_.crack_of(chain + 3 * j * words());
+    }
     out.force[number] = load.n * frame.n + load.s * frame.s + load.t * frame.t;
     out.moment[number] = load.moment_n * frame.n + load.moment_s * frame.s + load.moment_t * frame.t;
   }
@@ -77,7 +82,7 @@ class GroupReading {
     const std::uint32_t points = c.point_end - c.point_begin;
     std::uint32_t broken = 0;
     for (std::uint32_t j = 0; j < points; ++j) {
-      const Break how = L::break_of(chain + 3 * j * words());
+      const Break how = parameters_.break_of(chain + 3 * j * words());
       point_breaks[c.point_begin + j] = how;
       broken += how != Break::none;
     }
@@ -159,6 +164,7 @@ class GroupReading {
   const ContactNetwork& network_;
   const Layout& layout_;
   const GroupLayout& group_;
+  const L& parameters_;
   typename L::template Step<double> law_;
   GroupShape<P> shape_;
   bool updated_;

@@ -26,6 +26,15 @@ struct MotionView {
 inline constexpr int velocity_words = 8;
 inline constexpr int displacement_words = 8;
 
+/// Returns `Units` or, if it is −1, the largest number of units of a coupled law.
+template <class LawStep, int Units>
+constexpr int most_units_of() {
+  if constexpr (Units < 0 && requires { LawStep::most_units; })
+    return LawStep::most_units;
+  else
+    return Units;
+}
+
 /// Functor that steps the contacts of one group. Everything that may branch (form, geometry, law, units) is a template
 /// argument. `Units`: exact number of Kelvin units; 5 means at most five, all in registers; −1 means any number.
 /// `with_series`: whether the group may have contacts with rock in series; if false, there is no code for them.
@@ -39,7 +48,7 @@ struct ContactForces {
   static constexpr bool stateless = LawStep::memoryless && geometry == Geometry::fixed;
   /// Whether the law advances the three components of a contact point together.
   static constexpr bool coupled = coupled_step<LawStep>;
-  static_assert(!coupled || (form == ContactForm::points && Units >= 0), "a coupled law is stepped by points");
+  static_assert(!coupled || form == ContactForm::points, "a coupled law is stepped by points");
   /// Precision in which a contact is computed. If the force follows from the displacement alone, it is computed in the
   /// precision of a state. In lower precision it would be rounded in the same way whenever the particles return to the
   /// same position; such errors do not average out, and the energy would drift.
@@ -123,7 +132,9 @@ struct ContactForces {
   }
 
  private:
-  MACADAM_HD int units() const { return Units >= 0 && Units != 5 ? Units : view.units; }
+  /// Largest number of units of a coupled law. For a coupled law, `Units` is always exact.
+  static constexpr int coupled_units = most_units_of<LawStep, Units>();
+  MACADAM_HD int units() const { return Units >= 0 && (Units != 5 || coupled) ? Units : view.units; }
   MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + units())); }
   /// Returns the number of words from the beginning of a contact's chain to the beginning of its next chain.
   template <class Item>
@@ -234,16 +245,17 @@ struct ContactForces {
       const S dx[3] = {of(u[0] + s * u[1] + t * u[2]) * S(dt), of(u[3] - t * u[5]) * S(dt),
                        of(u[4] + s * u[5]) * S(dt)};
       typename P::State* chain = view.chain + static_cast<std::size_t>(layer) * chain_words() * item.lanes();
+      const int last = Units >= 0 ? Units : view.units;
       const auto place = [&](int c, int l) {
-        return chain + static_cast<std::size_t>(c * (1 + Units) + l) * item.lanes();
+        return chain + static_cast<std::size_t>(c * (1 + last) + l) * item.lanes();
       };
-      S state[3][1 + Units];
+      S state[3][1 + coupled_units];
       for (int c = 0; c < 3; ++c) {
-        for (int l = 0; l <= Units; ++l) state[c][l] = item.load(place(c, l));
+        for (int l = 0; l <= last; ++l) state[c][l] = item.load(place(c, l));
       }
-      law.advance_point(dx, of(d), [&](int c, int l) -> S& { return state[c][l]; });
+      law.template advance_point<Units>(dx, of(d), [&](int c, int l) -> S& { return state[c][l]; });
       for (int c = 0; c < 3; ++c) {
-        for (int l = 0; l <= Units; ++l) item.store(place(c, l), state[c][l]);
+        for (int l = 0; l <= last; ++l) item.store(place(c, l), state[c][l]);
       }
       add_point(load, s, t, weight * item.template convert<Work>(state[0][0]),
                 T(view.alpha) * weight * item.template convert<Work>(state[1][0]),

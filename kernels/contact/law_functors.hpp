@@ -24,11 +24,27 @@ constexpr void require_steppable(std::type_identity<std::variant<L...>>) {
   (static_cast<void>(Steppable<L>{}), ...);
 }
 
+/// The number of units for which a coupled law has code of its own; −1 if there is none.
+template <class L>
+constexpr int known_units() {
+  if constexpr (requires { L::known_units; })
+    return L::known_units;
+  else
+    return -1;
+}
+template <class L>
+inline constexpr int known_units_of = known_units<L>();
+
 /// Calls f(std::integral_constant<int, Units>) with the `Units` of ContactForces that suit the law.
 template <bool five_units_in_registers, class L, class F>
 void dispatch_units(const L& law, F&& f) {
   if constexpr (units_of<L>() >= 0) {
     f(std::integral_constant<int, units_of<L>()>{});
+  } else if constexpr (coupled_law<L>) {
+    if (law.units() == known_units_of<L>)
+      f(std::integral_constant<int, known_units_of<L>>{});
+    else
+      f(std::integral_constant<int, -1>{});
   } else {
     if (law.units() == 3)
       f(std::integral_constant<int, 3>{});
@@ -48,19 +64,32 @@ constexpr bool any_series_law(std::type_identity<std::variant<L...>>) {
 /// Stands in a list of functors for a law that has no functor.
 struct NoFunctor {};
 
+/// Whether a law can be stepped in precision P.
+template <class P, class L>
+inline constexpr bool suits_precision = !needs_double_law<L> || std::is_same_v<typename P::State, double>;
+
+/// Kinds of launches, each with kernels of its own, so that other kernels need no registers for what only they do.
+enum class LaunchKind {
+  plain,   ///< no contact has rock in series
+  series,  ///< some contacts have rock in series
+  coupled  ///< laws that advance the components of a point together
+};
+
 /// The functor type of a law in a launch for `Units` units, or NoFunctor. Laws without memory fit any number of units.
-/// `series`: whether some contact of the launch has rock in series.
-template <class P, class L, ContactForm form, Geometry geometry, int Units, bool series>
+template <class P, class L, ContactForm form, Geometry geometry, int Units, LaunchKind kind>
 struct StepFunctor {
+  static constexpr bool coupled = kind == LaunchKind::coupled;
   static constexpr bool memoryless = memoryless_law<L>;
-  static constexpr bool fits =
-      (linear_law<L> || form == ContactForm::points) &&
-      (memoryless || units_of<L>() == Units || (units_of<L>() < 0 && (Units == 3 || Units == 5 || Units < 0)));
+  static constexpr bool fits_units = coupled
+                                         ? units_of<L>() < 0 && (Units == known_units_of<L> || Units < 0)
+                                         : memoryless || (units_of<L>() < 0 && (Units == 3 || Units == 5 || Units < 0));
+  static constexpr bool fits = (linear_law<L> || form == ContactForm::points) && coupled_law<L> == coupled &&
+                               suits_precision<P, L> && (units_of<L>() == Units || fits_units);
   template <bool any>
   static auto make() {
     if constexpr (any)
       return std::type_identity<ContactForces<P, typename L::template Step<typename P::State>, memoryless ? 0 : Units,
-                                              form, geometry, series>>{};
+                                              form, geometry, kind == LaunchKind::series>>{};
     else
       return std::type_identity<NoFunctor>{};
   }

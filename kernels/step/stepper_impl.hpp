@@ -157,6 +157,7 @@ class StepperImpl final : public Stepper {
       out.broken.resize(n, 0.0);
       out.point_breaks.resize(network.point_area.size(), Break::none);
     }
+    if (can_crack(facts_of(laws_))) out.point_cracks.resize(network.point_area.size());
     each_group([&](std::size_t g, const GroupLayout& group, const auto& law) {
       const GroupShape<P> shape(layout_, group, facts_of(law), options_);
       GroupReading<P, std::decay_t<decltype(law)>>(network, layout_, group, law, options_, u,
@@ -424,15 +425,18 @@ class StepperImpl final : public Stepper {
     std::visit(
         [&](const auto& law) {
           using L = std::decay_t<decltype(law)>;
-          const auto with = [&](auto units, auto form) {
+          [[maybe_unused]] const auto with = [&](auto units, auto form) {
             dispatch<Geometry::updated, Geometry::fixed>(options_.geometry, [&](auto geometry) {
               const auto step = law.template step<State>(options_.dt);
               f(law, ContactForces<P, std::decay_t<decltype(step)>, units(), form(), geometry()>{
                          {}, step, static_cast<State>(options_.dt)});
             });
           };
-          dispatch_units<Exec::five_units_in_registers>(law, [&](auto units) {
-            if constexpr (linear_law<L>) {
+          dispatch_units<Exec::five_units_in_registers>(law, [&]([[maybe_unused]] auto units) {
+            if constexpr (!suits_precision<P, L>) {
+              throw InputError(std::string("precision: found single beside law ") + L::name +
+                               ", whose states need double precision; expected mixed or double");
+            } else if constexpr (linear_law<L>) {
               dispatch<ContactForm::condensed, ContactForm::points>(options_.form,
                                                                     [&](auto form) { with(units, form); });
             } else {

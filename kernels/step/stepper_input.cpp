@@ -130,6 +130,11 @@ void require_input(std::size_t particles, const ContactNetwork& network, const F
       throw InputError(std::string("law ") + laws[p]->name + ": found units() = " + std::to_string(laws[p]->units) +
                        ", expected its only_units = " + std::to_string(laws[p]->only_units));
     }
+    if (network.count[p] > 0 && laws[p]->needs_double && options.precision == Precision::single) {
+      throw InputError(std::string("precision: found single beside law ") + laws[p]->name + " of pair " +
+                       to_string(static_cast<PairType>(pair)) +
+                       ", whose states need double precision; expected mixed or double");
+    }
   }
   require_series(network, laws);
   if (options.damping_kind == Damping::viscous && !(options.damping * options.dt < 2)) {

@@ -74,7 +74,11 @@ TEST(KnownKeys, AreThoseOfTheReader) {
     choosers[key.section].insert(key.chosen.begin(), key.chosen.end());
   }
   EXPECT_EQ(choosers["[loading]"].size(), std::variant_size_v<Experiment>);
-  EXPECT_EQ(choosers["[[contacts]]"].size(), std::variant_size_v<Law>);
+  // laws with a crack are not named by `law`
+  const auto named = []<class... L>(std::type_identity<std::variant<L...>>) {
+    return (std::size_t{named_law<L>} + ...);
+  };
+  EXPECT_EQ(choosers["[[contacts]]"].size(), named(std::type_identity<Law>()));
   EXPECT_GE(sections.size(), 13u);
   for (const std::string& section : sections) {
     std::set<std::string> choices = choosers[section];

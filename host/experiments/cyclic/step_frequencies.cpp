@@ -302,7 +302,10 @@ class Steps : public PlannedExperiment {
     const FrequencyCracks& cracks = at_.cracks[i];
     SteppedFrequency& f =
         frequencies.emplace_back(finished_frequency(scene_, at_.plan, i, samples, at_.seconds[i], cracks.rupture));
-    if (counts_cracks(scene_)) f.cracks = CrackWatch(scene_, prepared_, cracks.events).found();
+    if (counts_cracks(scene_)) {
+      f.cracks = CrackWatch(scene_, prepared_, cracks.events).found();
+      f.cracks->sums.reset();  // the stepper of this frequency may no longer exist
+    }
     if (f.rupture) return;
     const bool linear = !first_without_stiffness(scene_.laws);
     judge(f, linear ? std::optional(stiffest_contact(scene_, prepared_.network, f.frequency_hz)) : std::nullopt,

@@ -30,7 +30,7 @@ namespace {
 
 constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks",
                      *unstepped_array = "unstepped";
-constexpr std::size_t point_words = 9;
+constexpr std::size_t point_words = 12;
 
 /// Returns the numbers of a relaxation in one list: its error, the long-term modulus, then modulus and time of each
 /// unit.
@@ -73,9 +73,17 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
     if (!values || values->size() % point_words != 0) damaged("array " + array.name + " of another kind");
     for (std::size_t i = 0; i < values->size(); i += point_words) {
       const double* w = &(*values)[i];
-      if (!(w[8] >= 0 && w[8] <= std::numeric_limits<std::uint32_t>::max()))
-        damaged(fmt::format("{} in array {}", w[8], array.name));
-      out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7], static_cast<std::int64_t>(w[8])});
+      for (const double count : {w[8], w[9]}) {
+        if (!(count >= 0 && count <= std::numeric_limits<std::uint32_t>::max()))
+          damaged(fmt::format("{} in array {}", count, array.name));
+      }
+      out.points.push_back({{w[0], w[1], w[2], w[3]},
+                            w[4],
+                            w[5],
+                            w[6],
+                            w[7],
+                            static_cast<std::int64_t>(w[8]),
+                            {static_cast<std::int64_t>(w[9]), w[10], w[11]}});
     }
   }
   if (out.state.empty()) damaged("no state");
@@ -87,9 +95,10 @@ void add_to(Checkpoint& out, const LoadState& at) {
   std::vector<double> points;
   for (const SteppedPoint& p : at.points) {
     points.insert(points.end(), {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error,
-                                 static_cast<double>(p.broken_points)});
+                                 static_cast<double>(p.broken_points), static_cast<double>(p.cracks.cracked),
+                                 p.cracks.crack_energy_j, p.cracks.friction_energy_j});
   }
-  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1", std::move(points)});
+  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, J, J", std::move(points)});
   out.arrays.push_back({cracks_array, "1, 1, 1, s", to_numbers(at.cracks)});
   if (at.unstepped) out.arrays.push_back({unstepped_array, "1, Pa, then Pa, s", to_numbers(*at.unstepped)});
 }

@@ -184,12 +184,20 @@ class SteppedLoad : public PlannedExperiment {
         words.ratio ? fmt::format("{}: ratio of the strain and stress in its row; ", words.ratio) : "";
     return fmt::format("# {}, stepped in time; {}{}\n{},error,{}bottom_pa,kinetic_j{}",
                        modulus_words(scene_.network.lateral_walls), ratio, errors_.meaning(), csv_head(words),
-                       test_.by_stress ? "top_pa," : "", cracks_.active() ? ",broken_points" : "");
+                       test_.by_stress ? "top_pa," : "",
+                       cracks_.sums()     ? ",cracked_points,broken_points,crack_energy_j,friction_energy_j"
+                       : cracks_.active() ? ",broken_points"
+                                          : "");
   }
   std::string line(const LoadWords& words, const SteppedPoint& p) const {
     return fmt::format("{},{:.2e},{}{},{}{}", csv_line(words, p), p.error,
-                       test_.by_stress ? fmt::format("{},", p.top_pa) : "", p.bottom_pa, p.kinetic_j,
-                       cracks_.active() ? fmt::format(",{}", p.broken_points) : "");
+                       test_.by_stress ? fmt::format("{},", p.top_pa) : "", p.bottom_pa, p.kinetic_j, crack_columns(p));
+  }
+  std::string crack_columns(const SteppedPoint& p) const {
+    if (!cracks_.active()) return "";
+    if (!cracks_.sums()) return fmt::format(",{}", p.broken_points);
+    return fmt::format(",{},{},{},{}", p.cracks.cracked, p.broken_points, p.cracks.crack_energy_j,
+                       p.cracks.friction_energy_j);
   }
 
   /// Returns whether the largest stress is recorded: only in a strength test, in which the strain grows and contact
@@ -210,6 +218,7 @@ class SteppedLoad : public PlannedExperiment {
     auto events = cracks_.look(*stepper_, point.time_s);
     at_.cracks = cracks_.found().events;
     point.broken_points = cracks_.found().points();
+    if (cracks_.sums()) point.cracks = *cracks_.found().sums;
     const bool pulled = drive_->value(stepper_->observe().step) > 0;
     if (cracks_.active() && pulled && !cracks_.joins_walls()) {
       const SteppedPoint before = at_.points.empty() ? SteppedPoint{} : at_.points.back();

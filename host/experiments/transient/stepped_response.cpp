@@ -23,12 +23,13 @@ double experiments::SteppedResponse::error() const {
 
 namespace {
 
-/// Returns whether the peak counts as the strength of the specimen: the specimen broke, or contact points broke and the
-/// stress then fell by more than 1 % below the peak.
+/// Returns whether the peak counts as the strength of the specimen: the specimen broke, or contact points broke or
+/// cracked and the stress then fell by more than 1 % below the peak.
 bool passed_peak(const SteppedResponse& found) {
   if (found.rupture) return true;
   constexpr double fallen = 0.99;
-  return found.cracks->points() > 0 &&
+  const bool damaged = found.cracks->points() > 0 || (found.cracks->sums && found.cracks->sums->cracked > 0);
+  return damaged &&
          std::abs(found.points.back().stress_pa) < fallen * std::abs(found.peak->stress_pa);
 }
 
@@ -80,6 +81,11 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
       point["bottom_pa"] = p.bottom_pa;
       point["kinetic_j"] = p.kinetic_j;
       if (found.cracks) point["broken_points"] = p.broken_points;
+      if (found.cracks && found.cracks->sums) {
+        point["cracked_points"] = p.cracks.cracked;
+        point["crack_energy_j"] = p.cracks.crack_energy_j;
+        point["friction_energy_j"] = p.cracks.friction_energy_j;
+      }
       out["points"].push_back(std::move(point));
     }
     summary["results"].push_back(std::move(out));

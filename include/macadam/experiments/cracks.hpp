@@ -26,10 +26,18 @@ struct PairCracks {
   std::optional<double> first_s;                    ///< time of the first event [s]
 };
 
+/// Damage of all contact points at one time, in scenes whose laws have a crack (docs/cracks.md).
+struct CrackSums {
+  std::int64_t cracked = 0;      ///< number of points that have begun to crack, separated points included
+  double crack_energy_j = 0;     ///< energy that damage has dissipated, and energy that open cracks store [J]
+  double friction_energy_j = 0;  ///< work of friction [J]
+};
+
 /// Broken points of a test.
 struct Cracks {
   std::vector<CrackEvent> events;              ///< by time, then by contact and point
   std::array<PairCracks, pair_types> by_pair;  ///< by PairType
+  std::optional<CrackSums> sums = {};          ///< at the last sample; empty if no law of the scene has a crack
 
   /// Returns the number of broken points.
   std::int64_t points() const { return static_cast<std::int64_t>(events.size()); }

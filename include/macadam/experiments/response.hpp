@@ -37,6 +37,7 @@ struct SteppedPoint : ResponsePoint {
   double kinetic_j;          ///< kinetic energy of the particles, density scaling included
   double error;  ///< relative difference of the stress (creep: strain) from a solution computed without time steps
   std::int64_t broken_points = 0;  ///< number of broken contact points; 0 if no law can break
+  CrackSums cracks = {};           ///< zero if no law has a crack
 };
 
 /// The largest stress of a test in the direction of its load; it may lie between two points of the result.

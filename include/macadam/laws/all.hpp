@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "macadam/laws/brittle_bond.hpp"
+#include "macadam/laws/cracked.hpp"
 #include "macadam/laws/elastic.hpp"
 #include "macadam/laws/facts.hpp"
 #include "macadam/laws/generalised_kelvin.hpp"
@@ -14,7 +15,8 @@
 namespace macadam {
 
 /// Any one law. To add a law, add its type here.
-using Law = std::variant<laws::Elastic, laws::GeneralisedKelvin, laws::BrittleBond>;
+using Law = std::variant<laws::Elastic, laws::GeneralisedKelvin, laws::BrittleBond, laws::Cracked<laws::Elastic>,
+                         laws::Cracked<laws::GeneralisedKelvin>>;
 
 /// The law of each pair type, indexed by PairType; empty for pair types without a law.
 using LawTable = std::array<std::optional<Law>, pair_types>;

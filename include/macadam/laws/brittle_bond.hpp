@@ -40,7 +40,7 @@ struct BrittleBond {
     R E, alpha, tensile_strength, shear_strength;
     /// The second number of component 0 is the opening [m]. The second numbers of components 1 and 2 are the Break: 0,
     /// 1 for tension, 2 for shear. A point whose two stresses exceed their strengths in the same step broke in tension.
-    template <class S, class State>
+    template <int L, class S, class State>
     MACADAM_HD void advance_point(const S (&dx)[3], S d, State&& state) const {
       state(0, 1) += dx[0];
       const S opening = state(0, 1), n = S(E) * opening;

@@ -14,6 +14,8 @@ namespace macadam::laws {
 /// The law f = E·x.
 struct Elastic {
   static constexpr const char* name = "elastic";
+  static constexpr const char* cracked_name = "elastic with crack";
+  static constexpr int max_units = 0;
   double E = 0;      ///< modulus [Pa], δ included
   double alpha = 0;  ///< shear over normal stiffness
 
@@ -43,9 +45,15 @@ struct Elastic {
       return S(E) * x;
     }
     template <int L, class S, class Units, class Factor = NoFactor>
-    MACADAM_HD S advance(S f, S dx, Units&&, const Factor& factor = {}) const {
+    MACADAM_HD S advance(S f, S dx, Units&& x, const Factor& factor = {}) const {
+      return trial<L>(f, dx, x, factor);
+    }
+    template <int L, class S, class Units, class Factor = NoFactor>
+    MACADAM_HD S trial(S f, S dx, Units&&, const Factor& factor = {}) const {
       return f + factor * (S(E) * dx);  // Eq. 9
     }
+    template <int L, class S, class Units>
+    MACADAM_HD void follow(S, Units&&) const {}
     MACADAM_HD R step_stiffness() const { return E; }
   };
   template <class R>

@@ -46,9 +46,11 @@ struct LawFacts {
   bool memoryless = false, linear = true, blocks = false;  ///< see law.hpp
   /// Whether opening and slips of a contact point act on one another.
   bool coupled = false;
-  bool stiffness = true;  ///< whether the law can be used in the frequency domain
-  bool breaks = false;    ///< whether its contact points can break
-  bool series = true;     ///< whether contacts of the law can have rock in series (Contact::series)
+  bool stiffness = true;      ///< whether the law can be used in the frequency domain
+  bool breaks = false;        ///< whether its contact points can break
+  bool series = true;         ///< whether contacts of the law can have rock in series (Contact::series)
+  bool cracks = false;        ///< whether its contact points crack gradually, so that they have a crack energy
+  bool needs_double = false;  ///< whether its states must be double
 };
 
 /// Traits for the optional parts of a law's contract (law.hpp).
@@ -101,8 +103,23 @@ inline constexpr bool has_blocks = requires(const L& law) {
 };
 /// Whether contact points of the law can break.
 template <class L>
-inline constexpr bool breakable_law = requires(const double* state) {
-  { L::break_of(state) } -> std::same_as<Break>;
+inline constexpr bool breakable_law = requires(const L& law, const double* state) {
+  { law.break_of(state) } -> std::same_as<Break>;
+};
+/// Whether contact points of the law crack gradually.
+template <class L>
+inline constexpr bool cracking_law = requires(const L& law, const double* state) {
+  law.crack_of(state).energy;
+};
+/// Whether the law needs states in double precision.
+template <class L>
+inline constexpr bool needs_double_law = requires {
+  requires L::needs_double;
+};
+/// Whether a scene can name the law. A law with a crack is named by its chain and the key `crack`.
+template <class L>
+inline constexpr bool named_law = !requires {
+  typename L::Chain;
 };
 /// Returns the number of units if it is fixed at compile time, else −1.
 template <class L>
@@ -121,7 +138,7 @@ template <class L>
 LawFacts facts_of(const L& law) {
   return {L::name,          law.alpha,         law.instantaneous(), law.shortest_time(), law.units(),
           units_of<L>(),    memoryless_law<L>, linear_law<L>,       has_blocks<L>,       coupled_law<L>,
-          has_stiffness<L>, breakable_law<L>,  series_law<L>};
+          has_stiffness<L>, breakable_law<L>,  series_law<L>,       cracking_law<L>,     needs_double_law<L>};
 }
 
 /// One entry per pair type; empty for pairs without a law.
@@ -140,6 +157,14 @@ FactsTable facts_of(const std::array<std::optional<std::variant<L...>>, pair_typ
 inline bool can_break(const FactsTable& laws) {
   for (const auto& law : laws) {
     if (law && law->breaks) return true;
+  }
+  return false;
+}
+
+/// Returns whether the table has a law whose contact points crack gradually.
+inline bool can_crack(const FactsTable& laws) {
+  for (const auto& law : laws) {
+    if (law && law->cracks) return true;
   }
   return false;
 }

@@ -25,6 +25,7 @@ namespace macadam::laws {
 /// series.
 struct GeneralisedKelvin {
   static constexpr const char* name = "generalised_kelvin";
+  static constexpr const char* cracked_name = "generalised_kelvin with crack";
   static constexpr int max_units = 16;
   double E_m = 0;                                        ///< Maxwell spring [Pa], δ included
   double C_m = std::numeric_limits<double>::infinity();  ///< Maxwell dashpot [Pa·s], may be infinite
@@ -104,13 +105,19 @@ struct GeneralisedKelvin {
 
     template <int L, class S, class Units, class Factor = NoFactor>
     MACADAM_HD S advance(S f, S dx, Units&& x, const Factor& factor = {}) const {
-      const int m = L >= 0 ? L : n;
-      S stretched = dx;
-      for (int l = 0; l < m; ++l) stretched += S(recover[l]) * x(l);
-      const S f_new = f + factor * (S(inv_c) * stretched - S(relax) * f);  // model (6.6)
-      const S sum = f_new + f;
-      for (int l = 0; l < m; ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // model (6.6)
+      const S f_new = trial<L>(f, dx, x, factor);
+      follow<L>(f_new + f, x);
       return f_new;  // NOLINT(performance-no-automatic-move): the numbers are in registers
+    }
+    template <int L, class S, class Units, class Factor = NoFactor>
+    MACADAM_HD S trial(S f, S dx, Units&& x, const Factor& factor = {}) const {
+      S stretched = dx;
+      for (int l = 0; l < (L >= 0 ? L : n); ++l) stretched += S(recover[l]) * x(l);
+      return f + factor * (S(inv_c) * stretched - S(relax) * f);  // model (6.6)
+    }
+    template <int L, class S, class Units>
+    MACADAM_HD void follow(S sum, Units&& x) const {
+      for (int l = 0; l < (L >= 0 ? L : n); ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // model (6.6)
     }
     MACADAM_HD R step_stiffness() const { return inv_c; }
   };

@@ -52,15 +52,22 @@
 ///     (equivalent_laws(), spectrum.hpp);
 ///   - `static constexpr int only_units` — units(), if it is always the same number;
 ///   - `Step::coupled = true` — opening and slips of a contact point act on one another. For example, a bond that has
-///     broken under tension has no shear stiffness either. Such a law is not linear, has only_units, and has in place
-///     of advance()
-///     `template <class S, class State> void advance_point(const S (&dx)[3], S d, State&& state) const`. It takes the
-///     increments of the opening and of the slips along s and t, and the contact's distance d [m], so that f/d is the
-///     normal stress and α·f/d a shear stress. state(c, 0) is the f of component c, state(c, 1 + l) its x(l)
-///     (references); it updates all of them;
-///   - `static Break break_of(const double* state)` — for laws whose contact points can break: returns whether and how
+///     broken under tension has no shear stiffness either. Such a law is not linear, has only_units, or
+///     Step::most_units if their number is only known at run time, and has in place of advance()
+///     `template <int L, class S, class State> void advance_point(const S (&dx)[3], S d, State&& state) const`. It
+///     takes the increments of the opening and of the slips along s and t, and the contact's distance d [m], so that
+///     f/d is the normal stress and α·f/d a shear stress. state(c, 0) is the f of component c, state(c, 1 + l) its x(l)
+///     (references); it updates all of them. L is units(), or −1 if it is only known at run time;
+///   - `static constexpr bool needs_double = true` — states in single precision would be too inaccurate. A stepper in
+///     single precision refuses such a law;
+///   - `Break break_of(const double* state) const` — for laws whose contact points can break: returns whether and how
 ///     a point is broken, from its numbers state(0, 0), state(0, 1), …, state(1, 0), … one after another. Such a law is
 ///     coupled. Stepped tests then count broken points (host/run/cracks.hpp);
+///   - `PointCrack crack_of(const double* state) const` — for laws whose contact points crack gradually: returns
+///     opening, damage and energies of a point (crack.hpp) from the same numbers;
+///   - the members that a crack in series with the law needs (cracked.hpp): `static constexpr const char*`
+///     `cracked_name`, `static constexpr int max_units`, and the two parts of advance() as separate functions of Step:
+///     `trial<L>(f, dx, x, factor)` returns f(t+Δt), `follow<L>(sum, x)` updates the unit states from f(t+Δt) + f(t);
 ///   - `struct Block` — M steps taken as one block in which f changes little (without it, a device takes two kernels
 ///     per step), made by
 ///     `Block block(double dt, int M) const` (all double). It has members `rate`, `relax`, `follow`, `static constexpr
@@ -160,7 +167,7 @@ concept Advances = requires(const Step& step, States<R> x) {
 };
 template <class Step, class R>
 concept AdvancesPoints = requires(const Step& step, const R (&dx)[3], States<R> state) {
-  step.advance_point(dx, R(), state);
+  step.template advance_point<-1>(dx, R(), state);
 };
 template <class Step, class R>
 concept HasValue = requires(const Step& step) {
@@ -169,6 +176,10 @@ concept HasValue = requires(const Step& step) {
 template <class L>
 concept HasOnlyUnits = requires {
   { L::only_units } -> std::convertible_to<int>;
+};
+template <class L>
+concept HasMostUnits = requires {
+  { L::template Step<double>::most_units } -> std::convertible_to<int>;
 };
 template <class L>
 concept IsNotLinear = !linear_law<L>;
@@ -183,8 +194,8 @@ concept StepsComponents = Advances<typename L::template Step<R>, R> &&
     (HasMemory<L> || HasValue<typename L::template Step<R>, R>);
 /// The law advances the three components of a point together.
 template <class L, class R>
-concept StepsPoints =
-    AdvancesPoints<typename L::template Step<R>, R> && IsNotLinear<L> && HasOnlyUnits<L> && HasMemory<L>;
+concept StepsPoints = AdvancesPoints<typename L::template Step<R>, R> && IsNotLinear<L> &&
+    (HasOnlyUnits<L> || HasMostUnits<L>)&&HasMemory<L>;
 }  // namespace contract
 
 /// The members that a stepper requires of a law; see the top of the file.

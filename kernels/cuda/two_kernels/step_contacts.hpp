@@ -17,17 +17,17 @@
 namespace macadam::kernels {
 
 /// The functors of the groups of a launch, passed to the kernel by value. `Units`: as in ContactForces; laws without
-/// memory fit any number. `series`: whether some contact has rock in series.
-template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units, bool series>
+/// memory fit any number.
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units, LaunchKind kind>
 struct ContactGroups;
-template <class P, class... L, ContactForm form, Geometry geometry, int Units, bool series>
-struct ContactGroups<P, std::variant<L...>, form, geometry, Units, series> {
+template <class P, class... L, ContactForm form, Geometry geometry, int Units, LaunchKind kind>
+struct ContactGroups<P, std::variant<L...>, form, geometry, Units, kind> {
   struct Group {
     std::uint32_t first_block = UINT32_MAX;  ///< first thread block of this group
     /// first_slot: number of the group's first slot among the slots of all groups. begin, end: the group's slots in
     /// this launch.
     std::uint32_t first_slot = 0, begin = 0, end = 0;
-    AnyFunctor<typename StepFunctor<P, L, form, geometry, Units, series>::type...> functor;
+    AnyFunctor<typename StepFunctor<P, L, form, geometry, Units, kind>::type...> functor;
   };
   Group group[pair_types];
   int groups = 0;
@@ -72,9 +72,9 @@ __global__ void start_clock(const WallClock<R> clock) {
 
 /// Steps every contact of a launch and writes its loads. If walls are driven, the first thread block advances the step
 /// counter of the walls (WallClock) and steps no contact.
-template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units, bool series>
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units, LaunchKind kind>
 __global__ void __launch_bounds__(contact_threads, contact_blocks)
-    step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units, series> groups,
+    step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units, kind> groups,
                   const MotionView<P> motion, const LoadRecords<typename P::Geometry> records,
                   const WallClock<typename P::Particle> clock) {
   std::uint32_t block = blockIdx.x;
@@ -89,8 +89,8 @@ __global__ void __launch_bounds__(contact_threads, contact_blocks)
   });
 }
 
-/// The launches that step all contacts of a device: one for each number of Kelvin units that has its own code. Scenes
-/// with rock in series have kernels of their own, so that other kernels need no registers for it.
+/// The launches that step all contacts of a device: one for each kind and number of Kelvin units that has
+/// its own code.
 template <class P, class AnyLaw>
 class ContactLaunches {
  public:
@@ -101,21 +101,21 @@ class ContactLaunches {
   /// `series`: whether some contact of any group has rock in series.
   template <class Forces>
   void add(const Forces& forces, std::uint32_t first_slot, std::uint32_t begin, std::uint32_t end, bool series) {
-    if constexpr (any_series_law(std::type_identity<AnyLaw>{})) {
+    if constexpr (any_series_law(std::type_identity<AnyLaw>{}) && !Forces::coupled) {
       if (series) return add_to_launch(forces, first_slot, begin, end);
     }
     add_to_launch(forces.without_series(), first_slot, begin, end);
   }
   /// Enqueues the step of all contacts. Only the first launch advances the clock.
   void run(cudaStream_t stream, const MotionView<P>& motion, const Records& records, Clock clock) const {
-    for (const auto& [units, to] : launches_) {
+    for (const auto& [key, to] : launches_) {
       to.run(stream, motion, records, clock);
       clock = {};
     }
   }
   std::vector<KernelUse> kernels() const {
     std::vector<KernelUse> out;
-    for (const auto& [units, to] : launches_) out.push_back(to.use);
+    for (const auto& [key, to] : launches_) out.push_back(to.use);
     return out;
   }
 
@@ -124,9 +124,12 @@ class ContactLaunches {
   void add_to_launch(const ContactForces<P, LawStep, Units, form, geometry, series>& forces, std::uint32_t first_slot,
                      std::uint32_t begin, std::uint32_t end) {
     constexpr int units = LawStep::memoryless ? 3 : Units;  // so that one launch suffices for most scenes
-    using Groups = ContactGroups<P, AnyLaw, form, geometry, units, series>;
-    const auto kernel = step_contacts<P, AnyLaw, form, geometry, units, series>;
-    Launch& to = launches_[units];
+    constexpr LaunchKind kind = coupled_step<LawStep> ? LaunchKind::coupled
+                                : series              ? LaunchKind::series
+                                                      : LaunchKind::plain;
+    using Groups = ContactGroups<P, AnyLaw, form, geometry, units, kind>;
+    const auto kernel = step_contacts<P, AnyLaw, form, geometry, units, kind>;
+    Launch& to = launches_[{units, kind}];
     if (!to.groups) to.groups = std::make_shared<Groups>();
     auto groups = std::static_pointer_cast<Groups>(to.groups);
     groups->add(first_slot, begin, end, forces);
@@ -143,7 +146,7 @@ class ContactLaunches {
     KernelUse use;
     std::function<void(cudaStream_t, const MotionView<P>&, const Records&, const Clock&)> run;
   };
-  std::map<int, Launch> launches_;
+  std::map<std::pair<int, LaunchKind>, Launch> launches_;  ///< by number of units and kind
 };
 
 }  // namespace macadam::kernels

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// crack_scene_test.cpp  Tests how scenes give pairs of materials a crack: values, defaults, and messages about wrong
+// values.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "macadam/macadam.hpp"
+#include "tests/support/test_files.hpp"
+#include "tests/support/test_networks.hpp"
+
+namespace macadam::test {
+namespace {
+
+/// Returns a scene whose pair has the lines `law` and the key `crack` with these values.
+std::string with_crack(const std::string& values, const std::string& pair = "M-M",
+                       const std::string& law = "law = \"elastic\"\nE = 1e10\nalpha = 0.1\n") {
+  return "[specimen]\nfile = \"balls.csv\"\nbox = [0.01, 0.01, 0.01]\n[materials.mastic]\ndensity = 2000\n"
+         "[[contacts]]\npair = \"" +
+         pair + "\"\n" + law + "crack = { " + values +
+         " }\n[loading]\nkind = \"cyclic\"\nfrequencies = [1.0]\n[solver]\nmethod = \"explicit\"\n";
+}
+Scene scene_of(const std::string& text) { return read_scene("scene.toml", text); }
+const Law& law_of(const Scene& scene, PairType pair) { return scene.laws[static_cast<std::size_t>(pair)].value(); }
+const laws::Crack& crack_of(const Scene& scene) {
+  return std::get<laws::Cracked<laws::Elastic>>(law_of(scene, PairType::mm)).crack;
+}
+std::string refusal(const std::string& values) {
+  return message_of([&] { scene_of(with_crack(values)); });
+}
+
+TEST(CrackScene, LeftOutValuesFollowFromTheOthers) {
+  const Scene scene = scene_of(with_crack("tensile_strength = \"2 MPa\", fracture_energy = 200"));
+  const laws::Crack& crack = crack_of(scene);
+  EXPECT_EQ(crack.tensile_strength, 2e6);
+  EXPECT_EQ(crack.shear_strength, 4e6);
+  EXPECT_EQ(crack.fracture_energy, 200);
+  EXPECT_EQ(crack.shear_fracture_energy, 200);
+  EXPECT_EQ(crack.friction, 0);
+  EXPECT_EQ(crack.residual_friction, 0);
+  EXPECT_EQ(crack.softening, laws::Softening::linear);
+  EXPECT_STREQ(facts_of(scene.laws)[static_cast<std::size_t>(PairType::mm)]->name, "elastic with crack");
+}
+
+TEST(CrackScene, EveryValueIsRead) {
+  const laws::Crack crack = crack_of(scene_of(
+      with_crack("tensile_strength = 1e6, fracture_energy = \"0.1 kJ/m2\", shear_strength = \"1.5 MPa\", "
+                 "shear_fracture_energy = \"0.3 N/mm\", softening = \"bilinear\", kink = [0.7, 0.25], friction = 0.5, "
+                 "residual_friction = 0.4")));
+  EXPECT_EQ(crack.fracture_energy, 100);
+  EXPECT_EQ(crack.shear_strength, 1.5e6);
+  EXPECT_EQ(crack.shear_fracture_energy, 300);
+  EXPECT_EQ(crack.softening, laws::Softening::bilinear);
+  EXPECT_EQ(crack.kink_opening, 0.7);
+  EXPECT_EQ(crack.kink_stress, 0.25);
+  EXPECT_EQ(crack.friction, 0.5);
+  EXPECT_EQ(crack.residual_friction, 0.4);
+  EXPECT_EQ(crack_of(scene_of(with_crack("tensile_strength = 1e6, softening = \"brittle\""))).fracture_energy, 0);
+  EXPECT_EQ(
+      crack_of(scene_of(with_crack("tensile_strength = 1e6, fracture_energy = 9, friction = 0.3"))).residual_friction,
+      0.3);
+}
+
+// A crack changes neither the chain nor its shift with temperature, and `delta` does not change the crack.
+TEST(CrackScene, AKelvinChainKeepsItsValues) {
+  const Scene scene = scene_of(with_crack("tensile_strength = 1e6, fracture_energy = 50", "M-A",
+                                          "law = \"generalised_kelvin\"\nE_m = 1e10\nC_m = 1e9\nE = [1e9]\nC = "
+                                          "[1e8]\nalpha = 0.1\ndelta = 2.0\n"));
+  const auto& law = std::get<laws::Cracked<laws::GeneralisedKelvin>>(law_of(scene, PairType::ma));
+  EXPECT_EQ(law.E_m, 2e10);
+  EXPECT_EQ(law.E.at(0), 2e9);
+  EXPECT_EQ(law.alpha, 0.1);
+  EXPECT_EQ(law.crack.tensile_strength, 1e6);
+  EXPECT_EQ(law.units(), 3);
+}
+
+TEST(CrackScene, WrongValuesAreRefused) {
+  const std::string energy = ", fracture_energy = 50", strength = "tensile_strength = 1e6";
+  EXPECT_HAS(refusal("fracture_energy = 50"), "tensile_strength");
+  EXPECT_HAS(refusal("tensile_strength = 2" + energy), "1000 Pa or more; a strength in another unit is text");
+  EXPECT_HAS(refusal("tensile_strength = 0" + energy), "found 0, expected 1000 Pa or more");
+  EXPECT_HAS(refusal("tensile_strength = \"-2 MPa\"" + energy), "a positive number");
+  EXPECT_HAS(refusal("tensile_strength = nan" + energy), "a finite number");
+  EXPECT_HAS(refusal("tensile_strength = \"2 mm\"" + energy), "Pa, kPa, MPa, GPa");
+  EXPECT_HAS(refusal(strength), "softening = \"brittle\", which needs no fracture energy");
+  EXPECT_HAS(refusal(strength + ", fracture_energy = 0.2"), "1 J/m2 or more");
+  EXPECT_HAS(refusal(strength + ", fracture_energy = \"0 J/m2\""), "a positive number");
+  EXPECT_HAS(refusal(strength + ", fracture_energy = nan"), "a finite number");
+  EXPECT_HAS(refusal(strength + ", fracture_energy = inf"), "a finite number");
+  EXPECT_HAS(refusal(strength + ", fracture_energy = \"50 J\""), "J/m2");
+  EXPECT_HAS(refusal(strength + energy + ", softening = \"brittle\""), "no fracture energy, or another softening");
+  EXPECT_HAS(refusal(strength + energy + ", softening = \"cubic\""), "linear");
+  EXPECT_HAS(refusal(strength + energy + ", friction = -0.1"), "from 0 to 5, not an angle");
+  EXPECT_HAS(refusal(strength + energy + ", friction = 30"), "from 0 to 5, not an angle");
+  EXPECT_HAS(refusal(strength + energy + ", friction = 0.3, residual_friction = 0.4"), "at most friction = 0.3");
+  EXPECT_HAS(refusal(strength + energy + ", kink = [0.8, 0.3]"), "only with softening = \"bilinear\"");
+  const std::string bilinear = strength + energy + ", softening = \"bilinear\", kink = ";
+  EXPECT_HAS(refusal(bilinear + "[0.8]"), "two numbers");
+  EXPECT_HAS(refusal(bilinear + "[0.8, 1.5]"), "from which the curve falls to 0");
+  EXPECT_HAS(refusal(bilinear + "[1.9, 0.9]"), "from which the curve falls to 0");
+  EXPECT_HAS(refusal(strength + energy + ", frictoin = 0.3"), "friction");
+}
+
+TEST(CrackScene, OnlyPairsOfParticlesWithTwoLawsCrack) {
+  const std::string values = "tensile_strength = 1e6, fracture_energy = 50";
+  const auto message = [&](const std::string& pair, const std::string& law) {
+    return message_of([&] { scene_of(with_crack(values, pair, law)); });
+  };
+  const std::string elastic = "law = \"elastic\"\nE = 1e10\nalpha = 0.1\n";
+  for (const char* pair : {"M-W", "A-W"})
+    EXPECT_HAS(message(pair, elastic), "only for pairs of two particles, because contacts with a wall do not crack");
+  for (const char* pair : {"M-A", "A-A", "inner"}) EXPECT_EQ(message(pair, elastic), "nothing was thrown");
+  EXPECT_HAS(message("M-M", "law = \"brittle_bond\"\nE = 1e10\ntensile_strength = 1e6\n"), "crack");
+}
+
+// The error names the pair, its longest contact, the least energy, and the reason.
+TEST(CrackScene, TooLittleFractureEnergyIsRefusedForTheLongestContact) {
+  HandMade made = cubic_lattice_network(1, 1, 3, 2e-3, 1e-5);
+  const auto message = [&](const std::string& values, const std::string& alpha) {
+    const std::string law = "law = \"elastic\"\nE = 1e10\nalpha = " + alpha + "\n";
+    Scene scene = scene_of(with_crack(values, "M-M", law));
+    scene.laws[static_cast<std::size_t>(PairType::mw)] = laws::Elastic{1e10, 0};
+    return message_of([&] { require_laws(scene, made.specimen, made.network); });
+  };
+  // G_f > f_t²·d/(2E)·β_c·β_w/α = 0.4 J/m²·40
+  const std::string sixteen = message("tensile_strength = \"2 MPa\", fracture_energy = 15.9", "0.1");
+  EXPECT_HAS(sixteen, "fracture_energy in crack of pair M-M");
+  EXPECT_HAS(sixteen, "found 15.9 J/m2, expected more than 16 J/m2, which contact ");
+  EXPECT_HAS(sixteen, "shear decides: beta_c*beta_w/alpha = 2*2/0.1 = 40");
+  EXPECT_EQ(message("tensile_strength = \"2 MPa\", fracture_energy = 16.1", "0.1"), "nothing was thrown");
+  EXPECT_HAS(message("tensile_strength = \"2 MPa\", fracture_energy = \"0.39 J/m2\"", "5.0"), "tension decides");
+  EXPECT_EQ(message("tensile_strength = \"2 MPa\", fracture_energy = \"0.41 J/m2\"", "5.0"), "nothing was thrown");
+  EXPECT_HAS(message("tensile_strength = \"2 MPa\", fracture_energy = 31, softening = \"exponential\"", "0.1"),
+             "more than 32 J/m2");
+  EXPECT_EQ(message("tensile_strength = \"2 MPa\", softening = \"brittle\"", "0.1"), "nothing was thrown");
+  made.network.contacts[1].length *= 2;
+  EXPECT_HAS(message("tensile_strength = \"2 MPa\", fracture_energy = 31", "0.1"), "more than 32 J/m2");
+}
+
+}  // namespace
+}  // namespace macadam::test
