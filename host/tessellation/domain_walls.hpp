@@ -41,8 +41,8 @@ struct WallPlane {
   /// Sets `polygon` to the wall's rectangle, counter-clockwise about the outward normal. `margin`: length by which the
   /// rectangle is wider than the box on all sides [m].
   void rectangle(const Vec3d& box, Polygon& polygon, double margin = 0) const {
-    const double u1 = box.*u + margin, v1 = box.*v + margin;
-    const std::array<std::pair<double, double>, 4> corner{{{-margin, -margin}, {u1, -margin}, {u1, v1}, {-margin, v1}}};
+    const double low = 0 - margin, u1 = box.*u + margin, v1 = box.*v + margin;  // -margin could be -0
+    const std::array<std::pair<double, double>, 4> corner{{{low, low}, {u1, low}, {u1, v1}, {low, v1}}};
     polygon.assign(4, {});
     for (int c = 0; c < 4; ++c) {
       polygon[c].*coordinate = position;
