@@ -24,7 +24,7 @@ Reader box_into(Domain& box) {
 /// Returns the name of the domain of `[specimen]` before its other keys are read, because it decides which of them
 /// give the dimensions. Refuses dimensions of another domain.
 std::string domain_of(const Section& section) {
-  const std::vector<std::string> names{domains::Box::name, domains::Cylinder::name};
+  const std::vector<std::string> names = domains::shape_names();
   std::string name = names.front();
   if (section.has("domain")) name = names[section.find("domain")->choice(names)];
   if (name == domains::Cylinder::name && section.has("box"))
@@ -53,7 +53,7 @@ std::vector<Key> keys_of_domain(const Section& section, double& diameter, double
   return {
       {"domain",
        Need::optional,
-       {no_more, {"one of", nullptr, "", R"("box")", {domains::Box::name, domains::Cylinder::name}}},
+       {no_more, {"one of", nullptr, "", R"("box")", domains::shape_names()}},
        "shape of the specimen; it determines which keys give the dimensions"},
       {"box", box, box_into(domain), "edge lengths x, y, z; one corner is the origin, z is vertical"},
       {"diameter",

@@ -51,8 +51,8 @@ std::string point(const Vec3d& v) { return "(" + shown(v.x) + ", " + shown(v.y) 
 std::optional<SpecimenFault> fault_of_arrays(const Specimen& s) {
   for (double edge : {s.box.size.x, s.box.size.y, s.box.size.z})
     if (!(std::isfinite(edge) && edge > 0)) return SpecimenFault{-1, "box", point(s.box.size), "positive edges"};
-  if (!s.box.is_box() && s.box.size.x != s.box.size.y)
-    return SpecimenFault{-1, "bounding box of the cylinder", point(s.box.size), "equal edges along x and y"};
+  if (const char* expected = s.box.expected_size())
+    return SpecimenFault{-1, std::string("bounding box of the ") + s.box.name(), point(s.box.size), expected};
   const std::size_t n = s.size();
   if (n == 0) return SpecimenFault{-1, "particles", "0", "at least 1"};
   if (s.cells() > static_cast<std::size_t>(most_particles))

@@ -118,8 +118,7 @@ Specimen specimen_of(const nb::tuple& spheres) {
   const auto box = nb::cast<std::array<double, 3>>(spheres[0]);
   Specimen out;
   out.box.size = {box[0], box[1], box[2]};
-  if (spheres.size() > 9 && nb::cast<std::string>(spheres[9]) == domains::Cylinder::name)
-    out.box.shape = domains::Cylinder{};
+  if (spheres.size() > 9) out.box.shape = domains::shape_named(nb::cast<std::string>(spheres[9])).value();
   out.centre = vectors(at(1), "centre");
   out.radius = numbers(at(2), "radius");
   for (const std::int32_t p : whole_numbers(at(3), "phase")) out.phase.push_back(static_cast<Phase>(p));

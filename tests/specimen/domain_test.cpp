@@ -112,6 +112,14 @@ TEST(Domain, PlanesOfTheSideStandForTheCircle) {
   }
 }
 
+TEST(Domain, ShapesHaveNames) {
+  EXPECT_EQ(domains::shape_names(), (std::vector<std::string>{"box", "cylinder"}));
+  EXPECT_TRUE(std::holds_alternative<domains::Cylinder>(domains::shape_named("cylinder").value()));
+  EXPECT_FALSE(domains::shape_named("sphere"));
+  EXPECT_EQ(cylinder.expected_size(), nullptr);
+  EXPECT_NE((Domain{{1, 2, 3}, domains::Cylinder{}}).expected_size(), nullptr);
+}
+
 TEST(Domain, SidesAreAskedForWithAnInset) {
   EXPECT_TRUE(box.inside_sides({0, 0, 0}, 1));
   EXPECT_TRUE(cylinder.inside_sides({1.5, 1, 0}, 0.5));

@@ -55,6 +55,8 @@ struct Box {
     return {inside(p.x, size.x), inside(p.y, size.y), inside(p.z, size.z)};
   }
 
+  const char* expected_size(const Vec3d& /*size*/) const { return nullptr; }
+
   std::string dimensions(const Vec3d& size) const {
     char text[160];
     std::snprintf(text, sizeof text, "box of %g x %g x %g m", size.x, size.y, size.z);

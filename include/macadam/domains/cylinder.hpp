@@ -73,6 +73,10 @@ struct Cylinder {
     return {r + shrink * (p.x - r), r + shrink * (p.y - r), std::clamp(p.z, 1e-3 * size.z, 0.999 * size.z)};
   }
 
+  const char* expected_size(const Vec3d& size) const {
+    return size.x == size.y ? nullptr : "equal edges along x and y, because the section is a circle";
+  }
+
   std::string dimensions(const Vec3d& size) const {
     char text[160];
     std::snprintf(text, sizeof text, "cylinder with a diameter of %g m and a height of %g m", size.x, size.z);

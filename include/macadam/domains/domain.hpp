@@ -72,6 +72,10 @@ struct Domain {
   Vec3d pulled_inside(const Vec3d& p) const {
     return ask([&](const auto& s) { return s.pulled_inside(size, p); });
   }
+  /// Returns the condition that the edges of the bounding box violate; a null pointer if they are right.
+  const char* expected_size() const {
+    return ask([&](const auto& s) { return s.expected_size(size); });
+  }
   /// Returns kind and dimensions for messages, such as "box of 1 x 2 x 3 m".
   std::string dimensions() const {
     return ask([&](const auto& s) { return s.dimensions(size); });

@@ -36,6 +36,7 @@ struct Overlap {
 /// - `wall_name(k)`: name of this wall in messages;
 /// - `overlap(size, centre, radius)` of a sphere with the walls;
 /// - `pulled_inside(size, p)`: the point, moved inside if it lies beyond the surface or too near it;
+/// - `expected_size(size)`: condition that the edges of the bounding box violate; a null pointer if they are right;
 /// - `dimensions(size)`: kind and dimensions, for messages, such as "box of 1 x 2 x 3 m".
 template <class S>
 concept DomainShape = requires(const S& s, const Vec3d& v, int k, double length) {
@@ -48,6 +49,7 @@ concept DomainShape = requires(const S& s, const Vec3d& v, int k, double length)
   { s.wall_name(k) } -> std::convertible_to<const char*>;
   { s.overlap(v, v, length) } -> std::same_as<Overlap>;
   { s.pulled_inside(v, v) } -> std::same_as<Vec3d>;
+  { s.expected_size(v) } -> std::convertible_to<const char*>;
   { s.dimensions(v) } -> std::same_as<std::string>;
 };
 
