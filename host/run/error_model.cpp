@@ -54,7 +54,7 @@ double angle_lost(const RoundingScale& s) { return roundoff * static_cast<double
 
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency) {
   const double omega = 2 * std::numbers::pi * frequency;
-  const double height = prepared.specimen.box.size.z;
+  const double height = gauge_length(prepared.specimen);
   const double density = std::max(scene.materials.aggregate, scene.materials.mastic);
   // E is taken as a third of the softest stiffness, so 3·E in the denominator is the softest stiffness
   return omega * omega * height * height * density / stiffness_range(scene, prepared, omega).first;
@@ -65,7 +65,7 @@ RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, do
   double distances = 0;
   for (const Contact& c : prepared.network.contacts) distances += c.distance;
   const auto [softest, stiffest] = stiffness_range(scene, prepared, 2 * std::numbers::pi * frequency);
-  return {steps, prepared.specimen.box.size.z * static_cast<double>(prepared.network.contacts.size()) / distances,
+  return {steps, gauge_length(prepared.specimen) * static_cast<double>(prepared.network.contacts.size()) / distances,
           stiffest / softest, density_scaling * inertia_estimate(scene, prepared, frequency)};
 }
 

@@ -90,11 +90,12 @@ std::string written(const std::vector<KnownKey>& keys, const Part& part) {
   return out;
 }
 
-const std::vector<std::string> of_generator = {"file", "aggregate_file"};
+/// Keys that are not offered beside the box of a generated specimen.
+const std::vector<std::string> not_with_box = {"domain", "diameter", "height", "file", "aggregate_file"};
 const std::vector<Given> box = {{"box", R"(["20 mm", "20 mm", "30 mm"])"}, {"seed", "1"}};
 
 std::vector<Part> specimen_by_volume(bool shapes) {
-  std::vector<Part> out{{"[specimen]", box, "", true, of_generator}};
+  std::vector<Part> out{{"[specimen]", box, "", true, not_with_box}};
   if (shapes)
     out.push_back({"[specimen.shapes]",
                    {{"library", R"("aggregates")"}, {"radius", R"(["0.75 mm", "1 mm"])"}, {"porosity", "0.12"}},
@@ -116,7 +117,7 @@ std::vector<Part> specimen_by_volume(bool shapes) {
 }
 
 std::vector<Part> specimen_by_mass() {
-  return {{"[specimen]", {{"box", R"(["30 mm", "30 mm", "40 mm"])"}, {"seed", "1"}}, "", true, of_generator},
+  return {{"[specimen]", {{"box", R"(["30 mm", "30 mm", "40 mm"])"}, {"seed", "1"}}, "", true, not_with_box},
           {"[specimen.recipe]",
            {{"gradation",
              R"([["19 mm", "100 %"], ["12.5 mm", "83.7 %"], ["9.5 mm", "71.2 %"], ["4.75 mm", "47.8 %"],

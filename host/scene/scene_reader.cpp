@@ -106,6 +106,10 @@ void check_together(const Scene& scene, const Section& root) {
     root.find("network")->section().refuse("quadrature", "\"exact\" with form = \"points\" in [solver]",
                                            "\"lumped\", or form = \"condensed\"");
   }
+  if (scene.network.lateral_walls && !scene.specimen.box.is_box()) {
+    root.find("network")->section().refuse("lateral_walls", "true with domain = \"cylinder\" in [specimen]",
+                                           "false, because the curved side of a cylinder is free");
+  }
   if (scene.output.fields.any() && !has_fields(scene)) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
                                           "kind = \"cyclic\" or \"sweep\", or method = \"explicit\" in [solver]");

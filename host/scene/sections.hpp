@@ -19,6 +19,11 @@ toml::table parse_toml(const std::string& text, const std::filesystem::path& fil
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
                            std::optional<MixDesign>& recipe);
 
+/// Returns the keys of `[specimen]` that give the domain, to be read before all keys that depend on it. `diameter` and
+/// `height` keep the dimensions of a cylinder while the keys are read. \throws InputError for an unknown kind of
+/// domain, or for dimensions of another kind
+std::vector<Key> keys_of_domain(const Section& section, double& diameter, double& height, Domain& domain);
+
 /// Reads `[specimen.recipe]`.
 /// \throws InputError
 MixDesign read_recipe(const Section& section);

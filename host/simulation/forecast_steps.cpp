@@ -70,7 +70,7 @@ StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
   } else {  // the error of inertia is estimated as a part of ρω²H²/|E*|; a run computes it
     constexpr double inertia_error = 0.3;
     const double density = std::max(scene.materials.mastic, scene.materials.aggregate);
-    const double turn = 2 * std::numbers::pi * out.frequency_hz * scene.specimen.box.size.z;
+    const double turn = 2 * std::numbers::pi * out.frequency_hz * gauge_length(scene.specimen.box);
     out.density_scaling =
         std::max(1.0, aimed_part * inertia_part * *solver.tolerance * modulus_at(scene, out.frequency_hz) /
                           (inertia_error * density * turn * turn));
@@ -97,7 +97,7 @@ StepForecast load_steps(const Scene& scene, double critical) {
   StepForecast out;
   out.density_scaling = density_scaling_of(scene.solver, 0);
   const double density = out.density_scaling * std::max(scene.materials.mastic, scene.materials.aggregate);
-  const double slowest = slowest_period(test, scene.specimen.box.size.z, affine_modulus(scene), density);
+  const double slowest = slowest_period(test, gauge_length(scene.specimen.box), affine_modulus(scene), density);
   const double ramp = ramp_of(test, slowest);
   const LoadDamping damping = damping_of(test, scene.solver, ramp, slowest);
   out.dt_s = load_step(test, scene.solver, critical, out.density_scaling, ramp, damping);

@@ -71,6 +71,12 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["voids"] = prepared.specimen.voids.size();
   const Vec3d& size = prepared.specimen.box.size;
   out["box_m"] = {size.x, size.y, size.z};
+  if (!prepared.specimen.box.is_box()) {
+    out["domain"] = {{"shape", prepared.specimen.box.name()},
+                     {"section_m2", section_area(prepared.specimen)},
+                     {"gauge_length_m", gauge_length(prepared.specimen)},
+                     {"volume_m3", prepared.specimen.box.volume()}};
+  }
   for (const PairType pair : {PairType::aa, PairType::ma, PairType::mm, PairType::inner, PairType::aw, PairType::mw}) {
     out["contacts"][to_string(pair)] = prepared.network.count[static_cast<std::size_t>(pair)];
   }

@@ -141,7 +141,11 @@ void bind_scene(nb::module_& m) {
       .def_prop_ro(
           "seed", [](const GivenScene& s) { return s.specimen.seed; }, "Seed of a generated specimen.")
       .def_prop_ro(
-          "box", [](const GivenScene& s) { return triple(s.specimen.box.size); }, "Edge lengths of the box [m].")
+          "box", [](const GivenScene& s) { return triple(s.specimen.box.size); },
+          "Edge lengths of the bounding box [m].")
+      .def_prop_ro(
+          "domain", [](const GivenScene& s) { return s.specimen.box.name(); },
+          "Shape of the specimen: box or cylinder.")
       .def_prop_ro(
           "recipe", &recipe_of,
           "Properties of a recipe by mass, or None: densities [kg/m³]; air voids, VMA, VFB, binder contents, and the "

@@ -56,7 +56,7 @@ class LoadPlanner {
     double mass = 0;
     for (const double m : inertia_.mass) mass += m;
     const double modulus = affine_modulus(prepared_.network, facts_of(scene_.laws), box.volume());
-    return slowest_period(test_, box.size.z, modulus, plan_.density_scaling * mass / box.volume());
+    return slowest_period(test_, gauge_length(box), modulus, plan_.density_scaling * mass / box.volume());
   }
 
   void choose_ramp(double slowest) {

@@ -134,6 +134,10 @@ def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pain
     for a, b in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):
         rim[a] |= (body[a] != body[b]) & (body[a] >= 0) & (body[b] >= 0)
     picture[rim] *= 0.45
+    if (folder.summary.get("domain") or {}).get("shape") == "cylinder":
+        at = {u: along[0][None, :], v: along[1][:, None], axis: np.array([[value]])}
+        outside = np.hypot(at[0] - box[0] / 2, at[1] - box[1] / 2) > box[0] / 2
+        picture[np.broadcast_to(outside, body.shape)] = 1  # white
     return picture
 
 
