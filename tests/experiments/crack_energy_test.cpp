@@ -44,7 +44,7 @@ TEST_F(CrackEnergy, RisesToTheFractureEnergyOfTheFacet) {
   const auto& found = std::get<SteppedResponse>(result.found);
   ASSERT_TRUE(found.rupture);
   ASSERT_TRUE(found.peak);
-  // The stress jumps to the load's rate, and its waves add some percent to the peak
+  // The test starts with the velocities of the strain rate, but the cracking facet causes waves of some percent
   EXPECT_NEAR(found.peak->stress_pa, strength, 0.1 * strength);
   double before = 0;
   for (const SteppedPoint& p : found.points) {
