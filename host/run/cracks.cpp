@@ -109,7 +109,10 @@ void CrackWatch::sum(const std::vector<laws::PointCrack>& cracks) {
       now.friction_energy_j += cracks[point].friction * area;
     }
   }
-  for (const PairCracks& pair : found_.by_pair) now.cracked += pair.cracked;
+  for (std::size_t i = 0; i < pair_types; ++i) {
+    now.cracked += found_.by_pair[i].cracked;
+    now.cracked_area_m2[i] = found_.by_pair[i].cracked_area_m2;
+  }
   found_.sums = now;
 }
 

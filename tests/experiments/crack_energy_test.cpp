@@ -75,6 +75,8 @@ TEST_F(CrackEnergy, RisesToTheFractureEnergyOfTheFacet) {
   EXPECT_EQ(test.at("work_of_fracture_j"), found.points.back().energies.work_j);
   EXPECT_TRUE(test.at("energy_error").is_null()) << "the energy of damping is the remainder of the balance";
   EXPECT_EQ(all.at("cracks").at("M-M").at("cracked_points"), 5);
+  EXPECT_EQ(last.at("cracked_area_m2").size(), 1u);
+  EXPECT_NEAR(last.at("cracked_area_m2").at("M-M"), area, 1e-12 * area);
   EXPECT_NEAR(all.at("cracks").at("M-M").at("cracked_area_m2"), area, 1e-12 * area);
 
   // One contact of five points has separated; the faces are as far apart as the crack is open

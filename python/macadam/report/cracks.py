@@ -46,7 +46,7 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def _energies(folder: Folder) -> tuple[Any, str]:
-    """Draws the energies as a stack (left) and the area of broken points by pair (right). Returns figure and
+    """Draws the energies as a stack (left) and the cracked and broken area by pair (right). Returns figure and
     caption."""
     points = folder.in_time["points"]
     strain = np.array([1e6 * p["strain"] for p in points])
@@ -61,12 +61,16 @@ def _energies(folder: Folder) -> tuple[Any, str]:
     handles, labels = left.get_legend_handles_labels()
     left.legend(handles[::-1], labels[::-1], loc="upper left")
     drawn = _area(folder, right, strain)
-    right.set(xlabel="strain (µm/m)", ylabel="area of broken points (mm²)")
+    right.set(xlabel="strain (µm/m)", ylabel="area of contact points (mm²)")
     right.set_ylim(bottom=0)
     if drawn:
         right.legend()
     words = "Left: the work of the walls (dashed) and the energies that it became, one above the other. "
-    words += "Right: area of the broken points, by pair of materials." if drawn else "Right: no contact point broke."
+    words += (
+        "Right: area of the points that have begun to crack (dashed) and that are broken, by pair of materials."
+        if drawn
+        else "Right: no contact point cracked."
+    )
     error = folder.in_time.get("energy_error")
     if error is not None:
         words += f" The sum of the energies differs from the work by at most {look.percent(error, 2)} of the work."
@@ -82,17 +86,25 @@ def _known(points: list[dict[str, Any]], key: str) -> bool:
 
 
 def _area(folder: Folder, axes: Any, strain: np.ndarray) -> bool:
-    """Draws the area of the broken points over the strain at which they broke. Returns whether any point broke."""
-    broken = {pair: c for pair, c in (folder.summary.get("cracks") or {}).items() if c["points"]}
-    if not broken or not folder.has("cracks.csv"):
-        return False
-    table = folder.table("cracks.csv", ["pair", "area_m2", "time_s"])
-    times = np.array([p["time_s"] for p in folder.in_time["points"]])
-    for pair in broken:
-        rows = table[table["pair"] == pair]
-        by_time = [1e6 * rows.loc[rows["time_s"] <= t * (1 + 1e-9), "area_m2"].sum() for t in times]
-        axes.plot(strain, by_time, color=look.PAIRS.get(pair, look.INK), label=pair)
-    return True
+    """Draws the area of the points that have begun to crack (dashed) and of those that are broken (solid), by pair.
+    Returns whether any point has begun to crack."""
+    points = folder.in_time["points"]
+    pairs = [pair for pair, area in points[-1].get("cracked_area_m2", {}).items() if area > 0]
+    broken = folder.table("cracks.csv", ["pair", "area_m2", "time_s"]) if _breaks(folder) else None
+    times = np.array([p["time_s"] for p in points])
+    for pair in pairs:
+        colour = look.PAIRS.get(pair, look.INK)
+        axes.plot(strain, [1e6 * p["cracked_area_m2"][pair] for p in points], color=colour, ls="--", lw=1)
+        rows = broken[broken["pair"] == pair] if broken is not None else None
+        by_time = np.zeros(len(times)) if rows is None else [
+            1e6 * rows.loc[rows["time_s"] <= t * (1 + 1e-9), "area_m2"].sum() for t in times
+        ]  # fmt: skip
+        axes.plot(strain, by_time, color=colour, label=pair)
+    return bool(pairs)
+
+
+def _breaks(folder: Folder) -> bool:
+    return folder.has("cracks.csv") and any(c["points"] for c in (folder.summary.get("cracks") or {}).values())
 
 
 def chords(
