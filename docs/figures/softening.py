@@ -49,7 +49,7 @@ def draw_curves(axes):
     axes.plot([0, 0, 4.2], [1, 0, 0], color="#aa3377", linewidth=2.6, linestyle=":", clip_on=False, zorder=3,
               label="brittle")
     axes.legend(frameon=False, fontsize=9)
-    axes.set_title("Softening curves with the same strength\nand, but for brittle, the same energy", fontsize=10)
+    axes.set_title("Softening curves with the same strength\nand, except for brittle, the same energy", fontsize=10)
 
 
 def draw_cycle(axes):
