@@ -90,7 +90,8 @@ void bind_states(nb::module_& m) {
             static_assert(sizeof(laws::PointCrack) == 5 * sizeof(double), "a row of the array is one PointCrack");
             return view(s.point_cracks.empty() ? nullptr : &s.point_cracks.front().opening, {s.point_cracks.size(), 5});
           },
-          "Crack of each contact point, one contact after the other, (points, 5): opening and slip [m], damage from 0 to "
+          "Crack of each contact point, one contact after the other, (points, 5): opening and slip [m], damage from 0 "
+          "to "
           "1, crack energy and work of friction per area [J/m²]; empty if no law has a crack.");
 }
 
