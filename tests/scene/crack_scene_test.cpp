@@ -120,7 +120,7 @@ TEST(CrackScene, ExampleOfTensionHasCracksBetweenParticles) {
     EXPECT_TRUE(facts[static_cast<std::size_t>(pair)]->cracks) << to_string(pair);
   for (const PairType pair : {PairType::mw, PairType::aw})
     EXPECT_FALSE(facts[static_cast<std::size_t>(pair)]->cracks) << to_string(pair);
-  EXPECT_EQ(kind_of(scene.experiment), "monotonic");
+  EXPECT_STREQ(kind_of(scene.experiment), "monotonic");
   EXPECT_FALSE(scene.solver.damping_given) << "the balance of energies can be checked only without damping";
 }
 
