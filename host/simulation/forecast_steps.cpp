@@ -99,7 +99,7 @@ StepForecast load_steps(const Scene& scene, double critical) {
   const double density = out.density_scaling * std::max(scene.materials.mastic, scene.materials.aggregate);
   const double slowest = slowest_period(test, gauge_length(scene.specimen.box), affine_modulus(scene), density);
   const double ramp = ramp_of(test, slowest);
-  const LoadDamping damping = damping_of(test, scene.solver, ramp, slowest);
+  const LoadDamping damping = damping_of(test, scene.solver, facts_of(scene.laws), ramp, slowest);
   out.dt_s = load_step(test, scene.solver, critical, out.density_scaling, ramp, damping);
   out.steps = std::round(test.history.times.back() / out.dt_s);
   return out;

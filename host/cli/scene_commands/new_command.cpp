@@ -23,6 +23,7 @@ struct NewArguments {
   std::string file = "scene.toml", test = "cyclic";
   scene::NewKind kind = scene::NewKind::recipe;
   ContactRule rule = ContactRule::centres;
+  bool cracks = false;
 };
 
 /// Writes a new file. \throws InputError if a file of this name exists, even if it was made a moment ago.
@@ -48,7 +49,7 @@ void write_new(const std::string& file, const std::string& text) {
 }
 
 void new_command(const NewArguments& arguments) {
-  write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test, arguments.rule));
+  write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test, arguments.rule, arguments.cracks));
   say("{} is written. Edit it, then run:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)
     say("  put specimen.csv (id,x,y,z,radius,phase,body) into the same folder, and write the edge lengths of its box "
@@ -75,8 +76,10 @@ void add_new_command(CLI::App& app) {
   add_choice(command, "--rule", arguments->rule,
              "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow",
              {{"centres", ContactRule::centres}, {"series", ContactRule::series}});
-  add_examples(command, {"macadam new mix.toml", "macadam new --kind shapes --test sweep mix.toml",
-                         "macadam new --rule series mix.toml"});
+  command.add_flag("--cracks", arguments->cracks,
+                   "contacts between particles crack, for a strength test (--test monotonic)");
+  add_examples(command, {"macadam new mix.toml", "macadam new --kind spheres --test monotonic --cracks mix.toml",
+                         "macadam new --kind shapes --test sweep mix.toml", "macadam new --rule series mix.toml"});
   command.callback([arguments] { new_command(*arguments); });
 }
 
