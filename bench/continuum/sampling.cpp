@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phase_fractions.cpp  Samples bodies along vertical lines, and Laguerre cells at points of voxels.
-#include "bench/continuum/phase_fractions.hpp"
+// sampling.cpp  Samples bodies along vertical lines, and Laguerre cells at points of voxels.
+#include "bench/continuum/sampling.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "macadam/specimen.hpp"
 
-namespace continuum {
+namespace macadam::continuum {
 namespace {
 
 constexpr int lines = 8;    ///< vertical lines per edge of a voxel
@@ -84,11 +83,6 @@ unsigned char phase_at(const std::vector<Sphere>& spheres, const Point& at) {
 }
 
 }  // namespace
-
-double PhaseFractions::mean_rock() const { return std::accumulate(rock.begin(), rock.end(), 0.0) / (area * size.z); }
-double PhaseFractions::mean_voids() const {  // the specimen's volume without rock and mastic
-  return 1 - (double(size.elements()) - std::accumulate(voids.begin(), voids.end(), 0.0)) / (area * size.z);
-}
 
 PhaseFractions mastic_in(const Point& box, double voxel) {
   PhaseFractions out;
@@ -191,4 +185,4 @@ PhaseFractions of_layers(int axis, const Point& box, double voxel) {
   return out;
 }
 
-}  // namespace continuum
+}  // namespace macadam::continuum

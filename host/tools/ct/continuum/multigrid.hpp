@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "bench/continuum/grid.hpp"
+#include "host/tools/ct/continuum/grid.hpp"
 
-namespace continuum {
+namespace macadam::continuum {
 
 /// A V-cycle in single precision. Levels are smoothed by Chebyshev polynomials of the matrix preconditioned by its
 /// diagonal; the coarsest level has a direct solver. The cycle is a complex symmetric operator, as the
@@ -26,4 +26,4 @@ class Multigrid {
   std::unique_ptr<Coarsest> coarsest_;
 };
 
-}  // namespace continuum
+}  // namespace macadam::continuum

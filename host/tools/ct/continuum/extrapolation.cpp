@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // extrapolation.cpp  Evaluates polynomials in the difference of the mixing rules where this difference is zero.
-#include "bench/continuum/extrapolation.hpp"
+#include "host/tools/ct/continuum/extrapolation.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace continuum {
+namespace macadam::continuum {
 namespace {
 
 /// Returns the modulus and Poisson's ratio at g = 0 of Lagrange polynomials through the `count` finest sizes.
@@ -46,4 +46,4 @@ Limit extrapolated(const Sizes& stiff, const Sizes& soft) {
           std::max(turned(best[0], line), turned(line, finest.modulus))};
 }
 
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // compression.cpp  Conjugate gradients for complex symmetric matrices (COCG), with a multigrid cycle as preconditioner.
-#include "bench/continuum/compression.hpp"
+#include "host/tools/ct/continuum/compression.hpp"
 
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
-#include "bench/continuum/multigrid.hpp"
+#include <fmt/format.h>
 
-namespace continuum {
+#include "host/tools/ct/continuum/connection.hpp"
+#include "host/tools/ct/continuum/multigrid.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam::continuum {
 namespace {
 
 using Vector = Field<double>;
+
+constexpr int most_iterations = 500;  ///< the largest number in bench/results/continuum.csv is 27
 
 /// Calls f(component, first node) for every layer of nodes, in parallel, and returns the sum of the results. Layers are
 /// summed in their order, so that the sum does not depend on the number of threads.
@@ -98,6 +103,11 @@ Complex lateral_strain(const Grid<double>& grid, const Vector& u, int axis) {
   return elongation / length;
 }
 
+/// \throws RunError if a result is not a finite number.
+void require_numbers(double result) {
+  if (!std::isfinite(result)) throw RunError("finite elements: found a solution that is not a number");
+}
+
 /// Returns the displacement of a strain of 1 along z alone.
 Vector axial_strain(const Size& n) {
   Vector u(n.nodes());
@@ -108,21 +118,25 @@ Vector axial_strain(const Size& n) {
 
 }  // namespace
 
-Compression compress(const Grid<double>& grid, double area, double tolerance, Vector& u) {
+Compression compress(const Grid<double>& grid, double area, double tolerance, Vector& u, const Watch& watch) {
   const Size n = grid.size;
-  Multigrid multigrid(grid);
   Vector r(n.nodes()), z(n.nodes()), p(n.nodes()), q(n.nodes());
   const bool guessed = u.of[0].size() == r.of[0].size();
   if (!guessed) u = axial_strain(n);
   grid.apply(guessed ? axial_strain(n) : u, r);
   const double first = norm(n, r);
+  require_numbers(first);
   if (guessed) grid.apply(u, r);
   for (auto& component : r.of)
     for (auto& value : component) value = -value;
+  Multigrid multigrid(grid);
   Compression out;
   Complex rho_before = 1;
   for (out.residual = first > 0 ? norm(n, r) / first : 0; out.residual > tolerance; ++out.iterations) {
-    if (out.iterations == 500) throw std::runtime_error("500 iterations: residual " + std::to_string(out.residual));
+    if (out.iterations == most_iterations)
+      throw RunError(fmt::format("finite elements: {} iterations leave a residual of {:.1e}, expected {:.1e}",
+                                 most_iterations, out.residual, tolerance));
+    if (watch) watch(out.residual);
     multigrid.apply(r, z);
     remove_rigid_motions(n, z);
     const Complex rho = product(n, r, z);
@@ -146,43 +160,23 @@ Compression compress(const Grid<double>& grid, double area, double tolerance, Ve
     rho_before = rho;
   }
   grid.apply(u, q, true);
+  // a residual that is not a number ends the loop too
   out.modulus = product(n, u, q) / (area * n.z);  // twice the energy over volume and strain²
   out.poisson = -(lateral_strain(grid, u, 0) + lateral_strain(grid, u, 1)) / 2.0;
+  require_numbers(out.residual), require_numbers(std::abs(out.modulus)), require_numbers(std::abs(out.poisson));
   return out;
 }
 
 std::size_t remove_loose_pieces(Grid<double>& grid) {
-  const Size n = grid.size;
-  enum : unsigned char { bottom = 1, top = 2 };
-  std::vector<unsigned char> reached(n.elements());
-  std::vector<std::size_t> open;
-  for (const unsigned char from : {bottom, top}) {
-    const auto visit = [&](int i, int j, int k) {
-      if (i < 0 || j < 0 || k < 0 || i >= n.x || j >= n.y || k >= n.z) return;
-      const std::size_t e = n.element(i, j, k);
-      if ((reached[e] & from) != 0 || grid.mu[e] == Complex{}) return;
-      reached[e] |= from, open.push_back(e);
-    };
-    for (int j = 0; j < n.y; ++j)
-      for (int i = 0; i < n.x; ++i) visit(i, j, from == bottom ? 0 : n.z - 1);
-    while (!open.empty()) {
-      const std::size_t e = open.back();
-      open.pop_back();
-      const int i = int(e % n.x), j = int(e / n.x % n.y), k = int(e / n.x / n.y);
-      visit(i - 1, j, k), visit(i + 1, j, k), visit(i, j - 1, k);
-      visit(i, j + 1, k), visit(i, j, k - 1), visit(i, j, k + 1);
-    }
-  }
-  std::size_t removed = 0, kept = 0;
-  for (std::size_t e = 0; e < n.elements(); ++e) {
-    if (reached[e] == (bottom | top)) {
-      ++kept;
-    } else if (grid.mu[e] != Complex{}) {
-      grid.mu[e] = grid.lambda[e] = 0, ++removed;
-    }
-  }
-  if (kept == 0) throw std::runtime_error("no material connects the bottom of the specimen with its top");
-  return removed;
+  std::vector<unsigned char> marks(grid.size.elements());
+  for (std::size_t e = 0; e < marks.size(); ++e) marks[e] = grid.mu[e] != Complex{} ? Connection::solid : 0;
+  const Connection connection = find_connection(grid.size, std::move(marks));
+  if (connection.of_both == 0)
+    throw InputError("the specimen", 0, "connection of bottom and top", "none",
+                     "material that connects both ends of the specimen");
+  for (std::size_t e = 0; e < grid.size.elements(); ++e)
+    if (!connection.spans(e)) grid.mu[e] = grid.lambda[e] = 0;
+  return connection.count - connection.of_both;
 }
 
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -2,9 +2,9 @@
 /// \file transfer.hpp  Makes coarser grids, and moves vectors between two grids.
 #pragma once
 
-#include "bench/continuum/grid.hpp"
+#include "host/tools/ct/continuum/grid.hpp"
 
-namespace continuum {
+namespace macadam::continuum {
 
 /// Returns the grid with edges twice as long. Its constants are averages over the elements in each of its elements. If
 /// the number of layers is odd, the uppermost layer is not merged with another layer, so it has half the height of a
@@ -20,4 +20,4 @@ void add_interpolated(const Size& coarse, const Field<S>& from, const Grid<T>& f
 template <class T>
 void restrict_to(const Grid<T>& fine, const Field<T>& from, const Size& coarse, Field<T>& to);
 
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "bench/continuum/grid.hpp"
+#include "host/tools/ct/continuum/grid.hpp"
 
-namespace continuum {
+namespace macadam::continuum {
 
 /// Results of one mixing rule for one edge of the voxels.
 struct SizeResult {
@@ -33,4 +33,4 @@ struct Limit {
 /// before.
 Limit extrapolated(const Sizes& stiff, const Sizes& soft);
 
-}  // namespace continuum
+}  // namespace macadam::continuum

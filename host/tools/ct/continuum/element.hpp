@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "bench/continuum/packet.hpp"
+#include "host/tools/ct/continuum/packet.hpp"
 
-namespace continuum {
+namespace macadam::continuum {
 
 constexpr int corners = 8, dofs = 24;  ///< unknown 3 c + i: component i of corner c = x + 2 y + 4 z (x, y, z: 0 or 1)
 using ElementMatrix = std::array<std::array<double, dofs>, dofs>;
@@ -123,4 +123,4 @@ inline void multiply_stiffness(Packet<T> (&u)[3][corners], const PacketFactor<T>
   }
 }
 
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-namespace continuum {
+namespace macadam::continuum {
 
 #if defined(__AVX512F__)
 constexpr std::size_t packet_bytes = 64;
@@ -57,4 +57,4 @@ class PacketFactor {
   Packet<T> real_, imaginary_;
 };
 
-}  // namespace continuum
+}  // namespace macadam::continuum

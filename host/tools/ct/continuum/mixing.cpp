@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mixing.cpp  Fills a grid with mixtures of the phases.
-#include "bench/continuum/mixing.hpp"
+#include "host/tools/ct/continuum/mixing.hpp"
 
-#include "bench/continuum/compression.hpp"
+#include <algorithm>
 
-namespace continuum {
+#include "host/tools/ct/continuum/compression.hpp"
+
+namespace macadam::continuum {
 namespace {
-
-/// Voxels with less material than this are empty: a smaller modulus changes no result and slows the solver down.
-constexpr double least_material = 1e-3;
 
 /// Returns a constant of a voxel of the mastic's constant a, the rock's constant b and voids.
 Complex mixed(Complex a, Complex b, double rock, double voids, Mixing mixing) {
@@ -38,4 +37,4 @@ Grid<double> grid_of(const PhaseFractions& of, const Material& mastic, const Mat
   return out;
 }
 
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // transfer.cpp  Moves vectors between grids: row by row, with linear interpolation along each axis.
-#include "bench/continuum/transfer.hpp"
+#include "host/tools/ct/continuum/transfer.hpp"
 
 #include <algorithm>
 
-namespace continuum {
+namespace macadam::continuum {
 namespace {
 
 /// The coarse node left of a fine node along one axis, its weight, and the weight of the next coarse node.
@@ -118,4 +118,4 @@ template void add_interpolated(const Size&, const Field<float>&, const Grid<floa
 template void add_interpolated(const Size&, const Field<double>&, const Grid<double>&, Field<double>&);
 template void restrict_to(const Grid<float>&, const Field<float>&, const Size&, Field<float>&);
 
-}  // namespace continuum
+}  // namespace macadam::continuum

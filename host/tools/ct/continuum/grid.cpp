@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // grid.cpp  Multiplies the stiffness of a grid with a vector, without a matrix.
-#include "bench/continuum/grid.hpp"
+#include "host/tools/ct/continuum/grid.hpp"
 
 #include <algorithm>
 
-namespace continuum {
+#include "host/tools/ct/continuum/element.hpp"
+
+namespace macadam::continuum {
 namespace {
+
+static_assert(packet_bytes <= padding * sizeof(std::complex<float>));
 
 /// Adds the forces of one row of elements along x. Packets are computed first; the forces at the left and at the right
 /// end of the elements are then added to the nodes. An addition of packets would wait for the packet before, because
@@ -109,4 +113,4 @@ template struct Grid<double>;
 template void clear_held(const Size&, Field<float>&);
 template void clear_held(const Size&, Field<double>&);
 
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // multigrid.cpp  The levels of a multigrid cycle: smoothing, restriction and interpolation, and the coarsest solution.
-#include "bench/continuum/multigrid.hpp"
+#include "host/tools/ct/continuum/multigrid.hpp"
 
 #include <Eigen/Sparse>
 #include <Eigen/SparseLU>
@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <numeric>
 
-#include "bench/continuum/transfer.hpp"
+#include "host/tools/ct/continuum/element.hpp"
+#include "host/tools/ct/continuum/transfer.hpp"
+#include "macadam/error.hpp"
 
-namespace continuum {
+namespace macadam::continuum {
 namespace {
 
 using Single = std::complex<float>;
@@ -133,6 +135,8 @@ struct Multigrid::Coarsest {
     Eigen::SparseMatrix<Complex> matrix(Eigen::Index(3 * nodes), Eigen::Index(3 * nodes));
     matrix.setFromTriplets(entries.begin(), entries.end());
     factors.compute(matrix);
+    if (factors.info() != Eigen::Success)
+      throw RunError("finite elements: the matrix of the coarsest grid cannot be factorised");
   }
   void solve(const Field<float>& r, Field<float>& u) {
     Eigen::VectorXcd b(Eigen::Index(3 * nodes));
@@ -198,4 +202,4 @@ void Multigrid::apply(const Field<double>& r, Field<double>& out) {
   });
 }
 
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file phase_fractions.hpp  Computes the volume fractions of rock and voids in each voxel of a specimen.
+/// \file sampling.hpp  Computes the fractions of rock and voids in voxels from bodies, Laguerre cells and layers.
 #pragma once
 
 #include <array>
@@ -8,22 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "bench/continuum/grid.hpp"
+#include "host/tools/ct/continuum/phase_fractions.hpp"
 
-namespace continuum {
+namespace macadam::continuum {
 
 using Point = std::array<double, 3>;  ///< [m]
-
-/// Volume fractions of rock and of voids in each voxel; the remainder is mastic.
-struct PhaseFractions {
-  Size size;
-  std::vector<float> rock, voids;  ///< [voxel]; `voids` includes the volume outside the specimen
-  double area = 0;                 ///< mean cross-section of the specimen, in faces of voxels
-
-  /// Returns the fraction of a phase in the volume of the specimen.
-  double mean_rock() const;
-  double mean_voids() const;
-};
 
 /// Returns mastic without rock and voids. `box`: edges [m]; `voxel`: edge [m]. \throws std::runtime_error for edges of
 /// the box that are not multiples of the voxel to 1e-6.
@@ -56,19 +45,4 @@ PhaseFractions of_cells(const std::string& file, const Point& box, double voxel)
 /// Returns two layers normal to an axis: the one with larger coordinates is rock.
 PhaseFractions of_layers(int axis, const Point& box, double voxel);
 
-/// A segmented scan: one phase per voxel of the scan.
-struct Scan {
-  Size size;
-  double edge = 0;                   ///< of a voxel [m]
-  std::vector<unsigned char> phase;  ///< 0 void, 1 mastic, 2 rock, 255 outside the specimen
-};
-
-/// Reads a MetaImage of `macadam ct segment`, packed or not: phases.mha, or labels.mha, in which every grain is rock
-/// and the remainder is mastic. Cuts it to the specimen. \throws std::runtime_error naming the file and the fault.
-Scan read_scan(const std::string& file);
-
-/// Returns the fractions of blocks of a scan's voxels. Layers at the top that fill no block are left out. \throws
-/// std::runtime_error for a `voxel` [m] that is not a multiple of the scan's to 1e-3.
-PhaseFractions of_scan(const Scan& scan, double voxel);
-
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -6,14 +6,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "bench/continuum/element.hpp"
-
-namespace continuum {
+namespace macadam::continuum {
 
 using Complex = std::complex<double>;
 
-/// Entries behind the last one of an array, so that a packet can be read from any entry. They stay zero.
-constexpr std::size_t padding = packet_bytes / sizeof(std::complex<float>);
+/// Entries behind the last one of an array, so that the largest packet (64 bytes, packet.hpp) can be read from any
+/// entry. They stay zero. The number does not depend on the processor, because files that are compiled for different
+/// processors share these arrays.
+constexpr std::size_t padding = 64 / sizeof(std::complex<float>);
 
 /// Number of elements along the axes.
 struct Size {
@@ -59,4 +59,4 @@ struct Grid {
 template <class T>
 void clear_held(const Size& size, Field<T>& f);
 
-}  // namespace continuum
+}  // namespace macadam::continuum
