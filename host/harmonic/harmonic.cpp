@@ -79,7 +79,13 @@ class Harmonic::Implementation {
         contacts_(network, specimen.size()) {
     require_laws_of(network, laws);
     typical_ = pair_stiffness(laws, Complex(options.typical_growth, 2 * std::numbers::pi * typical_frequency));
-    options_.backend = select_backend(options.backend, nullptr, options.devices);
+    if (!network.cells.empty()) {
+      if (options.backend == Backend::cuda)
+        throw InputError("harmonic", 0, "backend with a network of the rule \"volumetric\"", "cuda",
+                         "cpu, because the solver on GPUs does not compute the pressures of cells");
+      options_.backend = Backend::cpu;
+    }
+    options_.backend = select_backend(options_.backend, nullptr, options.devices);
     free_ = find_free_motions(specimen, network, typical_, inertia);
     if (options.linear == LinearMethod::direct) {
       direct();

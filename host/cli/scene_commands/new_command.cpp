@@ -73,8 +73,11 @@ void add_new_command(CLI::App& app) {
   for (const std::string& kind : scene::tests_of_new_scenes()) tests.emplace_back(kind, kind);
   add_choice(command, "--test", arguments->test, "the test of the specimen", tests);
   add_choice(command, "--rule", arguments->rule,
-             "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow",
-             {{"centres", ContactRule::centres}, {"series", ContactRule::series}});
+             "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow, without "
+             "or with their Poisson's ratios",
+             {{"centres", ContactRule::centres},
+              {"series", ContactRule::series},
+              {"volumetric", ContactRule::volumetric}});
   add_examples(command, {"macadam new mix.toml", "macadam new --kind shapes --test sweep mix.toml",
                          "macadam new --rule series mix.toml"});
   command.callback([arguments] { new_command(*arguments); });
