@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 
+#include "host/harmonic/cell_pressure.hpp"
 #include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
 #include "host/harmonic/harmonic_code.hpp"
@@ -278,6 +279,8 @@ class Harmonic::Implementation {
       for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.force(x));
       out.held_force /= top;
     }
+    out.pressures = cell_pressures(network_, task.stiffness, x, 1.0);
+    out.parts.pressure_of_mastic = to_modulus * pressure_of_mastic(network_, task.stiffness, x, out.pressures);
     out.motion = std::move(w.task.motion);
     return out;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cell_volumes.cpp  Applies the rule "volumetric". Lengths are those of the rule "series", converted from E to 2μ of each
-// phase. A facet that is not a contact is free: its opening follows from zero stress on it, which reduces λ of its cell.
+// cell_volumes.cpp  Applies the rule "volumetric". Lengths are those of the rule "series", converted from E to 2μ of
+// each phase. A facet that is not a contact is free: its opening follows from zero stress on it, which reduces λ of its
+// cell.
 #include "host/network/cell_volumes.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +28,8 @@ std::vector<double> free_volumes(const ContactNetwork& network, const Specimen& 
   std::vector<double> out(specimen.size(), 0);
   std::size_t next = 0;  // facets and contacts have the same order
   for (const Facet& f : tessellation.facets) {
-    const bool contact = next < network.contacts.size() && network.contacts[next].a == f.a &&
-                         network.contacts[next].b == f.b;
+    const bool contact =
+        next < network.contacts.size() && network.contacts[next].a == f.a && network.contacts[next].b == f.b;
     if (contact) {
       ++next;
       continue;

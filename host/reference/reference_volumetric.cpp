@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reference_volumetric.cpp  W = Σ ½·A_J·Δuᵀ·κ·Δu over the contact points + Σ ½·2μ/h·A·w² over the free facets + Σ ½·λ·V·θ²
-// over the cells. Every term is a stiffness times the square of a row that is linear in the unknowns, so K is a sum of
-// outer products of such rows.
+// reference_volumetric.cpp  W = Σ ½·A_J·Δuᵀ·κ·Δu over the contact points + Σ ½·2μ/h·A·w² over the free facets + Σ
+// ½·λ·V·θ² over the cells. Every term is a stiffness times the square of a row that is linear in the unknowns, so K is
+// a sum of outer products of such rows.
 #include "host/reference/reference_volumetric.hpp"
 
 #include <Eigen/Geometry>

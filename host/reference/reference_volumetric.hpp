@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_volumetric.hpp  Assembles the stiffness matrix of a specimen with the rule "volumetric" from its energy
-/// (docs/model/contacts.md, section 26). The openings of free facets are unknowns of their own.
+/// \file reference_volumetric.hpp  Assembles the stiffness matrix of a specimen with the rule "volumetric" from its
+/// energy (docs/model/contacts.md, section 26). The openings of free facets are unknowns of their own.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -25,8 +25,8 @@ struct VolumetricMatrix {
 };
 
 /// `network` was built from `tessellation` with lumped moments; only its points, frames and lever arms are used.
-/// `in_rock` is the length of each contact's line of centres that lies in rock [m]. \throws InputError if the numbers of
-/// contacts and lengths differ.
+/// `in_rock` is the length of each contact's line of centres that lies in rock [m]. \throws InputError if the numbers
+/// of contacts and lengths differ.
 VolumetricMatrix assemble_volumetric(const Specimen& specimen, const Tessellation& tessellation,
                                      const ContactNetwork& network, const std::vector<double>& in_rock,
                                      const PhaseModuli& mastic, const PhaseModuli& rock);

@@ -245,7 +245,8 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule) {
             {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
   if (!of_phases) append(contacts_of(kind));
-  append({{"[network]", of_phases ? std::vector<Given>{{"rule", std::string("\"") + to_string(rule) + '"'}} : std::vector<Given>{}},
+  append({{"[network]",
+           of_phases ? std::vector<Given>{{"rule", std::string("\"") + to_string(rule) + '"'}} : std::vector<Given>{}},
           loading_of(test),
           {"[solver]",
            {{"method", R"("harmonic")"}},

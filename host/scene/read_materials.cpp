@@ -36,8 +36,8 @@ Key density_key(double& target, Need need) {
 }
 
 Key poisson_key(std::optional<double>& target, const char* usual) {
-  return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson), "Poisson's ratio, for rules \"series\" and \"volumetric\"",
-          usual};
+  return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson),
+          "Poisson's ratio, for rules \"series\" and \"volumetric\"", usual};
 }
 
 const char* const without_law = "the laws of [[contacts]]";
@@ -47,9 +47,10 @@ void require_rule(const Section& section, ContactRule rule) {
   if (has_laws_of_phases(rule)) return;
   for (const char* key : {"law", "E", "poisson_ratio"}) {
     if (section.has(key))
-      section.refuse(key, "this key with rule = \"centres\" in [network]",
-                     "rule = \"series\" or \"volumetric\" in [network], or no law of a phase, because with \"centres\" each "
-                     "pair has its own law in [[contacts]]");
+      section.refuse(
+          key, "this key with rule = \"centres\" in [network]",
+          "rule = \"series\" or \"volumetric\" in [network], or no law of a phase, because with \"centres\" each "
+          "pair has its own law in [[contacts]]");
   }
 }
 
@@ -146,8 +147,9 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   if (scene.network.rule == ContactRule::centres) return;
   const auto require = [&](bool needed, bool given, const char* phase, const char* example) {
     if (needed && !given)
-      root.refuse("materials", std::string("no law of the ") + phase + ", which rule = \"" + to_string(scene.network.rule) +
-                                    "\" in [network] needs",
+      root.refuse("materials",
+                  std::string("no law of the ") + phase + ", which rule = \"" + to_string(scene.network.rule) +
+                      "\" in [network] needs",
                   std::string("[materials.") + phase + "] with " + example);
   };
   const bool file = scene.specimen.file.has_value(), mastic = phases.mastic.has_value(),

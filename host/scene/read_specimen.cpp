@@ -218,7 +218,8 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
        {"aggregate_file",
         Need::optional,
         {read_aggregate_file, {"text"}},
-        "for a specimen from a file with rule \"series\" or \"volumetric\": CSV file of the true surfaces of the aggregates, with the "
+        "for a specimen from a file with rule \"series\" or \"volumetric\": CSV file of the true surfaces of the "
+        "aggregates, with the "
         "columns body,shape,size,x,y,z and qw,qx,qy,qz",
         "surfaces of the spheres"},
        {"seed", Need::optional, into(spec.seed, 0),

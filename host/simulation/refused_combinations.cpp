@@ -28,9 +28,6 @@ void require_volumetric(const Scene& scene) {
   if (scene.solver.backend == Backend::cuda)
     refuse("backend in [solver]", "\"cuda\" with rule \"volumetric\"",
            "\"cpu\", because the solver on GPUs does not compute the pressures of cells");
-  if (scene.output.sensitivities)
-    refuse("sensitivities in [output]", "true with rule \"volumetric\"",
-           "false, because derivatives are not available for this rule");
 }
 
 }  // namespace

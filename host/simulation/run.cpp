@@ -91,8 +91,8 @@ void require_same_rule(const Scene& scene, const ContactNetwork& network) {
 
 /// Returns what a run with the rule "series" or "volumetric" reports about the rock of its specimen.
 std::string words_of(const RockReport& rock, const Specimen& specimen, ContactRule rule) {
-  std::string out = fmt::format("rule \"{}\": cells of aggregates fill {:.2f} % of the box", to_string(rule),
-                                100 * rock.rock_cells);
+  std::string out =
+      fmt::format("rule \"{}\": cells of aggregates fill {:.2f} % of the box", to_string(rule), 100 * rock.rock_cells);
   out += rock.rock_nominal ? fmt::format(" and the aggregates {:.2f} %", 100 * *rock.rock_nominal)
                            : " (the aggregates' own volume is unknown)";
   if (!specimen.voids.empty())
@@ -155,7 +155,8 @@ class SceneRun {
       list.insert(list.end(), more.begin(), more.end());
     };
     append(result.decisions, decisions);
-    if (prepared().rock) result.decisions.push_back(words_of(*prepared().rock, prepared().specimen, scene_.network.rule));
+    if (prepared().rock)
+      result.decisions.push_back(words_of(*prepared().rock, prepared().specimen, scene_.network.rule));
     append(result.warnings, warnings);
     append(result.warnings, packing);
     if (scene_.network.lateral_walls) {

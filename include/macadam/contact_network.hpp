@@ -49,7 +49,7 @@ struct NetworkSpec : FacetLimits {
   Quadrature quadrature = Quadrature::lumped;
   bool bottom_top_walls = true;             ///< facets on −z and +z are contacts
   bool lateral_walls = false;               ///< facets on ±x and ±y are contacts
-  ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; apply_series() and apply_volumetric() do not
+  ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; prepare() applies it to the contacts
 };
 
 /// Area moments of a facet: Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t², in local coordinates about x0:
@@ -119,8 +119,8 @@ void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 /// \throws InputError if a particle has no cell (names its number) or if no contact remains.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});
 
-/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. With the rules
-/// "series" and "volumetric" the columns `length,series` follow. \throws RunError.
+/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. With the
+/// rules "series" and "volumetric" the columns `length,series` follow. \throws RunError.
 void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network);
 
 }  // namespace macadam

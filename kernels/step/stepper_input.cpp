@@ -122,7 +122,8 @@ void require_input(std::size_t particles, const ContactNetwork& network, const F
                    const StepperOptions& options) {
   if (!network.cells.empty())
     throw InputError(
-        "rule of the network: found \"volumetric\", expected \"centres\" or \"series\", because steps do not compute the "
+        "rule of the network: found \"volumetric\", expected \"centres\" or \"series\", because steps do not compute "
+        "the "
         "pressures of cells; the frequency domain does");
   for (int pair = 0; pair < pair_types; ++pair) {
     const auto p = static_cast<std::size_t>(pair);

@@ -89,11 +89,7 @@ nb::dict fractions_of(const HarmonicResult& r) {
 nb::list sensitivities_of(const HarmonicResult& r, const Prepared& p) {
   nb::list out;
   const std::complex<double> at = HarmonicLoad{r.frequency_hz}.s();
-  const ContactRule rule = p.scene->network.rule;
-  if (rule == ContactRule::volumetric)
-    throw InputError("sensitivities", 0, "rule in [network]", "\"volumetric\"",
-                     "\"centres\" or \"series\", because derivatives are not available for this rule");
-  const bool of_phases = has_laws_of_phases(rule);
+  const bool of_phases = has_laws_of_phases(p.scene->network.rule);
   for (const Sensitivity& s :
        of_phases ? phase_sensitivities(r.parts, p.scene->laws, at) : sensitivities(r.parts, p.scene->laws, at)) {
     nb::dict one;

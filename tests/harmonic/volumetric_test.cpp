@@ -70,12 +70,17 @@ Specimen all_mastic(Specimen specimen) {
   return specimen;
 }
 
+NetworkSpec held_sides() {
+  NetworkSpec out;
+  out.lateral_walls = true;
+  return out;
+}
+
 Complex modulus_of(const Stiffness& s) { return std::polar(s.e_star_pa, s.phase_deg * std::numbers::pi / 180); }
 
 Complex stiffness_of(const Law& law, double frequency) {
-  return with_stiffness<Complex>(PairType::mm, law, [&](const auto& l) {
-    return l.stiffness(Complex(0, 2 * std::numbers::pi * frequency));
-  });
+  return with_stiffness<Complex>(
+      PairType::mm, law, [&](const auto& l) { return l.stiffness(Complex(0, 2 * std::numbers::pi * frequency)); });
 }
 
 // A uniform strain satisfies all equations, so E is exact to rounding, and the Poisson's ratio to the error of the
@@ -87,7 +92,7 @@ TEST(Volumetric, HomogeneousSpecimensHaveTheConstantsOfTheirMaterial) {
     const Complex expected = stiffness_of(mastic_am1(), 7);
     EXPECT_NEAR(std::abs(modulus_of(found.top) / expected - 1.0), 0, 1e-12) << "nu " << nu;
     EXPECT_NEAR(std::abs(modulus_of(found.bottom) / expected - 1.0), 0, 1e-9) << "nu " << nu;
-    const auto ratio = poisson_ratio(scene.specimen, scene.cells, found.motion);
+    const auto ratio = poisson_ratio(scene.specimen, scene.cells, found);
     ASSERT_TRUE(ratio);
     EXPECT_NEAR(std::abs(*ratio - nu), 0, 1e-8) << "nu " << nu;
   }
@@ -96,8 +101,7 @@ TEST(Volumetric, HomogeneousSpecimensHaveTheConstantsOfTheirMaterial) {
 // With walls at the sides and no lateral strain the modulus is λ + 2μ.
 TEST(Volumetric, ConfinedSpecimensHaveTheOedometerModulus) {
   for (const double nu : {0.0, 0.2, 0.45}) {
-    const VolumetricScene scene(all_mastic(random_specimen(4)), laws::Elastic{3e9, 1}, {0, nu, 0},
-                                {.lateral_walls = true});
+    const VolumetricScene scene(all_mastic(random_specimen(4)), laws::Elastic{3e9, 1}, {0, nu, 0}, held_sides());
     const double expected = 3e9 * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
     EXPECT_NEAR(scene.solve(1).top.e_star_pa, expected, 1e-12 * expected) << "nu " << nu;
   }
@@ -120,23 +124,24 @@ Specimen layers_in_series(int n, int layers) {
   return out;
 }
 
-// Layers of cubes along the load. Lateral walls without friction hold the sides, so the continuum has the harmonic mean of
-// λ + 2μ. The rule divides the displacement of a contact between its two cells in the inverse ratio of their μ. This is
-// the ratio of the strains if both phases have the same Poisson's ratio, and only then is the rule exact.
+// Layers of cubes along the load. Lateral walls without friction hold the sides, so the continuum has the harmonic mean
+// of λ + 2μ. The rule divides the displacement of a contact between its two cells in the inverse ratio of their μ. This
+// is the ratio of the strains if both phases have the same Poisson's ratio, and only then is the rule exact.
 TEST(Volumetric, LayersInSeriesHaveTheModulusOfALaminate) {
   const PhaseConstants of{60e9, 0.35, 0.35};
-  const VolumetricScene scene(layers_in_series(3, 4), mastic_am1(), of, {.lateral_walls = true});
+  const VolumetricScene scene(layers_in_series(3, 4), mastic_am1(), of, held_sides());
   const auto oedometer = [](Complex e, double nu) { return e * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); };
   const Complex mastic = oedometer(stiffness_of(mastic_am1(), 7), 0.35), rock = oedometer(60e9, 0.35);
   const Complex expected = 2.0 / (1.0 / mastic + 1.0 / rock), found = modulus_of(scene.solve(7).top);
   EXPECT_NEAR(std::abs(found / expected - 1.0), 0, 1e-10) << found << " and " << expected;
 }
 
-/// The reference: K is reduced to the top wall's stiffness, with the free rigid motions held by a least-squares solution.
+/// The reference: K is reduced to the top wall's stiffness, with the free rigid motions held by a least-squares
+/// solution.
 Complex reference_modulus(const VolumetricScene& scene, Complex mastic) {
-  const auto matrix = reference::assemble_volumetric(scene.specimen, scene.cells, scene.network, scene.in_rock,
-                                                     {mastic, scene.constants.mastic_poisson_ratio},
-                                                     {scene.constants.rock_modulus, scene.constants.rock_poisson_ratio});
+  const auto matrix = reference::assemble_volumetric(
+      scene.specimen, scene.cells, scene.network, scene.in_rock, {mastic, scene.constants.mastic_poisson_ratio},
+      {scene.constants.rock_modulus, scene.constants.rock_poisson_ratio});
   const Eigen::MatrixXcd k(matrix.K);
   const Eigen::Index n = k.rows() - 1;
   const Eigen::VectorXcd scale = k.diagonal().head(n).cwiseAbs().cwiseSqrt().cwiseInverse();
@@ -148,9 +153,7 @@ Complex reference_modulus(const VolumetricScene& scene, Complex mastic) {
 }
 
 /// Returns random spheres of both phases with clusters; some aggregates touch.
-VolumetricScene two_phases(unsigned seed) {
-  return {random_specimen(seed, 3, 3, 4), mastic_am1(), {60e9, 0.35, 0.28}};
-}
+VolumetricScene two_phases(unsigned seed) { return {random_specimen(seed, 3, 3, 4), mastic_am1(), {60e9, 0.35, 0.28}}; }
 
 // 217 unknowns and some 100 openings with a condition number of about 1e5.
 TEST(Volumetric, AgreesWithTheReference) {
@@ -221,9 +224,42 @@ TEST(Volumetric, WithoutPoissonRatiosItIsTheRuleSeries) {
   ContactNetwork series = build_network(scene.specimen, scene.cells);
   apply_series(series, scene.specimen, RockSurfaces(scene.specimen, {}, {}), 60e9, 0);
   const Inertia inertia = make_inertia(scene.specimen, 2630, 2110);
-  const Complex expected =
-      modulus_of(Harmonic(scene.specimen, series, scene.laws, inertia, {.linear = LinearMethod::direct}, 7).solve(7).top);
+  const Complex expected = modulus_of(
+      Harmonic(scene.specimen, series, scene.laws, inertia, {.linear = LinearMethod::direct}, 7).solve(7).top);
   EXPECT_NEAR(std::abs(modulus_of(scene.solve(7).top) / expected - 1.0), 0, 1e-11);
+}
+
+// Central differences of 1e-4 have an error of 1e-8 of the derivative, and rounding adds 1e-12/1e-4 of E*.
+TEST(Volumetric, DerivativesByPhaseAgreeWithDifferences) {
+  const VolumetricScene scene = two_phases(5);
+  const HarmonicResult found = scene.solve(7);
+  const auto list = phase_sensitivities(found.parts, scene.laws, Complex(0, 2 * std::numbers::pi * 7));
+  const auto expect = [&](const std::string& name, auto&& change) {
+    const auto at = [&](double factor) {
+      VolumetricScene changed = scene;
+      change(changed, factor);
+      return changed.solve(7).top;
+    };
+    const double step = 1e-4;
+    const Stiffness more = at(1 + step), less = at(1 - step);
+    const auto entry = std::find_if(list.begin(), list.end(), [&](const auto& s) { return s.parameter == name; });
+    ASSERT_NE(entry, list.end()) << name;
+    EXPECT_NEAR(entry->d_e_star_pa, (more.e_star_pa - less.e_star_pa) / (2 * step), 1e-6 * found.top.e_star_pa) << name;
+    EXPECT_NEAR(entry->d_phase_deg, (more.phase_deg - less.phase_deg) / (2 * step), 1e-4) << name;
+  };
+  const auto of_mastic = [](auto&& change) {
+    return [change](VolumetricScene& s, double factor) {
+      for (const PairType pair : {PairType::mm, PairType::ma, PairType::aa, PairType::mw})
+        change(std::get<laws::GeneralisedKelvin>(*s.laws[static_cast<std::size_t>(pair)]), factor);
+    };
+  };
+  expect("mastic.E_m", of_mastic([](auto& l, double factor) { l.E_m *= factor; }));
+  expect("mastic.C_2", of_mastic([](auto& l, double factor) { l.C[1] *= factor; }));
+  expect("aggregate.E", [](VolumetricScene& s, double factor) {
+    for (const PairType pair : {PairType::inner, PairType::aw})
+      std::get<laws::Elastic>(*s.laws[static_cast<std::size_t>(pair)]).E *= factor;
+    for (Contact& c : s.network.contacts) c.series /= factor;
+  });
 }
 
 TEST(Volumetric, OtherMethodsRefuseTheNetwork) {
@@ -237,9 +273,9 @@ TEST(Volumetric, OtherMethodsRefuseTheNetwork) {
   for (const Backend backend : {Backend::cpu, Backend::reference})
     EXPECT_THROW(make_stepper(backend, scene.specimen, scene.network, scene.laws, inertia, stepped), InputError);
   ContactNetwork network = scene.network;
-  EXPECT_THROW(apply_volumetric(network, scene.specimen, scene.cells, RockSurfaces(scene.specimen, {}, {}),
-                                {60e9, 0.5, 0.28}),
-               InputError);
+  EXPECT_THROW(
+      apply_volumetric(network, scene.specimen, scene.cells, RockSurfaces(scene.specimen, {}, {}), {60e9, 0.5, 0.28}),
+      InputError);
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ class PlannedHarmonic : public PlannedExperiment {
       }
       f.parts = s.parts;
       f.bottom = s.bottom;
-      if (!f.confined) f.poisson_ratio = poisson_ratio(prepared_.specimen, prepared_.tessellation, s.motion);
+      if (!f.confined) f.poisson_ratio = poisson_ratio(prepared_.specimen, prepared_.tessellation, s);
       f.residual = s.residual;
       f.iterations = s.iterations;
       f.held_force = s.held_force;

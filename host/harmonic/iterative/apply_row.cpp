@@ -61,8 +61,8 @@ Lanes<F> pressure_of(const kernels::LinearSystem& system, const BlockStiffness<F
                     shear = in_series(stiffness.k[pair], T(alpha * series));
     T u[6];
     displacements<F>(e, own, x, u);
-    const auto load =
-        kernels::spring_load(e, u, [&](T v, bool in_shear) { return in_shear ? shear(v) : normal(v); }, T(alpha));
+    const auto load = kernels::spring_load(
+        e, u, [&](T v, bool in_shear) { return in_shear ? shear(v) : normal(v); }, T(alpha));
     const CentroidLever lever = lever_of(e);
     sum += lever.n * load.n + lever.s * load.s + lever.t * load.t;
   }
@@ -82,9 +82,9 @@ void apply_row(const kernels::LinearSystem& system, const BlockStiffness<F>& sti
     const auto load_by = [&](const Factor<F>& normal, const Factor<F>& shear) {
       const auto times = [&](T u, bool in_shear) { return in_shear ? shear(u) : normal(u); };
       if (!system.cells.empty()) return load_with_pressure<F>(e, own, x, pressures[body], pressures, times, alpha);
-      return kernels::end_load(
-          e, own, e.other >= 0 ? kernels::to_twist(&x[6 * static_cast<std::size_t>(e.other)]) : Twist<T>{}, times,
-          T(alpha));
+      return kernels::end_load(e, own,
+                               e.other >= 0 ? kernels::to_twist(&x[6 * static_cast<std::size_t>(e.other)]) : Twist<T>{},
+                               times, T(alpha));
     };
     const Factor<F>& k = stiffness.k[pair];
     const double series = system.series_of(i);

@@ -7,7 +7,8 @@
 
 namespace macadam::harmonic {
 
-/// Stiffness of each pair type for F solutions, its inverse for the laws of cells, and the factor `inertia` of the mass matrix M in K* − inertia·M.
+/// Stiffness of each pair type for F solutions, its inverse for the laws of cells, and the factor `inertia` of the mass
+/// matrix M in K* − inertia·M.
 template <int F>
 struct BlockStiffness {
   std::array<Factor<F>, pair_types> k{}, compliance{};
@@ -16,14 +17,14 @@ struct BlockStiffness {
   bool inert = true;  ///< whether no solution has inertia
 };
 
-/// Returns the pressure of a body's cell over 2μ, for all F solutions (host/harmonic/cell_pressure.hpp). The system must
-/// have cells.
+/// Returns the pressure of a body's cell over 2μ, for all F solutions (host/harmonic/cell_pressure.hpp). The system
+/// must have cells.
 template <int F>
 Lanes<F> pressure_of(const kernels::LinearSystem& system, const BlockStiffness<F>& stiffness, std::size_t body,
                      const LaneVector<F>& x);
 
-/// Computes the six rows of (K* − inertia·M)·x that belong to one body, for all F solutions. `pressures`, [body], are the
-/// results of pressure_of() if the system has cells; otherwise they are not read.
+/// Computes the six rows of (K* − inertia·M)·x that belong to one body, for all F solutions. `pressures`, [body], are
+/// the results of pressure_of() if the system has cells; otherwise they are not read.
 template <int F>
 void apply_row(const kernels::LinearSystem& system, const BlockStiffness<F>& stiffness, std::size_t body,
                const LaneVector<F>& x, const LaneVector<F>& pressures, Lanes<F> (&out)[6]);

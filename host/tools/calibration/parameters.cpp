@@ -52,9 +52,10 @@ std::vector<Parameter> parameters_of_phases(const Scene& scene) {
 
 std::vector<Parameter> parameters_of(const Scene& scene) {
   if (scene.network.rule == ContactRule::volumetric)
-    throw InputError(scene.file.string(), 0, "rule in [network]", "\"volumetric\"",
-                     "\"centres\" or \"series\", because calibration needs derivatives, which are not available for this "
-                     "rule");
+    throw InputError(
+        scene.file.string(), 0, "rule in [network]", "\"volumetric\"",
+        "\"centres\" or \"series\", because the reduced model of calibration does not contain the pressures of "
+        "cells");
   if (scene.network.rule == ContactRule::series) return parameters_of_phases(scene);
   std::vector<Parameter> out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
