@@ -47,6 +47,11 @@ void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
                        std::to_string(network.count[pair]) + " contacts but no law");
     }
   }
+  for (const CellStiffness& cell : network.cells) {
+    if (cell.weight != 0 && !laws[static_cast<std::size_t>(cell.law)])
+      throw InputError(std::string("pair ") + to_string(cell.law) +
+                       " has no law, but cells that resist a change of volume have the modulus of this law");
+  }
 }
 
 /// Returns |E*| and φ.
