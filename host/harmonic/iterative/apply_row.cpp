@@ -13,10 +13,10 @@ using kernels::Twist;
 namespace {
 
 /// Centroid of a facet with respect to the centre of a body, along n, s and t of a contact end [m].
-struct CentroidLever {
+struct FacetCentroid {
   double n, s, t;
 };
-CentroidLever lever_of(const ContactEnd& e) {
+FacetCentroid centroid_of(const ContactEnd& e) {
   return {e.arm, e.moments[1] / e.moments[0], e.moments[2] / e.moments[0]};
 }
 
@@ -36,7 +36,7 @@ Twist<Lanes<F>> load_with_pressure(const ContactEnd& e, const Twist<Lanes<F>>& o
   using T = Lanes<F>;
   T u[6];
   displacements<F>(e, own, x, u);
-  const CentroidLever lever = lever_of(e);
+  const FacetCentroid lever = centroid_of(e);
   const T other = e.other >= 0 ? pressures[static_cast<std::size_t>(e.other)] : T(), along = own_pressure - other;
   u[0] += lever.n * own_pressure + e.arm_other * other;
   u[3] += lever.s * along, u[4] += lever.t * along;
@@ -63,7 +63,7 @@ Lanes<F> pressure_of(const kernels::LinearSystem& system, const BlockStiffness<F
     displacements<F>(e, own, x, u);
     const auto load = kernels::spring_load(
         e, u, [&](T v, bool in_shear) { return in_shear ? shear(v) : normal(v); }, T(alpha));
-    const CentroidLever lever = lever_of(e);
+    const FacetCentroid lever = centroid_of(e);
     sum += lever.n * load.n + lever.s * load.s + lever.t * load.t;
   }
   return cell.weight * stiffness.compliance[static_cast<std::size_t>(cell.law)](sum);
