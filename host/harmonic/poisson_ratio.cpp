@@ -9,23 +9,26 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Returns the displacement of a facet's centroid, which moves with particle a like a rigid body.
-Vec3<Complex> displacement(const Specimen& specimen, const Facet& f, const std::vector<Complex>& motion) {
-  const Complex* m = &motion[6 * static_cast<std::size_t>(f.a)];
+/// Returns the outward displacement of the free facet `f` of particle a: the motion of its centroid with the particle,
+/// and the opening that makes the stress on it zero, 2μ/h·opening + pressure = 0 (model, section 26).
+Complex outward_displacement(const Specimen& specimen, const Facet& f, const HarmonicResult& state) {
+  const Complex* m = &state.motion[6 * static_cast<std::size_t>(f.a)];
   const Vec3d r = f.centroid - specimen.centre[static_cast<std::size_t>(f.a)];
-  return {m[0] + (m[4] * r.z - m[5] * r.y), m[1] + (m[5] * r.x - m[3] * r.z), m[2] + (m[3] * r.y - m[4] * r.x)};
+  const Complex along_x = m[0] + (m[4] * r.z - m[5] * r.y), along_y = m[1] + (m[5] * r.x - m[3] * r.z);
+  Complex out = f.normal.x * along_x + f.normal.y * along_y;
+  if (!state.pressures.empty()) out -= dot(f.normal, r) * state.pressures[static_cast<std::size_t>(f.a)];
+  return out;
 }
 
 /// Returns the ratio for curved sides. The mean lateral strain is half the integral of the outward displacement over
 /// the sides, divided by the volume.
 std::optional<Complex> ratio_of_curved_sides(const Specimen& specimen, const Tessellation& cells,
-                                             const std::vector<Complex>& motion) {
+                                             const HarmonicResult& state) {
   Complex outwards = 0;  // area times displacement along the outward normal
   bool any = false;
   for (const Facet& f : cells.facets) {
     if (f.a >= static_cast<std::int32_t>(specimen.size()) || f.b != wall_x_lo) continue;
-    const Vec3<Complex> u = displacement(specimen, f, motion);
-    outwards += f.area * (f.normal.x * u.x + f.normal.y * u.y);
+    outwards += f.area * outward_displacement(specimen, f, state);
     any = true;
   }
   if (!any) return {};
@@ -36,8 +39,8 @@ std::optional<Complex> ratio_of_curved_sides(const Specimen& specimen, const Tes
 }  // namespace
 
 std::optional<std::complex<double>> poisson_ratio(const Specimen& specimen, const Tessellation& cells,
-                                                  const std::vector<std::complex<double>>& motion) {
-  if (!specimen.box.is_box()) return ratio_of_curved_sides(specimen, cells, motion);
+                                                  const HarmonicResult& state) {
+  if (!specimen.box.is_box()) return ratio_of_curved_sides(specimen, cells, state);
   struct Side {
     double area = 0;
     Complex outwards = 0;  ///< area times displacement along the outward normal
@@ -46,12 +49,9 @@ std::optional<std::complex<double>> poisson_ratio(const Specimen& specimen, cons
   for (const Facet& f : cells.facets) {
     const bool of_particle = f.a < static_cast<std::int32_t>(specimen.size());
     if (!of_particle || f.b > wall_x_lo || f.b < wall_y_hi) continue;
-    const bool along_x = f.b >= wall_x_hi;
-    const Vec3<Complex> motion_of_facet = displacement(specimen, f, motion);
-    const Complex u = along_x ? motion_of_facet.x : motion_of_facet.y;
     Side& side = sides[static_cast<std::size_t>(-1 - f.b)];
     side.area += f.area;
-    side.outwards += (along_x ? f.normal.x : f.normal.y) * f.area * u;
+    side.outwards += f.area * outward_displacement(specimen, f, state);
   }
   for (const Side& side : sides)
     if (!(side.area > 0)) return {};

@@ -257,8 +257,8 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
   }
   std::vector<Part> parts = specimen_of(kind);
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
-  const bool series = rule == ContactRule::series;
-  if (series)
+  const bool of_phases = has_laws_of_phases(rule);
+  if (of_phases)
     append(materials_with_laws(kind != NewKind::recipe));
   else if (kind == NewKind::recipe)
     append({{"[materials]", {}}});
@@ -266,8 +266,9 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
     append({{"[materials]", {}},
             {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
-  if (!series) append(contacts_of(kind, cracks));
-  append({{"[network]", series ? std::vector<Given>{{"rule", R"("series")"}} : std::vector<Given>{}},
+  if (!of_phases) append(contacts_of(kind, cracks));
+  append({{"[network]",
+           of_phases ? std::vector<Given>{{"rule", std::string("\"") + to_string(rule) + '"'}} : std::vector<Given>{}},
           loading_of(test, cracks),
           {"[solver]",
            cracks ? std::vector<Given>{{"method", R"("explicit")"}, {"density_scaling", "10"}}

@@ -114,18 +114,19 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
   return table;
 }
 
-void read_limits_of_pairs(const std::vector<Section>& sections, NetworkSpec& network) {
+void read_limits_of_pairs(const std::vector<Section>& sections, ContactRule rule, NetworkSpec& network) {
+  const std::string name = to_string(rule);
   const std::vector<std::string> pairs = pair_names();
   std::vector<bool> seen(pairs.size());
   for (const Section& section : sections) {
     for (const char* key : {"law", "alpha", "delta"}) {
       if (section.has(key))
-        section.refuse(key, "this key of a pair with rule = \"series\" in [network]",
+        section.refuse(key, "this key of a pair with rule = \"" + name + "\" in [network]",
                        "only pair, gap_max and area_min: with this rule the laws of all pairs follow from the laws in "
                        "[materials.mastic] and [materials.aggregate]");
     }
     if (section.has("crack")) {
-      section.refuse("crack", "this key with rule = \"series\" in [network]",
+      section.refuse("crack", "this key with rule = \"" + name + "\" in [network]",
                      "rule = \"centres\", because contacts with rock in series cannot crack");
     }
     std::size_t pair = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_materials.cpp  Reads `[materials]`: densities, the temperature and, for the rule "series", the laws of
-/// mastic and rock. Derives the laws of all pairs from them.
+/// \file read_materials.cpp  Reads `[materials]`: densities, the temperature and, for the rules "series" and
+/// "volumetric", the laws of mastic and rock. Derives the laws of all pairs from them.
 #include <fmt/format.h>
 
 #include "host/scene/law_keys.hpp"
@@ -36,20 +36,21 @@ Key density_key(double& target, Need need) {
 }
 
 Key poisson_key(std::optional<double>& target, const char* usual) {
-  return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson), "Poisson's ratio, for rule \"series\"",
-          usual};
+  return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson),
+          "Poisson's ratio, for rules \"series\" and \"volumetric\"", usual};
 }
 
 const char* const without_law = "the laws of [[contacts]]";
 
 /// Refuses the law of a phase in a scene whose rule has no use for it.
 void require_rule(const Section& section, ContactRule rule) {
-  if (rule == ContactRule::series) return;
+  if (has_laws_of_phases(rule)) return;
   for (const char* key : {"law", "E", "poisson_ratio"}) {
     if (section.has(key))
-      section.refuse(key, "this key with rule = \"centres\" in [network]",
-                     "rule = \"series\" in [network], or no law of a phase, because with \"centres\" each pair has its "
-                     "own law in [[contacts]]");
+      section.refuse(
+          key, "this key with rule = \"centres\" in [network]",
+          "rule = \"series\" or \"volumetric\" in [network], or no law of a phase, because with \"centres\" each "
+          "pair has its own law in [[contacts]]");
   }
 }
 
@@ -66,19 +67,21 @@ void read_aggregate(const Section& section, Need need, ContactRule rule, Materia
                 {"law",
                  Need::optional,
                  {law, {"text", nullptr, "\"elastic\""}},
-                 "law of the rock, for rule \"series\"",
+                 "law of the rock, for rules \"series\" and \"volumetric\"",
                  without_law},
                 {"E",
                  Need::optional,
                  {modulus_of_rock, {"number", &modulus, in_pascals.words}},
                  "modulus of the rock",
                  "none; required with law"},
-                poisson_key(materials.aggregate_poisson_ratio, "none")});
+                poisson_key(materials.aggregate_poisson_ratio, "none; required for rule \"volumetric\"")});
   require_rule(section, rule);
   if (section.has("law") != section.has("E")) {
     section.refuse("E", section.has("E") ? "this key without law" : "nothing",
                    section.has("E") ? "law = \"elastic\" as well" : "a modulus, because law is \"elastic\"");
   }
+  if (rule == ContactRule::volumetric && phases.rock_modulus && !materials.aggregate_poisson_ratio)
+    section.refuse("poisson_ratio", "nothing", "a Poisson's ratio, because rule is \"volumetric\" in [network]");
 }
 
 void read_mastic(const Section& section, Need need, ContactRule rule, Materials& materials, PhaseLaws& phases) {
@@ -89,7 +92,7 @@ void read_mastic(const Section& section, Need need, ContactRule rule, Materials&
                         {"law",
                          Need::optional,
                          {[](const Value&) {}, {"one of"}},
-                         "law of the mastic, for rule \"series\"; it determines the other keys",
+                         "law of the mastic, for rules \"series\" and \"volumetric\"; it determines the other keys",
                          without_law},
                         poisson_key(materials.mastic_poisson_ratio, "none; required with law")};
   const auto name = section.find("law");
@@ -144,7 +147,9 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   if (scene.network.rule == ContactRule::centres) return;
   const auto require = [&](bool needed, bool given, const char* phase, const char* example) {
     if (needed && !given)
-      root.refuse("materials", std::string("no law of the ") + phase + ", which rule = \"series\" in [network] needs",
+      root.refuse("materials",
+                  std::string("no law of the ") + phase + ", which rule = \"" + to_string(scene.network.rule) +
+                      "\" in [network] needs",
                   std::string("[materials.") + phase + "] with " + example);
   };
   const bool file = scene.specimen.file.has_value(), mastic = phases.mastic.has_value(),

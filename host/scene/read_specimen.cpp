@@ -212,8 +212,8 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
       {"aggregate_file",
        Need::optional,
        {read_aggregate_file, {"text"}},
-       "for a specimen from a file with rule \"series\": CSV file of the true surfaces of the aggregates, with the "
-       "columns body,shape,size,x,y,z and qw,qx,qy,qz",
+       "for a specimen from a file with rule \"series\" or \"volumetric\": CSV file of the true surfaces of the "
+       "aggregates, with the columns body,shape,size,x,y,z and qw,qx,qy,qz",
        "surfaces of the spheres"},
       {"seed", Need::optional, into(spec.seed, 0),
        "seed of the generator: another seed gives another specimen of the same mixture"},

@@ -67,10 +67,14 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   "area moments of a contact: from its points, from its polygon, or from one point at the centroid"});
   keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
                   "whether the four sides are walls too; |E*| is then a confined modulus"});
-  keys.push_back({"rule", Need::optional,
-                  into<ContactRule>(spec.rule, {{"centres", ContactRule::centres}, {"series", ContactRule::series}}),
-                  "stiffness of a contact: from the law of its pair and the distance of the centres, or from the laws "
-                  "of mastic and rock in series along the line between the centres"});
+  keys.push_back(
+      {"rule", Need::optional,
+       into<ContactRule>(spec.rule, {{"centres", ContactRule::centres},
+                                     {"series", ContactRule::series},
+                                     {"volumetric", ContactRule::volumetric}}),
+       "stiffness of a contact: from the law of its pair and the distance of the centres; from the laws of "
+       "mastic and rock in series along the line between the centres; or in series, with the Poisson's ratios "
+       "of mastic and rock"});
   section.read(keys);
 }
 
@@ -191,7 +195,7 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   PhaseLaws phases;
   TemperatureTables tables;
   const ContactRule rule = rule_of(root);
-  const bool series = rule == ContactRule::series;
+  const bool of_phases = has_laws_of_phases(rule);
   root.read({{"specimen", Need::required, section_by(read_the_specimen),
               "the specimen, which is read from a file or generated"},
              {"materials", densities, section_by([&](const Value& v) {
@@ -199,8 +203,8 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
                 tables.temperature = out.materials.temperature;
               }),
               "densities, and the temperature", "computed from [specimen.recipe] if that is given"},
-             {"contacts", series ? Need::optional : Need::required, sections_by([&](const Value& v) {
-                if (series) return read_limits_of_pairs(v.sections(), out.network);
+             {"contacts", of_phases ? Need::optional : Need::required, sections_by([&](const Value& v) {
+                if (of_phases) return read_limits_of_pairs(v.sections(), rule, out.network);
                 out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network, tables);
               }),
               "contact law of a pair of materials; one section per pair"},
@@ -214,6 +218,8 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
              {"output", Need::optional, section_by([&](const Value& v) { read_output(v.section(), out.output); }),
               "files that are written besides the results", "the defaults of its keys"}});
   out.solver = solver.value_or(usual_solver(out.experiment));
+  // only the CPU computes the pressures of cells
+  if (rule == ContactRule::volumetric && out.solver.backend == Backend::automatic) out.solver.backend = Backend::cpu;
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   set_laws_of_phases(out, phases, root);
   check_together(out, root);

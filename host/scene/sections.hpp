@@ -53,11 +53,11 @@ std::vector<Key> keys_of(FacetLimits& limits);
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network,
                        TemperatureTables& tables);
 
-/// Reads every `[[contacts]]` of a scene with the rule "series": the limits on the facets of each pair, and no laws.
-/// \throws InputError
-void read_limits_of_pairs(const std::vector<Section>& sections, NetworkSpec& network);
+/// Reads every `[[contacts]]` of a scene with the rule "series" or "volumetric": the limits on the facets of each pair,
+/// and no laws. \throws InputError
+void read_limits_of_pairs(const std::vector<Section>& sections, ContactRule rule, NetworkSpec& network);
 
-/// Laws of the phases, for the rule "series".
+/// Laws of the phases, for the rules "series" and "volumetric".
 struct PhaseLaws {
   std::optional<Law> mastic;  ///< at its reference temperature
   laws::Shift shift;          ///< of the mastic
@@ -69,7 +69,7 @@ struct PhaseLaws {
 /// With the rule "centres" such laws are refused. \throws InputError
 Materials read_materials(const Section& section, Need need, ContactRule rule, PhaseLaws& phases);
 
-/// Sets the laws and shifts of all pairs of a scene with the rule "series"; otherwise changes nothing. `root` is the
+/// Sets the laws and shifts of all pairs of a scene with laws of phases; otherwise changes nothing. `root` is the
 /// whole scene. \throws InputError for a phase without a law
 void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& root);
 

@@ -53,7 +53,7 @@ void apply_temperature(Scene& scene, const Section& root, const TemperatureTable
       section.refuse(
           key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
           std::string("shift = \"wlf\", \"arrhenius\" or \"table\" in ") +
-              (scene.network.rule == ContactRule::series ? "[materials.mastic]" : "at least one section [[contacts]]"));
+              (has_laws_of_phases(scene.network.rule) ? "[materials.mastic]" : "at least one section [[contacts]]"));
     }
     LawTable at = laws_at(scene, temperature);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {

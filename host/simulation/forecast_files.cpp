@@ -52,7 +52,7 @@ class FileForecast {
     if (name == "aggregates.csv") return 300 + aggregate_line * static_cast<double>(f_.census.aggregates);
     if (name == "gradation.csv") return 10 * gradation_line;
     if (name == "contacts.csv")
-      return (contact_line + (scene_.network.rule == ContactRule::series ? series_columns : 0)) * f_.contacts;
+      return (contact_line + (has_laws_of_phases(scene_.network.rule) ? series_columns : 0)) * f_.contacts;
     if (name == cracks_file) return crack_line * broken_points();
     if (name == damage_file) return damage_line * damaged_contacts();
     if (name == "response.csv") {

@@ -11,7 +11,29 @@
 
 namespace macadam {
 
+namespace {
+
+/// Refuses what the rule "volumetric" cannot compute. \throws InputError.
+void require_volumetric(const Scene& scene) {
+  const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
+    throw InputError(scene.file.string(), 0, what, found, expected);
+  };
+  if (scene.solver.method == SolverMethod::explicit_)
+    refuse("rule in [network]", "\"volumetric\" with method \"explicit\"",
+           "method \"harmonic\", or rule \"series\", because time steps do not compute the pressures of cells");
+  if (frequencies_of(scene.experiment).empty())
+    refuse("rule in [network]", fmt::format("\"volumetric\" with kind \"{}\"", kind_of(scene.experiment)),
+           "kind \"cyclic\" or \"sweep\", or rule \"series\", because the response without time steps is not "
+           "available for this rule");
+  if (scene.solver.backend == Backend::cuda)
+    refuse("backend in [solver]", "\"cuda\" with rule \"volumetric\"",
+           "\"cpu\", because the solver on GPUs does not compute the pressures of cells");
+}
+
+}  // namespace
+
 void require_combination(const Scene& scene) {
+  if (scene.network.rule == ContactRule::volumetric) require_volumetric(scene);
   if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
     throw InputError(scene.file.string(), 0, "method",
                      std::string("\"explicit\" with kind \"") + kind_of(scene.experiment) + "\"",

@@ -84,11 +84,15 @@ void require_same_rule(const Scene& scene, const ContactNetwork& network) {
   require("E in [materials.aggregate]", scene.materials.rock_modulus.value_or(0), network.rock_modulus);
   require("poisson_ratio in [materials.mastic]", scene.materials.mastic_poisson_ratio.value_or(0),
           network.mastic_poisson_ratio);
+  if (network.rule == ContactRule::volumetric)
+    require("poisson_ratio in [materials.aggregate]", scene.materials.aggregate_poisson_ratio.value_or(0),
+            network.rock_poisson_ratio);
 }
 
-/// Returns what a run with the rule "series" reports about the rock of its specimen.
-std::string words_of(const RockReport& rock, const Specimen& specimen) {
-  std::string out = fmt::format("rule \"series\": cells of aggregates fill {:.2f} % of the box", 100 * rock.rock_cells);
+/// Returns what a run with the rule "series" or "volumetric" reports about the rock of its specimen.
+std::string words_of(const RockReport& rock, const Specimen& specimen, ContactRule rule) {
+  std::string out =
+      fmt::format("rule \"{}\": cells of aggregates fill {:.2f} % of the box", to_string(rule), 100 * rock.rock_cells);
   out += rock.rock_nominal ? fmt::format(" and the aggregates {:.2f} %", 100 * *rock.rock_nominal)
                            : " (the aggregates' own volume is unknown)";
   if (!specimen.voids.empty())
@@ -151,7 +155,8 @@ class SceneRun {
       list.insert(list.end(), more.begin(), more.end());
     };
     append(result.decisions, decisions);
-    if (prepared().rock) result.decisions.push_back(words_of(*prepared().rock, prepared().specimen));
+    if (prepared().rock)
+      result.decisions.push_back(words_of(*prepared().rock, prepared().specimen, scene_.network.rule));
     append(result.warnings, warnings);
     append(result.warnings, packing);
     if (scene_.network.lateral_walls) {

@@ -22,13 +22,13 @@
 
 namespace macadam {
 
-/// Densities by phase [kg/m³], 0 if the scene gives none, the temperature, and what rule "series" needs besides the
-/// laws of the pairs, which follow from the laws of the phases.
+/// Densities by phase [kg/m³], 0 if the scene gives none, the temperature, and the constants that the rules "series"
+/// and "volumetric" need besides the laws of the pairs.
 struct Materials {
   double aggregate = 0, mastic = 0;
   std::optional<double> temperature = {};              ///< of the whole specimen [°C]; empty: not given
   std::optional<double> rock_modulus = {};             ///< E of the aggregates [Pa]; empty: not given
-  std::optional<double> aggregate_poisson_ratio = {};  ///< empty: not given; rule "series" does not use it
+  std::optional<double> aggregate_poisson_ratio = {};  ///< empty: not given; only rule "volumetric" uses it
   std::optional<double> mastic_poisson_ratio = {};     ///< empty: not given
   double density(Phase phase) const {
     return phase == Phase::aggregate ? aggregate : phase == Phase::mastic ? mastic : 0;

@@ -89,7 +89,7 @@ nb::dict fractions_of(const HarmonicResult& r) {
 nb::list sensitivities_of(const HarmonicResult& r, const Prepared& p) {
   nb::list out;
   const std::complex<double> at = HarmonicLoad{r.frequency_hz}.s();
-  const bool of_phases = p.scene->network.rule == ContactRule::series;
+  const bool of_phases = has_laws_of_phases(p.scene->network.rule);
   for (const Sensitivity& s :
        of_phases ? phase_sensitivities(r.parts, p.scene->laws, at) : sensitivities(r.parts, p.scene->laws, at)) {
     nb::dict one;

@@ -99,7 +99,8 @@ TEST_F(SeriesScene, PairsKeepLimitsOfFacets) {
 }
 
 TEST_F(SeriesScene, WrongKeysAreRefused) {
-  refused(replaced(good, "\"series\"", "\"volumetric\""), {"[network] rule", "\"volumetric\"", "\"centres\""});
+  refused(replaced(good, "\"series\"", "\"serial\""),
+          {"[network] rule", "\"serial\"", "\"centres\"", "\"volumetric\""});
   refused(replaced(good, "rule", "rul"), {"an unknown key", "rule"});
   refused(replaced(good, "poisson_ratio = 0.35", "poison_ratio = 0.35"), {"an unknown key", "poisson_ratio"});
   refused(replaced(good, "poisson_ratio = 0.35\n", ""), {"[materials.mastic] poisson_ratio", "nothing"});

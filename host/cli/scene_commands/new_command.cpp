@@ -49,6 +49,9 @@ void write_new(const std::string& file, const std::string& text) {
 }
 
 void new_command(const NewArguments& arguments) {
+  if (arguments.rule == ContactRule::volumetric && arguments.test != "cyclic" && arguments.test != "sweep")
+    throw InputError("macadam new", 0, "--test with --rule volumetric", arguments.test,
+                     "cyclic or sweep, because this rule is available in the frequency domain only");
   write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test, arguments.rule, arguments.cracks));
   say("{} is written. Edit it, then run:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)
@@ -73,9 +76,11 @@ void add_new_command(CLI::App& app) {
   std::vector<std::pair<std::string, std::string>> tests;
   for (const std::string& kind : scene::tests_of_new_scenes()) tests.emplace_back(kind, kind);
   add_choice(command, "--test", arguments->test, "the test of the specimen", tests);
-  add_choice(command, "--rule", arguments->rule,
-             "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow",
-             {{"centres", ContactRule::centres}, {"series", ContactRule::series}});
+  add_choice(
+      command, "--rule", arguments->rule,
+      "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow, without "
+      "or with their Poisson's ratios",
+      {{"centres", ContactRule::centres}, {"series", ContactRule::series}, {"volumetric", ContactRule::volumetric}});
   command.add_flag("--cracks", arguments->cracks,
                    "contacts between particles crack, for a strength test (--test monotonic)");
   add_examples(command, {"macadam new mix.toml", "macadam new --kind spheres --test monotonic --cracks mix.toml",
