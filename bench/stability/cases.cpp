@@ -17,6 +17,7 @@ const std::vector<Case>& cases() {
       {"strain_amplitudes", "Strain amplitudes", strain_amplitudes},
       {"recovery", "Load, hold, reversal and release", recovery},
       {"rigid_turn", "A full turn", rigid_turn},
+      {"cracks", "Contacts that crack", cracks},
   };
   return all;
 }

@@ -71,6 +71,7 @@ Rows long_driven(Effort);        ///< the same numbers of steps under load: E*
 Rows strain_amplitudes(Effort);  ///< strains of 1e-6 … 1e-2, with both geometries
 Rows recovery(Effort);           ///< displacement after load, hold, reversal and release
 Rows rigid_turn(Effort);         ///< a full turn of a free specimen
+Rows cracks(Effort);             ///< cracks: chatter, reversal, least fracture energy, stiffness ratios up to 1e6
 
 // ---- scenes and measurements that several cases use (scenes.cpp)
 

@@ -34,6 +34,12 @@ inline FieldArray vectors(std::string name, std::string unit, const std::vector<
   });
 }
 
+/// Returns whether the law of a contact has a crack.
+inline bool has_crack(const FactsTable& laws, const Contact& contact) {
+  const auto& law = laws[static_cast<std::size_t>(contact.pair)];
+  return law && law->cracks;
+}
+
 /// Units of the relative displacements of a contact: opening, slopes along s and t, slips along s and t, twist.
 inline constexpr const char* relative_unit = "m, rad, rad, m, m, rad";
 

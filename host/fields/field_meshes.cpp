@@ -123,4 +123,29 @@ FieldMesh cell_mesh(const Specimen& specimen, const Tessellation& tessellation,
   return out;
 }
 
+// Facets and contacts are both in the order of (a, b), and every contact has a facet.
+FieldMesh crack_mesh(const Tessellation& tessellation, const ContactNetwork& network, const FactsTable& laws) {
+  FieldMesh out;
+  out.shape = Shape::polygons;
+  out.offsets.push_back(0);
+  std::vector<std::int32_t> contact, pair;
+  std::vector<double> area;
+  std::size_t facet = 0;
+  for (std::size_t i = 0; i < network.contacts.size(); ++i) {
+    const Contact& c = network.contacts[i];
+    if (!has_crack(laws, c)) continue;
+    while (tessellation.facets[facet].a != c.a || tessellation.facets[facet].b != c.b) ++facet;
+    for (const Vec3d& v : tessellation.polygon(tessellation.facets[facet])) {
+      out.connectivity.push_back(static_cast<std::int64_t>(out.point_count()));
+      add_point(out.points, v);
+    }
+    out.offsets.push_back(static_cast<std::int64_t>(out.connectivity.size()));
+    contact.push_back(static_cast<std::int32_t>(i)), pair.push_back(static_cast<std::int32_t>(c.pair));
+    area.push_back(c.area);
+  }
+  out.arrays = {{"contact", "1", 1, std::move(contact)}, {"pair", "1", 1, std::move(pair)}};
+  out.arrays.push_back(scalars("area", "m2", area));
+  return out;
+}
+
 }  // namespace macadam

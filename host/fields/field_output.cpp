@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *particles = "particles", *contacts = "contacts", *cells = "cells";
+constexpr const char *particles = "particles", *contacts = "contacts", *cells = "cells", *cracks = "cracks";
 
 fs::path folder_in(const fs::path& out) { return out / "fields"; }
 
@@ -31,7 +31,8 @@ bool is_field_file(const fs::path& file) {
   constexpr std::array<std::string_view, 4> endings{".vtkhdf", ".vtp", ".pvd", ".part"};
   const std::string name = file.filename().string(), ending = file.extension().string();
   return std::find(endings.begin(), endings.end(), ending) != endings.end() &&
-         (name.starts_with(particles) || name.starts_with(contacts) || name.starts_with(cells));
+         (name.starts_with(particles) || name.starts_with(contacts) || name.starts_with(cells) ||
+          name.starts_with(cracks));
 }
 
 /// Returns the strain amplitude of steady states. A sweep gives no amplitude and gets the default of a cyclic test.
@@ -104,6 +105,8 @@ std::vector<std::string> FieldOutput::begin(const std::string& of, int samples, 
   }
   if (spec.contacts)
     contacts_ = series(contacts, of, contact_mesh(prepared_.specimen, prepared_.network), time, missing);
+  if (const FactsTable laws = facts_of(scene_.laws); spec.contacts && can_crack(laws))
+    cracks_ = series(cracks, of, crack_mesh(prepared_.tessellation, prepared_.network, laws), time, missing);
   return missing;
 }
 
@@ -126,6 +129,7 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
     particles_->add(time, of_particles);
   }
   if (!contacts_) return;
+  if (cracks_) cracks_->add(time, crack_arrays(prepared_.network, facts_of(scene_.laws), carried));
   // In the points form the chains belong to contact points, not to the whole contact.
   if (form == ContactForm::points) carried.chain_begin.clear();
   contacts_->add(time, contact_arrays(prepared_.specimen, prepared_.network, carried, state.displacement));
@@ -134,6 +138,7 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
 void FieldOutput::end() {
   if (particles_) particles_->end();
   if (contacts_) contacts_->end();
+  if (cracks_) cracks_->end();
 }
 
 void FieldOutput::write(const HarmonicResult& solved, const LawTable& laws, std::optional<double> temperature) {

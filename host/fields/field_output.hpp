@@ -53,7 +53,7 @@ class FieldOutput {
   const Scene& scene_;
   const Preparation& prepared_;
   std::filesystem::path folder_;
-  std::unique_ptr<FieldSeries> particles_, contacts_;
+  std::unique_ptr<FieldSeries> particles_, contacts_, cracks_;
   bool writes_;         ///< whether this process writes the files: only the first rank does
   bool begun_ = false;  ///< whether the scene requests a series of fields
   int stride_ = 1;      ///< samples from one frame to the next

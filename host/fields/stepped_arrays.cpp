@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // stepped_arrays.cpp  Converts the state of a stepper to the arrays of a frame.
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "host/fields/field_lists.hpp"
 #include "macadam/fields.hpp"
@@ -31,7 +33,44 @@ Vec3d turned_normal(const Specimen& specimen, const Contact& c, const std::vecto
   return (1 / norm(line)) * line;
 }
 
+/// Means of the cracks of the points of a contact over its facet: opening, slip [m], damage, crack energy [J/m²].
+using MeanCrack = std::array<double, 4>;
+
+MeanCrack mean_crack(const ContactNetwork& network, const Contact& contact, const ContactState& state) {
+  MeanCrack out{};
+  double all = 0;
+  for (std::uint32_t j = contact.point_begin; j < contact.point_end; ++j) {
+    const laws::PointCrack& point = state.point_cracks[j];
+    const double area = network.point_area[j], values[4] = {point.opening, point.slip, point.damage, point.energy};
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] += area * values[k];
+    all += area;
+  }
+  if (all > 0)
+    for (double& value : out) value /= all;
+  return out;
+}
+
+/// Adds the arrays of cracks to `arrays`.
+void add_cracks(const std::vector<MeanCrack>& cracks, std::vector<FieldArray>& arrays) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> names{
+      {{"opening", "m"}, {"slip", "m"}, {"damage", "1"}, {"crack_energy", "J/m2"}}};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    arrays.push_back(
+        tuples(names[k].first, names[k].second, cracks.size(), 1, [&](std::size_t c, int) { return cracks[c][k]; }));
+  }
+}
+
 }  // namespace
+
+std::vector<FieldArray> crack_arrays(const ContactNetwork& network, const FactsTable& laws, const ContactState& state) {
+  std::vector<MeanCrack> cracks;
+  for (const Contact& c : network.contacts) {
+    if (has_crack(laws, c)) cracks.push_back(mean_crack(network, c, state));
+  }
+  std::vector<FieldArray> out;
+  add_cracks(cracks, out);
+  return out;
+}
 
 std::vector<FieldArray> particle_arrays(const ParticleState& state) {
   std::vector<FieldArray> out;
@@ -87,6 +126,11 @@ std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNe
   out.push_back(tuples("relative_displacement", relative_unit, contacts, 6,
                        [&](std::size_t c, int k) { return state.relative[c][static_cast<std::size_t>(k)]; }));
   if (!state.broken.empty()) out.push_back(scalars("broken", "1", state.broken));
+  if (!state.point_cracks.empty()) {
+    std::vector<MeanCrack> cracks;
+    for (const Contact& c : network.contacts) cracks.push_back(mean_crack(network, c, state));
+    add_cracks(cracks, out);
+  }
   const std::vector<int> units = units_of(state);
   const int most = units.empty() ? 0 : *std::max_element(units.begin(), units.end());
   for (int l = 0; l < most; ++l) {

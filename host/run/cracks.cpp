@@ -38,6 +38,14 @@ bool counts_cracks(const Scene& scene) {
   return scene.solver.method == SolverMethod::explicit_ && can_break(facts_of(scene.laws));
 }
 
+ContactState read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network) {
+  if (scene.solver.backend != Backend::reference) return stepper.contacts(network);
+  ContactState out;
+  out.point_breaks = stepper.point_breaks(network);
+  out.point_cracks = stepper.point_cracks(network);
+  return out;
+}
+
 CrackWatch::CrackWatch(const Scene& scene, const Preparation& prepared, const std::vector<CrackEvent>& before)
     : network_(prepared.network),
       laws_(facts_of(scene.laws)),
@@ -72,28 +80,37 @@ void CrackWatch::add(const CrackEvent& event) {
   found_.events.push_back(event);
 }
 
-std::vector<CrackEvent> CrackWatch::look(const Stepper& stepper, double time) {
+std::vector<CrackEvent> CrackWatch::look(const ContactState& state, double time) {
   std::vector<CrackEvent> out;
   if (!active_) return out;
-  const std::vector<Break> breaks = stepper.point_breaks(network_);
   for (std::uint32_t c = 0; c < network_.contacts.size(); ++c) {
     const Contact& contact = network_.contacts[c];
     for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
-      if (breaks[point] != Break::none && !broken_[point]) out.push_back({c, point, breaks[point], time});
+      if (state.point_breaks[point] == Break::none || broken_[point]) continue;
+      CrackEvent event{c, point, state.point_breaks[point], time};
+      if (sums()) event.opening_m = state.point_cracks[point].opening, event.slip_m = state.point_cracks[point].slip;
+      out.push_back(event);
     }
   }
   for (const CrackEvent& event : out) add(event);
-  if (sums()) {
-    experiments::CrackSums now;
-    const std::vector<laws::PointCrack> cracks = stepper.point_cracks(network_);
-    for (std::size_t point = 0; point < cracks.size(); ++point) {
-      now.cracked += cracks[point].damage > 0;
-      now.crack_energy_j += cracks[point].energy * network_.point_area[point];
-      now.friction_energy_j += cracks[point].friction * network_.point_area[point];
-    }
-    found_.sums = now;
-  }
+  if (sums()) sum(state.point_cracks);
   return out;
+}
+
+void CrackWatch::sum(const std::vector<laws::PointCrack>& cracks) {
+  experiments::CrackSums now;
+  for (PairCracks& pair : found_.by_pair) pair.cracked = 0, pair.cracked_area_m2 = 0;
+  for (const Contact& contact : network_.contacts) {
+    PairCracks& pair = found_.by_pair[static_cast<std::size_t>(contact.pair)];
+    for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
+      const double area = network_.point_area[point];
+      if (cracks[point].damage > 0) ++pair.cracked, pair.cracked_area_m2 += area;
+      now.crack_energy_j += cracks[point].energy * area;
+      now.friction_energy_j += cracks[point].friction * area;
+    }
+  }
+  for (const PairCracks& pair : found_.by_pair) now.cracked += pair.cracked;
+  found_.sums = now;
 }
 
 bool CrackWatch::joins_walls() const {
@@ -109,28 +126,32 @@ bool CrackWatch::joins_walls() const {
   return of_first_rank(sets.find(top) == sets.find(held)) != 0;
 }
 
-std::string crack_head() { return "contact,a,b,pair,x,y,z,nx,ny,nz,area_m2,mode,time_s"; }
+std::string crack_head(bool openings) {
+  return fmt::format("contact,a,b,pair,x,y,z,nx,ny,nz,area_m2,mode,{}time_s",
+                     openings ? "opening_m,slip_m,damage," : "");
+}
 
-std::string crack_line(const Preparation& prepared, const CrackEvent& event) {
+std::string crack_line(const Preparation& prepared, const CrackEvent& event, bool openings) {
   const ContactNetwork& network = prepared.network;
   const Contact& c = network.contacts[event.contact];
   const Vec3d x = prepared.specimen.centre[static_cast<std::size_t>(c.a)] + c.arm_a * c.n +
                   network.point_s[event.point] * c.s + network.point_t[event.point] * c.t;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", event.contact, c.a, c.b, to_string(c.pair), x.x, x.y,
-                     x.z, c.n.x, c.n.y, c.n.z, network.point_area[event.point], to_string(event.how), event.time_s);
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}{}", event.contact, c.a, c.b, to_string(c.pair), x.x, x.y,
+                     x.z, c.n.x, c.n.y, c.n.z, network.point_area[event.point], to_string(event.how),
+                     openings ? fmt::format("{},{},1,", event.opening_m, event.slip_m) : "", event.time_s);
 }
 
 std::vector<double> to_numbers(const std::vector<CrackEvent>& events) {
   std::vector<double> out;
   for (const CrackEvent& e : events) {
-    out.insert(out.end(),
-               {static_cast<double>(e.contact), static_cast<double>(e.point), static_cast<double>(e.how), e.time_s});
+    out.insert(out.end(), {static_cast<double>(e.contact), static_cast<double>(e.point), static_cast<double>(e.how),
+                           e.time_s, e.opening_m, e.slip_m});
   }
   return out;
 }
 
 std::vector<CrackEvent> to_cracks(const std::vector<double>& numbers) {
-  constexpr std::size_t words = 4;
+  constexpr std::size_t words = 6;
   if (numbers.size() % words != 0) {
     throw InputError(
         fmt::format("checkpoint: found a list of {} numbers for broken points, expected a multiple of {} numbers",
@@ -149,7 +170,8 @@ std::vector<CrackEvent> to_cracks(const std::vector<double>& numbers) {
     };
     constexpr double largest = std::numeric_limits<std::uint32_t>::max();
     out.push_back({whole(0, largest), whole(1, largest),
-                   static_cast<Break>(whole(2, static_cast<double>(Break::shear))), numbers[i + 3]});
+                   static_cast<Break>(whole(2, static_cast<double>(Break::shear))), numbers[i + 3], numbers[i + 4],
+                   numbers[i + 5]});
   }
   return out;
 }
@@ -159,13 +181,16 @@ nlohmann::ordered_json cracks_json(const Cracks& cracks) {
   for (std::size_t i = 0; i < pair_types; ++i) {
     const PairCracks& pair = cracks.by_pair[i];
     if (pair.breakable == 0) continue;
-    out[to_string(static_cast<PairType>(i))] = {
-        {"points", pair.points},
-        {"area_m2", pair.area_m2},
-        {"tension", pair.tension},
-        {"shear", pair.shear},
-        {"breakable_points", pair.breakable},
-        {"first_s", pair.first_s ? nlohmann::ordered_json(*pair.first_s) : nlohmann::ordered_json()}};
+    nlohmann::ordered_json& entry = out[to_string(static_cast<PairType>(i))];
+    entry = {{"points", pair.points},
+             {"area_m2", pair.area_m2},
+             {"tension", pair.tension},
+             {"shear", pair.shear},
+             {"breakable_points", pair.breakable},
+             {"first_s", pair.first_s ? nlohmann::ordered_json(*pair.first_s) : nlohmann::ordered_json()}};
+    if (!cracks.sums) continue;
+    entry["cracked_points"] = pair.cracked;
+    entry["cracked_area_m2"] = pair.cracked_area_m2;
   }
   return out;
 }

@@ -19,6 +19,10 @@ inline constexpr const char* cracks_file = "cracks.csv";
 /// Returns whether a run of this scene counts broken points: it is stepped, and one of its laws can break.
 bool counts_cracks(const Scene& scene);
 
+/// Returns Stepper::contacts(). The backend `reference` only gives `point_breaks` and `point_cracks`. All processes of
+/// a run must call this together. \throws RunError as Stepper::contacts() does.
+ContactState read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network);
+
 /// Reads at each sample which contact points are broken. If no law of the scene can break, does nothing.
 class CrackWatch {
  public:
@@ -30,9 +34,9 @@ class CrackWatch {
   bool active() const { return active_; }
   /// Returns whether the scene has laws with a crack, so that look() also sums damage and energies.
   bool sums() const { return found_.sums.has_value(); }
-  /// Adds an event for each point that has broken since the last call. Returns the events of this call. All processes
-  /// of a run must call this together. \throws RunError as Stepper::contacts() does.
-  std::vector<experiments::CrackEvent> look(const Stepper& stepper, double time);
+  /// Adds an event for each point that has broken since the last call. Returns the events of this call. `state`: the
+  /// present one, from read_contact_state().
+  std::vector<experiments::CrackEvent> look(const ContactState& state, double time);
   /// Returns whether contacts with at least one intact point join the top wall to the bottom wall or to a wall at the
   /// sides. Returns true also if the walls were not joined when the test began. All processes of a run must call this
   /// together.
@@ -42,6 +46,8 @@ class CrackWatch {
 
  private:
   void add(const experiments::CrackEvent& event);
+  /// Counts cracked points by pair, and sums their energies.
+  void sum(const std::vector<laws::PointCrack>& cracks);
 
   const ContactNetwork& network_;
   FactsTable laws_;
@@ -51,10 +57,11 @@ class CrackWatch {
 };
 
 /// Return the header line of cracks.csv, and the line of an event. The columns x, y, z are the point's position in the
-/// undeformed specimen.
+/// undeformed specimen. `openings`: whether a law of the scene has a crack, so that its opening, slip and damage have
+/// columns.
 /// @{
-std::string crack_head();
-std::string crack_line(const Preparation& prepared, const experiments::CrackEvent& event);
+std::string crack_head(bool openings);
+std::string crack_line(const Preparation& prepared, const experiments::CrackEvent& event, bool openings);
 /// @}
 
 /// to_numbers() returns the events as four numbers each, for a checkpoint; to_cracks() makes events of such numbers.

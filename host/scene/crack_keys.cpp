@@ -18,12 +18,6 @@ constexpr Rule in_joules{[](double v) { return v >= 1; },
 constexpr Rule coefficient{[](double v) { return v >= 0 && v <= 5; },
                            "a coefficient of friction from 0 to 5, not an angle"};
 
-/// Returns a reader of an optional positive number, which must satisfy `bare` if it has no unit.
-Reader optional_into(std::optional<double>& target, const Quantity& quantity, const Rule& bare) {
-  return {[&target, &quantity, bare](const Value& v) { target = v.number(quantity, v.is_text() ? positive : bare); },
-          {"number", &quantity, bare.words}};
-}
-
 /// Stores the point of the bilinear curve. \throws InputError if the curve does not fall to zero behind it.
 void set_kink(const Section& section, const std::vector<double>& kink, Crack& crack) {
   const auto refuse = [&](const std::string& expected) {
@@ -41,18 +35,18 @@ void set_kink(const Section& section, const std::vector<double>& kink, Crack& cr
 
 }  // namespace
 
-Crack read_crack(const Section& section) {
+Crack read_crack(const Section& section, TemperatureTables& tables) {
   Crack out;
-  std::optional<double> energy, shear_strength, shear_energy, residual_friction;
+  std::optional<double> strength, energy, shear_strength, shear_energy, residual_friction;
   std::optional<std::vector<double>> kink;
   section.read(
-      {{"tensile_strength", Need::required, positive_into(out.tensile_strength, modulus, in_pascals),
+      {{"tensile_strength", Need::required, at_temperature(strength, modulus, in_pascals, tables),
         "f_t, tensile stress at which a contact point begins to crack"},
-       {"fracture_energy", Need::optional, optional_into(energy, fracture_energy, in_joules),
+       {"fracture_energy", Need::optional, at_temperature(energy, fracture_energy, in_joules, tables),
         "G_f, energy per area that a tensile crack takes", "none; required unless softening is \"brittle\""},
-       {"shear_strength", Need::optional, optional_into(shear_strength, modulus, in_pascals),
+       {"shear_strength", Need::optional, at_temperature(shear_strength, modulus, in_pascals, tables),
         "c_0, shear stress without pressure at which a contact point begins to crack", "twice tensile_strength"},
-       {"shear_fracture_energy", Need::optional, optional_into(shear_energy, fracture_energy, in_joules),
+       {"shear_fracture_energy", Need::optional, at_temperature(shear_energy, fracture_energy, in_joules, tables),
         "G_f2, energy per area that a shear crack takes", "fracture_energy"},
        {"softening", Need::optional,
         into<Softening>(out.softening, {{"linear", Softening::linear},
@@ -79,6 +73,7 @@ Crack read_crack(const Section& section) {
     section.refuse("fracture_energy", "nothing",
                    "this key, or softening = \"brittle\", which needs no fracture energy");
   }
+  out.tensile_strength = *strength;
   out.fracture_energy = energy.value_or(0);
   out.shear_fracture_energy = shear_energy.value_or(out.fracture_energy);
   out.shear_strength = shear_strength.value_or(2 * out.tensile_strength);
@@ -102,8 +97,9 @@ Law with_crack(Law law, const Crack& crack) {
       law);
 }
 
-Key crack_key(std::optional<Crack>& target) {
-  return {"crack", Need::optional, section_by([&target](const Value& value) { target = read_crack(value.section()); }),
+Key crack_key(std::optional<Crack>& target, TemperatureTables& tables) {
+  return {"crack", Need::optional,
+          section_by([&target, &tables](const Value& value) { target = read_crack(value.section(), tables); }),
           "cohesive crack in series with the law at every contact point of the pair", "contacts that never crack"};
 }
 

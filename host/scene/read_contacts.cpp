@@ -62,7 +62,8 @@ std::vector<Key> keys_of(FacetLimits& limits) {
        "smallest area of a facet that is a contact, as a fraction of the mean facet area", "every facet is a contact"}};
 }
 
-LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network) {
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network,
+                       TemperatureTables& tables) {
   const std::vector<std::string> pairs = pair_names();
   LawTable table;
   for (const Section& section : sections) {
@@ -88,7 +89,7 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
                "factor on all moduli and viscosities of the pair, not on strengths"}};
           for (Key& key : keys_of(law)) keys.push_back(std::move(key));
           for (Key& key : keys_of(limits)) keys.push_back(std::move(key));
-          if constexpr (can_have_crack<L>) keys.push_back(crack_key(crack));
+          if constexpr (can_have_crack<L>) keys.push_back(crack_key(crack, tables));
           const bool flows = laws::flows(law);
           if (flows)
             for (Key& key : shift.keys()) keys.push_back(std::move(key));

@@ -185,16 +185,19 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   std::optional<SolverSpec> solver;
   PhaseLaws phases;
+  TemperatureTables tables;
   const ContactRule rule = rule_of(root);
   const bool series = rule == ContactRule::series;
   root.read({{"specimen", Need::required, section_by(read_the_specimen),
               "the specimen, which is read from a file or generated"},
-             {"materials", densities,
-              section_by([&](const Value& v) { out.materials = read_materials(v.section(), densities, rule, phases); }),
+             {"materials", densities, section_by([&](const Value& v) {
+                out.materials = read_materials(v.section(), densities, rule, phases);
+                tables.temperature = out.materials.temperature;
+              }),
               "densities, and the temperature", "computed from [specimen.recipe] if that is given"},
              {"contacts", series ? Need::optional : Need::required, sections_by([&](const Value& v) {
                 if (series) return read_limits_of_pairs(v.sections(), out.network);
-                out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network);
+                out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network, tables);
               }),
               "contact law of a pair of materials; one section per pair"},
              {"network", Need::optional, section_by([&](const Value& v) { read_network(v.section(), out.network); }),
@@ -210,7 +213,7 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   set_laws_of_phases(out, phases, root);
   check_together(out, root);
-  apply_temperature(out, root);
+  apply_temperature(out, root, tables);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "host/scene/table.hpp"
+#include "host/scene/temperature_tables.hpp"
 #include "macadam/scene.hpp"
 
 namespace macadam::scene {
@@ -42,8 +43,10 @@ std::vector<Key> keys_of(FacetLimits& limits);
 
 /// Reads every `[[contacts]]` and returns the laws at their reference temperatures. Stores in `shifts` the temperature
 /// shifts of the laws, in `deltas` the factors `delta` with which the laws were multiplied, and in `network` the limits
-/// on the facets of each pair. \throws InputError
-LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network);
+/// on the facets of each pair. Strengths and fracture energies that are tables are evaluated at the temperature in
+/// `tables`. \throws InputError
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network,
+                       TemperatureTables& tables);
 
 /// Reads every `[[contacts]]` of a scene with the rule "series": the limits on the facets of each pair, and no laws.
 /// \throws InputError
@@ -73,8 +76,9 @@ void check_fields(const Section& section, const FieldSpec& spec);
 /// @}
 
 /// Brings the laws to the scene's temperature. Checks that every temperature in the scene changes at least one law and
-/// that all shifts have a value at this temperature. \throws InputError
-void apply_temperature(Scene& scene, const Section& root);
+/// that all shifts have a value at this temperature. `tables`: the tables that the reading has already evaluated at the
+/// scene's temperature. \throws InputError
+void apply_temperature(Scene& scene, const Section& root, const TemperatureTables& tables);
 
 /// Reads `[loading]`, whose `kind` decides the other keys.
 /// \throws InputError

@@ -66,6 +66,7 @@ class Value {
 
   int line() const { return line_; }
   bool is_array() const { return node_->is_array(); }
+  bool is_table() const { return node_->is_table(); }
   /// Returns whether the value is text, as numbers with a unit are.
   bool is_text() const { return node_->is_string(); }
   /// Returns whether the value is written `inf`.

@@ -46,10 +46,10 @@ std::optional<double> common_log10_shift(const Scene& scene, double temperature)
 
 namespace scene {
 
-void apply_temperature(Scene& scene, const Section& root) {
+void apply_temperature(Scene& scene, const Section& root, const TemperatureTables& tables) {
   const auto check = [&](const std::string& in, const std::string& key, double temperature) {
     const Section section = root.find(in)->section();
-    if (std::none_of(scene.shifts.begin(), scene.shifts.end(), shifts)) {
+    if (!tables.used && std::none_of(scene.shifts.begin(), scene.shifts.end(), shifts)) {
       section.refuse(
           key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
           std::string("shift = \"wlf\", \"arrhenius\" or \"table\" in ") +

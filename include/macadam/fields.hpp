@@ -71,6 +71,9 @@ FieldMesh contact_mesh(const Specimen& specimen, const ContactNetwork& network);
 FieldMesh cell_mesh(const Specimen& specimen, const Tessellation& tessellation,
                     const std::vector<Aggregate>& aggregates);
 
+/// Returns the facets of the contacts whose law has a crack, as polygons, in network order.
+FieldMesh crack_mesh(const Tessellation& tessellation, const ContactNetwork& network, const FactsTable& laws);
+
 /// The numbers at one time. Lists that the scene does not request are empty.
 struct FieldFrame {
   double time = 0;                              ///< [s]
@@ -85,9 +88,14 @@ FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& 
 /// Returns normal and shear force, force vector, moment and relative displacement of the contacts. In condensed form
 /// the stretch of each Kelvin unit is added. If a law can break, `broken` is added, the fraction of the contact's
 /// points that are broken. `displacement`: displacements of the particles, from which the current normals are computed;
-/// if empty, the initial normals are used.
+/// if empty, the initial normals are used. If a law has a crack, the arrays of crack_arrays() are added, zero for
+/// contacts without a crack.
 std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNetwork& network,
                                        const ContactState& state, const std::vector<Vec3d>& displacement);
+
+/// Returns opening, slip and damage (means over the facet) and the crack energy per area of the contacts whose law has
+/// a crack, in the order of crack_mesh().
+std::vector<FieldArray> crack_arrays(const ContactNetwork& network, const FactsTable& laws, const ContactState& state);
 
 /// Returns the arrays of the particles in a steady state in which the top wall moves as `amplitude`·cos ωt. `motion` is
 /// HarmonicResult::motion. For every component of a particle's motion, which is the real part of z·e^(iωt), the arrays

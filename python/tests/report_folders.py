@@ -152,10 +152,21 @@ BROKEN = (
 )
 
 
+# the same specimen with cohesive cracks
+CRACKED = (
+    BROKEN.replace('law = "brittle_bond"', 'law = "elastic"')
+    .replace("tensile_strength = 3e6\nshear_strength = 8e5\n",
+             "crack = { tensile_strength = 1e6, fracture_energy = 10, shear_strength = 1.5e6, friction = 0.5 }\n")
+    .replace("rate = 0.1\nstrain = 2e-3", "rate = 1.0\nstrain = 4e-3")
+    .replace("density_scaling = 1e4", "density_scaling = 100")
+)  # fmt: skip
+
+
 def scene(kind: str, seed: int = 1) -> str:
     """Returns the text of a small scene of this kind."""
-    if kind == "broken":
-        return BROKEN.format(data=ROOT / "tests/data")
+    if kind in ("broken", "cracked"):
+        text = BROKEN if kind == "broken" else CRACKED
+        return text.replace("{data}", str(ROOT / "tests/data"))
     laws = LAWS.format(shift=SHIFT if kind == "temperatures" else "")
     if kind == "file":
         return FILE.format(data=ROOT / "tests/data") + laws + TESTS[kind]

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import macadam.report.__main__ as command
-from macadam.report import ReportError, mixture, report, specimen
+from macadam.report import ReportError, cracks, mixture, report, specimen
 from report_folders import ENVIRONMENT, PROGRAM, ROOT, make
 from report_folders import command as run_as
 
@@ -45,6 +45,14 @@ CASES = {
     "stepped_creep": ["is left at 6.00 ms", "the error is above 1 %", "until 3.00 ms (dotted)", "or an estimate of this difference: at most 47 %"],
     "stepped_monotonic": ["Constant rate of strain", "compression at 10,000 µm/m per second", "secant modulus goes from"],
     "broken": ["Strength of ", "the largest stress (cross) is", "The specimen broke between t = ", "Broken contact points: "],
+    "cracked": [
+        "Strength of ",
+        ", work of fracture ",
+        "Cracks and energies",
+        "the energies that it became, one above the other",
+        "facets in it that have begun to crack",
+        "The sum of the energies differs from the work by at most",
+    ],
     "confined": ["The sides are held", "confined"],
     "recipe": [
         "Gradation of",
@@ -93,6 +101,18 @@ def test_cells_of_a_plane_are_those_of_least_power_distance() -> None:
         at = np.stack(np.broadcast_arrays(u[None, :], v[:, None], 0.0), axis=-1)
         power = ((at[:, :, None] - centre) ** 2).sum(axis=-1) - radius**2
         assert np.array_equal(specimen.cells_at(u, v, centre, radius), power.argmin(axis=-1))
+
+
+def test_discs_cut_a_plane_in_chords() -> None:
+    """A disc in the plane x = 0 with radius 2 and centre at a distance of 1 from the plane y = 3 has a chord of length
+    2·√3 along z. A disc parallel to the plane and a disc farther than its radius have none."""
+    centre = np.array([[0.0, 2, 5], [0, 3, 0], [0, 0.9, 0]])
+    normal = np.array([[1.0, 0, 0], [0, 1, 0], [1, 0, 0]])
+    cuts, lines = cracks.chords(centre, normal, np.full(3, 4 * np.pi), 1, 3.0)
+    assert cuts.tolist() == [0]
+    ends = lines[0][np.argsort(lines[0][:, 2])]
+    # the numbers are of order 1, so that rounding is some 1e-16
+    assert np.allclose(ends, [[0, 3, 5 - np.sqrt(3)], [0, 3, 5 + np.sqrt(3)]], rtol=0, atol=1e-14)
 
 
 def test_fields_are_drawn_by_pyvista(tmp_path: Path, no_pictures) -> None:

@@ -113,6 +113,43 @@ TEST(CrackScene, OnlyPairsOfParticlesWithTwoLawsCrack) {
   EXPECT_HAS(message("M-M", "law = \"brittle_bond\"\nE = 1e10\ntensile_strength = 1e6\n"), "crack");
 }
 
+// Between two temperatures of a table the value is linear. A crack with tables needs a temperature within all of them.
+TEST(CrackScene, TablesOverTemperatureAreEvaluatedAtTheSceneTemperature) {
+  const std::string tables =
+      "tensile_strength = { temperatures = [-20, 0, 20], values = [\"3 MPa\", \"2 MPa\", 5e5] }, "
+      "fracture_energy = { temperatures = [-10, 20], values = [100, \"0.4 kJ/m2\"] }";
+  const auto at = [&](const std::string& temperature, const std::string& values) {
+    std::string text = with_crack(values);
+    const std::string materials = "[materials.mastic]";
+    if (!temperature.empty()) text.insert(text.find(materials), "[materials]\ntemperature = " + temperature + "\n");
+    return text;
+  };
+  const laws::Crack crack = crack_of(scene_of(at("5", tables)));
+  EXPECT_DOUBLE_EQ(crack.tensile_strength, 2e6 - 0.25 * 1.5e6);
+  EXPECT_DOUBLE_EQ(crack.fracture_energy, 250);
+  EXPECT_DOUBLE_EQ(crack.shear_strength, 2 * crack.tensile_strength);
+  EXPECT_EQ(crack_of(scene_of(at("20", tables))).tensile_strength, 5e5);
+  EXPECT_EQ(crack_of(scene_of(at("-10", tables))).fracture_energy, 100);
+
+  const auto message = [&](const std::string& temperature, const std::string& values) {
+    return message_of([&] { scene_of(at(temperature, values)); });
+  };
+  EXPECT_HAS(message("", tables), "temperature in [materials], at which the table is evaluated");
+  EXPECT_HAS(message("-15", tables), "a temperature from -10 to 20, or a longer table");
+  EXPECT_HAS(message("21", tables), "a temperature from -20 to 20, or a longer table");
+  const std::string energy = ", fracture_energy = 50";
+  EXPECT_HAS(message("5", "tensile_strength = { temperatures = [0, 10], values = [1e6] }" + energy),
+             "1 numbers for 2 temperatures");
+  EXPECT_HAS(message("5", "tensile_strength = { temperatures = [10, 0], values = [1e6, 2e6] }" + energy), "rising");
+  EXPECT_HAS(message("5", "tensile_strength = { temperatures = [0, 10], values = [1e6, 2.0] }" + energy),
+             "1000 Pa or more");
+  EXPECT_HAS(message("5", "tensile_strength = { temperatures = [0, 10], values = [1e6, nan] }" + energy), "finite");
+  EXPECT_HAS(message("5", "tensile_strength = { temperature = [0, 10], values = [1e6, 2e6] }" + energy),
+             "temperatures");
+  // a temperature that changes neither a law nor a strength is still an error
+  EXPECT_HAS(message("5", "tensile_strength = 1e6" + energy), "which changes no law of the scene");
+}
+
 // The error names the pair, its longest contact, the least energy, and the reason.
 TEST(CrackScene, TooLittleFractureEnergyIsRefusedForTheLongestContact) {
   HandMade made = cubic_lattice_network(1, 1, 3, 2e-3, 1e-5);

@@ -91,7 +91,7 @@ void add_to(Checkpoint& out, const RunState& at, double seconds_running) {
   out.arrays.push_back({samples_array, "Hz, s, 1, Pa", std::move(samples)});
   for (std::size_t i = 0; i < at.cracks.size(); ++i) {
     if (at.cracks[i].events.empty()) continue;
-    out.arrays.push_back({cracks_prefix + std::to_string(i), "1, 1, 1, s", to_numbers(at.cracks[i].events)});
+    out.arrays.push_back({cracks_prefix + std::to_string(i), "1, 1, 1, s, m, m", to_numbers(at.cracks[i].events)});
   }
   // frequencies that have not been started
   for (std::size_t i = at.seconds.size() + 1; i < at.plan.frequencies.size(); ++i) {

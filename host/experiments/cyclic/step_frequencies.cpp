@@ -222,13 +222,13 @@ class Steps : public PlannedExperiment {
   /// Creates cracks.csv if a law of the scene can break, and writes the events of a checkpoint into it.
   void begin_cracks(const std::filesystem::path& out) {
     if (!counts_cracks(scene_)) return;
-    cracks_writer_.emplace(out / cracks_file, "frequency_hz," + crack_head());
+    cracks_writer_.emplace(out / cracks_file, "frequency_hz," + crack_head(can_crack(facts_of(scene_.laws))));
     for (std::size_t i = 0; i < at_.cracks.size(); ++i) write_cracks(i, at_.cracks[i].events);
   }
   void write_cracks(std::size_t i, const std::vector<experiments::CrackEvent>& events) {
     for (const experiments::CrackEvent& event : events) {
-      cracks_writer_->add(
-          fmt::format("{},{}", at_.plan.frequencies[i].loading.frequency, crack_line(prepared_, event)));
+      cracks_writer_->add(fmt::format("{},{}", at_.plan.frequencies[i].loading.frequency,
+                                      crack_line(prepared_, event, can_crack(facts_of(scene_.laws)))));
     }
   }
 
@@ -237,7 +237,7 @@ class Steps : public PlannedExperiment {
   /// steps go on.
   void look_for_cracks(std::size_t i, CrackWatch& watch, const Observation& now) {
     FrequencyCracks& cracks = at_.cracks[i];
-    write_cracks(i, watch.look(*stepper_, now.time));
+    write_cracks(i, watch.look(read_contact_state(scene_, *stepper_, prepared_.network), now.time));
     cracks.events = watch.found().events;
     const double strain = now.top_displacement() / gauge_length(prepared_.specimen);
     if (strain > 0 && !watch.joins_walls()) cracks.rupture = {now.time, strain, cracks.time_s, cracks.strain};

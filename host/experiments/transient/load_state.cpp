@@ -29,8 +29,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, peak, checksum, seconds_plan
 namespace {
 
 constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks",
-                     *unstepped_array = "unstepped";
-constexpr std::size_t point_words = 12;
+                     *unstepped_array = "unstepped", *ledger_array = "energies", *stresses_array = "stresses";
+constexpr std::size_t point_words = 19;
 
 /// Returns the numbers of a relaxation in one list: its error, the long-term modulus, then modulus and time of each
 /// unit.
@@ -69,6 +69,16 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
         out.cracks = to_cracks(*values);
       } catch (const InputError& error) { damaged(error.what()); }
     }
+    if (array.name == ledger_array) {
+      if (!values) damaged("array " + array.name + " of another kind");
+      try {
+        out.ledger = LedgerState::from(*values);
+      } catch (const InputError& error) { damaged(error.what()); }
+    }
+    if (array.name == stresses_array) {
+      if (!values || values->size() % 2 != 0) damaged("array " + array.name + " of another kind");
+      for (std::size_t i = 0; i < values->size(); i += 2) out.stresses.push_back({(*values)[i], (*values)[i + 1]});
+    }
     if (array.name != points_array) continue;
     if (!values || values->size() % point_words != 0) damaged("array " + array.name + " of another kind");
     for (std::size_t i = 0; i < values->size(); i += point_words) {
@@ -83,7 +93,8 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
                             w[6],
                             w[7],
                             static_cast<std::int64_t>(w[8]),
-                            {static_cast<std::int64_t>(w[9]), w[10], w[11]}});
+                            {static_cast<std::int64_t>(w[9]), w[10], w[11]},
+                            {w[12], w[13], w[14], w[15], w[16], w[17], w[18]}});
     }
   }
   if (out.state.empty()) damaged("no state");
@@ -94,12 +105,20 @@ void add_to(Checkpoint& out, const LoadState& at) {
   out.texts[plan_text] = nlohmann::json(at).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   std::vector<double> points;
   for (const SteppedPoint& p : at.points) {
-    points.insert(points.end(), {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error,
-                                 static_cast<double>(p.broken_points), static_cast<double>(p.cracks.cracked),
-                                 p.cracks.crack_energy_j, p.cracks.friction_energy_j});
+    points.insert(points.end(),
+                  {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error,
+                   static_cast<double>(p.broken_points), static_cast<double>(p.cracks.cracked), p.cracks.crack_energy_j,
+                   p.cracks.friction_energy_j, p.energies.work_j, p.energies.elastic_j, p.energies.viscous_j,
+                   p.energies.crack_j, p.energies.friction_j, p.energies.kinetic_j, p.energies.damping_j});
   }
-  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, J, J", std::move(points)});
-  out.arrays.push_back({cracks_array, "1, 1, 1, s", to_numbers(at.cracks)});
+  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, then 9 energies J", std::move(points)});
+  out.arrays.push_back({ledger_array, "J, J, s, then m, N, and chains", at.ledger.numbers()});
+  if (!at.stresses.empty()) {
+    std::vector<double> stresses;
+    for (const StressSample& s : at.stresses) stresses.insert(stresses.end(), {s.strain, s.stress_pa});
+    out.arrays.push_back({stresses_array, "1, Pa", std::move(stresses)});
+  }
+  out.arrays.push_back({cracks_array, "1, 1, 1, s, m, m", to_numbers(at.cracks)});
   if (at.unstepped) out.arrays.push_back({unstepped_array, "1, Pa, then Pa, s", to_numbers(*at.unstepped)});
 }
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "host/experiments/transient/load_error.hpp"
+#include "host/experiments/transient/peak_fit.hpp"
+#include "host/run/energy_ledger.hpp"
 
 namespace macadam {
 
@@ -20,6 +22,8 @@ struct LoadState {
   std::vector<std::string> warnings;              ///< warnings about checkpoints that could not be written
   std::vector<experiments::SteppedPoint> points;  ///< points reached until now
   std::vector<experiments::CrackEvent> cracks;    ///< broken contact points until the last of `points`
+  LedgerState ledger;                             ///< balance of energies until the last of `points`
+  std::vector<StressSample> stresses;             ///< of a strength test with cracks, at all its samples until now
   std::vector<StateArray> state;                  ///< Stepper::state(); set only when it is read from a checkpoint
 };
 

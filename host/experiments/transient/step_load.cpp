@@ -11,8 +11,10 @@
 #include <utility>
 
 #include "host/experiments/transient/load_state.hpp"
+#include "host/experiments/transient/stepped_columns.hpp"
 #include "host/run/sampled_run.hpp"
 #include "host/run/cracks.hpp"
+#include "host/run/damaged_contacts.hpp"
 #include "host/run/step_settings.hpp"
 #include "host/run/skips.hpp"
 #include "host/files/result_files.hpp"
@@ -29,7 +31,8 @@ namespace {
 /// If a run has more steps than this or is predicted to take more seconds than this, the user is warned.
 constexpr std::int64_t many_steps = 100'000'000;
 constexpr double many_seconds = 3600;
-/// Number of times at which a strength test reads the stress, evenly spaced over its steps.
+/// Number of times at which a strength test reads the stress, and a test with cracks the work of the walls, evenly
+/// spaced over its steps.
 constexpr std::int64_t peak_samples = 10'000;
 
 /// Returns the mean density of the specimen's box, including the density scaling [kg/m³].
@@ -61,6 +64,8 @@ class SteppedLoad : public PlannedExperiment {
         errors_(test_, scene, prepared, heavy_density(at_.plan, inertia_, prepared.specimen.box), at_.plan,
                 at_.unstepped),
         cracks_(scene, prepared, at_.cracks),
+        ledger_(prepared.network, scene.laws, inertia_, at_.plan.density_scaling, at_.plan.dt,
+                at_.plan.damping_kind != Damping::none, std::exchange(at_.ledger, {})),
         owns_checkpoint_(resumed) {}
 
   /// Makes the stepper. The stepper is made before any file is changed, so that all files stay as they were if the
@@ -134,9 +139,10 @@ class SteppedLoad : public PlannedExperiment {
     LineWriter writer(out / words.file, head(words));
     for (const SteppedPoint& p : at_.points) writer.add(line(words, p));
     std::optional<LineWriter> cracks_writer;
-    if (cracks_.active()) cracks_writer.emplace(out / cracks_file, crack_head());
+    if (cracks_.active()) cracks_writer.emplace(out / cracks_file, crack_head(cracks_.sums()));
     const auto write_cracks = [&](const std::vector<experiments::CrackEvent>& events) {
-      for (const experiments::CrackEvent& event : events) cracks_writer->add(crack_line(prepared_, event));
+      for (const experiments::CrackEvent& event : events)
+        cracks_writer->add(crack_line(prepared_, event, cracks_.sums()));
     };
     write_cracks(at_.cracks);
     save("running");
@@ -151,7 +157,9 @@ class SteppedLoad : public PlannedExperiment {
         },
         [&](Checkpoint& to) {
           at_.seconds = before + seconds_since(start);
+          at_.ledger = ledger_.state();
           add_to(to, at_);
+          at_.ledger = {};
         });
     sampled_runs.begin_fields(test_.kind, static_cast<int>(test_.history.times.size()), stepper_->observe().time);
     const auto finish = [&] {
@@ -159,6 +167,7 @@ class SteppedLoad : public PlannedExperiment {
       if (cracks_.active()) found.cracks = cracks_.found();
       found.rupture = rupture_;
       if (measures_peak()) found.peak = at_.peak;
+      if (measures_peak() && cracks_.sums()) found.fitted = fit_peak(at_.stresses, at_.peak);
       if (rupture_) found.steps = stepper_->observe().step;
       found.seconds = before + seconds_since(start);
       found.kinetic_share = kinetic_share(found);
@@ -173,6 +182,8 @@ class SteppedLoad : public PlannedExperiment {
     finish();
     writer.close();
     if (cracks_writer) cracks_writer->close();
+    if (cracks_.sums())
+      write_damage(out, prepared_, end_cracks_, found.points.empty() ? 0 : found.points.back().time_s);
     judge(found, result.warnings);
   }
 
@@ -182,22 +193,14 @@ class SteppedLoad : public PlannedExperiment {
   std::string head(const LoadWords& words) const {
     const std::string ratio =
         words.ratio ? fmt::format("{}: ratio of the strain and stress in its row; ", words.ratio) : "";
-    return fmt::format("# {}, stepped in time; {}{}\n{},error,{}bottom_pa,kinetic_j{}",
-                       modulus_words(scene_.network.lateral_walls), ratio, errors_.meaning(), csv_head(words),
-                       test_.by_stress ? "top_pa," : "",
-                       cracks_.sums()     ? ",cracked_points,broken_points,crack_energy_j,friction_energy_j"
-                       : cracks_.active() ? ",broken_points"
-                                          : "");
+    return fmt::format("# {}, stepped in time; {}{}\n{},{}", modulus_words(scene_.network.lateral_walls), ratio,
+                       errors_.meaning(), csv_head(words), columns().head());
   }
   std::string line(const LoadWords& words, const SteppedPoint& p) const {
-    return fmt::format("{},{:.2e},{}{},{}{}", csv_line(words, p), p.error,
-                       test_.by_stress ? fmt::format("{},", p.top_pa) : "", p.bottom_pa, p.kinetic_j, crack_columns(p));
+    return fmt::format("{},{}", csv_line(words, p), columns().line(p));
   }
-  std::string crack_columns(const SteppedPoint& p) const {
-    if (!cracks_.active()) return "";
-    if (!cracks_.sums()) return fmt::format(",{}", p.broken_points);
-    return fmt::format(",{},{},{},{}", p.cracks.cracked, p.broken_points, p.cracks.crack_energy_j,
-                       p.cracks.friction_energy_j);
+  SteppedColumns columns() const {
+    return {test_.by_stress, cracks_.active(), cracks_.sums(), at_.plan.damping_kind != Damping::none};
   }
 
   /// Returns whether the largest stress is recorded: only in a strength test, in which the strain grows and contact
@@ -209,18 +212,28 @@ class SteppedLoad : public PlannedExperiment {
     const double strain = now.top_displacement() / gauge_length(box), stress = -now.top_force() / section_area(box);
     const double sign = std::copysign(1.0, strain);
     if (sign * stress > sign * at_.peak.stress_pa) at_.peak = {now.time, strain, stress};
+    // a resumed run may observe a step again
+    if (cracks_.sums() && (at_.stresses.empty() || at_.stresses.back().strain != strain))
+      at_.stresses.push_back({strain, stress});
   }
 
-  /// Counts the contact points that are broken at a sample and returns the events since the last sample. Under tension
+  /// Counts the contact points that are broken at a sample, sums the energies, and returns the events since the last
+  /// sample. Under tension
   /// the test ends when no path of intact contacts joins the walls. In compression broken points still bear load, so
   /// the test goes on.
   std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
-    auto events = cracks_.look(*stepper_, point.time_s);
+    if (!cracks_.active()) return {};
+    ContactState state = read_contact_state(scene_, *stepper_, prepared_.network);
+    auto events = cracks_.look(state, point.time_s);
     at_.cracks = cracks_.found().events;
     point.broken_points = cracks_.found().points();
-    if (cracks_.sums()) point.cracks = *cracks_.found().sums;
-    const bool pulled = drive_->value(stepper_->observe().step) > 0;
-    if (cracks_.active() && pulled && !cracks_.joins_walls()) {
+    const Observation now = stepper_->observe();
+    if (cracks_.sums()) {
+      point.cracks = *cracks_.found().sums;
+      point.energies = ledger_.sample(now, state, stepper_->particles(), point.cracks);
+      end_cracks_ = std::move(state.point_cracks);
+    }
+    if (drive_->value(now.step) > 0 && !cracks_.joins_walls()) {
       const SteppedPoint before = at_.points.empty() ? SteppedPoint{} : at_.points.back();
       rupture_ = {point.time_s, point.strain, before.time_s, before.strain};
     }
@@ -244,8 +257,11 @@ class SteppedLoad : public PlannedExperiment {
       if (k > 0) add(point(now));
     };
     course.looks_at_stepper = true;  // point() computes the kinetic energy from it
-    if (measures_peak()) {
-      course.between = [this](const Observation& now) { follow_peak(now); };
+    if (measures_peak() || cracks_.sums()) {
+      course.between = [this](const Observation& now) {
+        if (measures_peak()) follow_peak(now);
+        if (cracks_.sums()) ledger_.observe(now);
+      };
       course.between_every = std::max<std::int64_t>(1, at_.plan.step_at(times.back()) / peak_samples);
     }
     course.ended = [this] { return rupture_.has_value(); };
@@ -321,6 +337,8 @@ class SteppedLoad : public PlannedExperiment {
   std::shared_ptr<const Drive> drive_;
   std::unique_ptr<Stepper> stepper_;
   CrackWatch cracks_;
+  EnergyLedger ledger_;
+  std::vector<laws::PointCrack> end_cracks_;  // of the contact points, at the last point of the result
   std::optional<experiments::Rupture> rupture_ = {};
   bool owns_checkpoint_;
 };

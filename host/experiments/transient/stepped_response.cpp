@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/experiments/transient/stepped_columns.hpp"
 #include "host/experiments/transient/transient_experiment.hpp"
 #include "host/run/cracks.hpp"
 #include "host/run/step_settings.hpp"
@@ -21,6 +22,17 @@ double experiments::SteppedResponse::error() const {
   return out;
 }
 
+std::optional<double> experiments::SteppedResponse::energy_error() const {
+  if (!cracks || !cracks->sums || damping_kind != Damping::none) return {};
+  double missing = 0, work = 0;
+  for (const SteppedPoint& p : points) {
+    if (!std::isfinite(p.energies.missing())) return {};
+    missing = std::max(missing, std::abs(p.energies.missing()));
+    work = std::max(work, std::abs(p.energies.work_j));
+  }
+  return work > 0 ? std::optional(missing / work) : std::nullopt;
+}
+
 namespace {
 
 /// Returns whether the peak counts as the strength of the specimen: the specimen broke, or contact points broke or
@@ -29,25 +41,53 @@ bool passed_peak(const SteppedResponse& found) {
   if (found.rupture) return true;
   constexpr double fallen = 0.99;
   const bool damaged = found.cracks->points() > 0 || (found.cracks->sums && found.cracks->sums->cracked > 0);
-  return damaged &&
-         std::abs(found.points.back().stress_pa) < fallen * std::abs(found.peak->stress_pa);
+  return damaged && std::abs(found.points.back().stress_pa) < fallen * std::abs(found.peak->stress_pa);
 }
 
 bool measures_strength(const SteppedResponse& found) { return found.peak && !found.points.empty(); }
 
+/// Returns strain and stress of the peak: of the polynomial that fits it, if there is one.
+experiments::FittedPeak peak_of(const SteppedResponse& found) {
+  return found.fitted.value_or(experiments::FittedPeak{found.peak->strain, found.peak->stress_pa, 0});
+}
+
 /// Returns the line about the strength. This line is printed first, because the strength is the main result of such a
 /// test.
 std::string strength_words(const SteppedResponse& found) {
-  return fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
-                     passed_peak(found) ? "strength" : "largest stress", found.peak->stress_pa / 1e6,
-                     found.peak->strain, found.peak->time_s,
-                     passed_peak(found) ? "" : "; the strength was not reached");
+  const experiments::FittedPeak peak = peak_of(found);
+  std::string out = fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
+                                passed_peak(found) ? "strength" : "largest stress", peak.stress_pa / 1e6, peak.strain,
+                                found.peak->time_s, passed_peak(found) ? "" : "; the strength was not reached");
+  if (found.fitted) {
+    out += fmt::format("the strength is that of a cubic fit around the peak; the largest single stress is {:.6g} MPa\n",
+                       found.peak->stress_pa / 1e6);
+  }
+  return out;
+}
+
+/// Returns the line about the energies at the end of a test with cracks.
+std::string energy_words(const SteppedResponse& found) {
+  const experiments::Energies& e = found.points.back().energies;
+  const auto error = found.energy_error();
+  return fmt::format(
+      "work {:.4g} J: crack {:.4g}, friction {:.4g}, viscous {:.4g}, elastic {:.4g}, kinetic {:.4g}{} J; {}\n",
+      e.work_j, e.crack_j, e.friction_j, e.viscous_j, e.elastic_j, e.kinetic_j,
+      found.damping_kind == Damping::none ? "" : fmt::format(", damping {:.4g}", e.damping_j),
+      error ? fmt::format("the balance has an error of {:.1e} of the work", *error)
+            : "the balance has no error to report, because damping or an unknown energy is its remainder");
 }
 
 void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
+  using Json = nlohmann::ordered_json;
   const bool passed = passed_peak(found);
-  out["strength_pa"] = passed ? nlohmann::ordered_json(found.peak->stress_pa) : nlohmann::ordered_json();
-  out["strain_at_peak"] = passed ? nlohmann::ordered_json(found.peak->strain) : nlohmann::ordered_json();
+  const experiments::FittedPeak peak = peak_of(found);
+  out["strength_pa"] = passed ? Json(peak.stress_pa) : Json();
+  out["strain_at_peak"] = passed ? Json(peak.strain) : Json();
+  if (!found.cracks->sums) return;
+  out["strength_from"] = found.fitted ? "fit" : "largest stress";
+  out["largest_stress_pa"] = found.peak->stress_pa;
+  if (found.fitted) out["fit_deviation_pa"] = found.fitted->deviation_pa;
+  out["work_of_fracture_j"] = passed ? Json(found.points.back().energies.work_j) : Json();
 }
 
 }  // namespace
@@ -72,6 +112,10 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     if (words.ratio) out["ramp_s"] = found.ramp_s;
     add_extremes(found.kind, found.points, out);
     if (measures_strength(found)) add_strength(found, out);
+    if (found.cracks && found.cracks->sums) {
+      const auto error = found.energy_error();
+      out["energy_error"] = error ? Json(*error) : Json();
+    }
     if (found.rupture) out["rupture"] = rupture_json(*found.rupture, *found.cracks);
     if (found.platen_mass_kg > 0) out["platen_mass_kg"] = found.platen_mass_kg;
     for (const SteppedPoint& p : found.points) {
@@ -83,8 +127,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
       if (found.cracks) point["broken_points"] = p.broken_points;
       if (found.cracks && found.cracks->sums) {
         point["cracked_points"] = p.cracks.cracked;
-        point["crack_energy_j"] = p.cracks.crack_energy_j;
-        point["friction_energy_j"] = p.cracks.friction_energy_j;
+        add_energies(p.energies, found.damping_kind != Damping::none, point);
       }
       out["points"].push_back(std::move(point));
     }
@@ -107,6 +150,7 @@ std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
   std::string out = measures_strength(found) ? strength_words(found) : "";
   if (found.rupture && measures_strength(found)) out += rupture_words(*found.rupture, *found.cracks) + "\n";
   if (found.cracks) out += cracks_words(*found.cracks) + "\n";
+  if (found.cracks && found.cracks->sums && !found.points.empty()) out += energy_words(found);
   const char* ratio = words.shown_stepped;
   out += shown_head(ratio) + fmt::format(" {:>9}", "error") + (found.cracks ? fmt::format(" {:>9}", "broken") : "");
   for (const SteppedPoint& p : found.points) {

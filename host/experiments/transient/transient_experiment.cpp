@@ -14,6 +14,7 @@
 #include "host/experiments/transient/step_load.hpp"
 #include "host/experiments/material_files.hpp"
 #include "host/run/cracks.hpp"
+#include "host/run/damaged_contacts.hpp"
 #include "host/files/result_files.hpp"
 #include "macadam/error.hpp"
 
@@ -125,6 +126,7 @@ void add_load(const TransientExperiment& test, nlohmann::ordered_json& out) {
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene) {
   std::vector<std::string> out{load_words(kind).file};
   if (counts_cracks(scene)) out.push_back(cracks_file);
+  if (counts_cracks(scene) && can_crack(facts_of(scene.laws))) out.push_back(damage_file);
   if (scene.solver.method == SolverMethod::explicit_) return out;
   for (const std::string& file : material_files(scene.network.lateral_walls)) out.push_back(file);
   return out;

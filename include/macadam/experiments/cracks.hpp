@@ -15,7 +15,8 @@ namespace macadam::experiments {
 struct CrackEvent {
   std::uint32_t contact = 0, point = 0;  ///< indices in `contacts` and in the point arrays of ContactNetwork
   Break how = Break::none;
-  double time_s = 0;  ///< time of the first sample at which the point is broken
+  double time_s = 0;                 ///< time of the first sample at which the point is broken
+  double opening_m = 0, slip_m = 0;  ///< of the point's crack at that time; 0 if its law has no crack
 };
 
 /// Broken points of one pair type.
@@ -24,6 +25,8 @@ struct PairCracks {
   double area_m2 = 0;                               ///< area of the broken points [m²]
   std::int64_t breakable = 0;                       ///< points whose law can break, intact or broken
   std::optional<double> first_s;                    ///< time of the first event [s]
+  std::int64_t cracked = 0;                         ///< points that have begun to crack, broken points included
+  double cracked_area_m2 = 0;                       ///< area of these points [m²]
 };
 
 /// Damage of all contact points at one time, in scenes whose laws have a crack (docs/cracks.md).

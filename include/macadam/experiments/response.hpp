@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "macadam/experiments/cracks.hpp"
+#include "macadam/experiments/energies.hpp"
 #include "macadam/experiments/material.hpp"
 #include "macadam/experiments/stepped.hpp"
 
@@ -38,11 +39,19 @@ struct SteppedPoint : ResponsePoint {
   double error;  ///< relative difference of the stress (creep: strain) from a solution computed without time steps
   std::int64_t broken_points = 0;  ///< number of broken contact points; 0 if no law can break
   CrackSums cracks = {};           ///< zero if no law has a crack
+  Energies energies = {};          ///< zero if no law has a crack
 };
 
 /// The largest stress of a test in the direction of its load; it may lie between two points of the result.
 struct Peak {
   double time_s = 0, strain = 0, stress_pa = 0;
+};
+
+/// The largest stress of the cubic polynomial that fits the stress around the largest stress of a test, so that
+/// vibrations do not count as strength (docs/cracks.md).
+struct FittedPeak {
+  double strain = 0, stress_pa = 0;
+  double deviation_pa = 0;  ///< root mean square of the differences from the polynomial
 };
 
 /// Result of method "explicit".
@@ -60,11 +69,15 @@ struct SteppedResponse : Stepped {
   double kinetic_share = 0;  ///< largest kinetic energy / (largest stress · largest strain · volume / 2)
   double seconds = 0;        ///< wall time of the stepping; for a resumed run, of all its processes
 
-  std::optional<Cracks> cracks = {};    ///< empty if no law of the scene can break
-  std::optional<Rupture> rupture = {};  ///< the rupture, if it ended the test early
-  std::optional<Peak> peak = {};        ///< constant rate only, and only if a law of the scene can break
+  std::optional<Cracks> cracks = {};      ///< empty if no law of the scene can break
+  std::optional<Rupture> rupture = {};    ///< the rupture, if it ended the test early
+  std::optional<Peak> peak = {};          ///< constant rate only, and only if a law of the scene can break
+  std::optional<FittedPeak> fitted = {};  ///< as `peak`, only if a law has a crack and a polynomial fits
 
   double error() const;  ///< Returns the largest error of the points before the rupture.
+  /// Returns the largest |Energies::missing()| of all points, divided by the largest work. Empty if no law has a crack,
+  /// if an energy is not known, or if damping takes energy, which is then the remainder of the balance.
+  std::optional<double> energy_error() const;
 };
 
 }  // namespace macadam::experiments

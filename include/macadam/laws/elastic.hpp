@@ -30,6 +30,8 @@ struct Elastic {
   std::complex<double> stiffness(double) const = delete;  // deleted, so that ω cannot be passed instead of iω
   std::complex<double> unit_compliance(int, std::complex<double>) const { return 0; }
   PronySeries prony() const { return {E, {}}; }
+  double stored(double f, const double*) const { return f * f / (2 * E); }
+  double dissipated(double, double, const double*, double, const double*) const { return 0; }
   template <class F>
   void each_parameter(std::complex<double>, F&& f) const {
     f(std::string("E"), std::complex<double>(1));

@@ -96,6 +96,12 @@ template <class L>
 inline constexpr bool has_prony = linear_law<L>&& requires(const L& law) {
   { law.prony() } -> std::same_as<PronySeries>;
 };
+/// Whether a law gives the energy of its springs and dashpots.
+template <class L>
+inline constexpr bool has_energy = requires(const L& law, const double* x) {
+  law.stored(0.0, x);
+  law.dissipated(0.0, 0.0, x, 0.0, x);
+};
 /// Whether a law can be stepped in blocks.
 template <class L>
 inline constexpr bool has_blocks = requires(const L& law) {

@@ -74,6 +74,25 @@ struct GeneralisedKelvin {
     return 1.0 / (E[unit] + s * C[unit]);
   }
 
+  /// Returns the energy in the springs, f²/(2·E_m) + Σ ½·E_l·x_l² [Pa·m²].
+  double stored(double f, const double* x) const {
+    double out = f * f / (2 * E_m);
+    for (std::size_t l = 0; l < E.size(); ++l) out += 0.5 * E[l] * x[l] * x[l];
+    return out;
+  }
+  /// Returns the energy that the dashpots dissipate within `dt` [Pa·m²]: f is taken as linear in time, and the rate of
+  /// each unit as the parabola with the rates (f − E_l·x_l)/C_l at both ends and the mean Δx_l/dt.
+  double dissipated(double dt, double f_before, const double* x_before, double f, const double* x) const {
+    if (!(dt > 0)) return 0;
+    double out = std::isfinite(C_m) ? dt * (f_before * f_before + f_before * f + f * f) / (3 * C_m) : 0;
+    for (std::size_t l = 0; l < E.size(); ++l) {
+      const double first = (f_before - E[l] * x_before[l]) / C[l], last = (f - E[l] * x[l]) / C[l];
+      const double mean = (x[l] - x_before[l]) / dt, rise = last - first, bend = first + last - 2 * mean;
+      out += C[l] * dt * (mean * mean + rise * rise / 12 + bend * bend / 20);
+    }
+    return out;
+  }
+
   /// Returns the relaxation, from the poles and residues of k*(s). Defined in host/spectrum/series.cpp. \throws
   /// InputError if the constants are not positive, or are beyond the range of a double.
   PronySeries prony() const;

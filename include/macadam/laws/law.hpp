@@ -50,6 +50,11 @@
 ///     without time steps need it, in addition to the members of the frequency domain; without it they refuse the law
 ///     and name it. A law with this member that is not in the library's list can be converted to a law of the list
 ///     (equivalent_laws(), spectrum.hpp);
+///   - the members that energies of a test need, both or none (the trait `has_energy` of facts.hpp). Energies are per
+///     unit of area over distance [Pa·m²], as f is; `x` points to the states of the units:
+///     `double stored(double f, const double* x) const` — the energy in the springs of one component;
+///     `double dissipated(double dt, double f_before, const double* x_before, double f, const double* x) const` — the
+///     energy that its dashpots dissipate between two samples that are `dt` apart;
 ///   - `static constexpr int only_units` — units(), if it is always the same number;
 ///   - `Step::coupled = true` — opening and slips of a contact point act on one another. For example, a bond that has
 ///     broken under tension has no shear stiffness either. Such a law is not linear, has only_units, or

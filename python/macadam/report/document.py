@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from macadam.report import contacts, decisions, fields, fits, histories, look, loops, mixture, modulus, scans, specimen
+from macadam.report import contacts, cracks, decisions, fields, fits, histories, look, loops, mixture, modulus, scans, specimen
 from macadam.report.folders import Folder, ReportError, read_all
 from macadam.report.page import Page
 
@@ -46,6 +46,7 @@ def _page(folders: list[Folder]) -> Page:
     modulus.add(page, folders)
     loops.add(page, folders)
     histories.add(page, folders)
+    cracks.add(page, folders)
     fields.add(page, folders)
     contacts.add(page, folders)
     fits.add(page, folders)
@@ -165,9 +166,15 @@ def _point(r: dict[str, Any]) -> str:
 
 
 def _strength(f: Folder) -> str:
-    """Returns peak stress and the strain at it, for a test of a specimen that can break."""
+    """Returns peak stress, the strain at it and, if it is known, the work of fracture, for a test of a specimen that can
+    break."""
     stress, strain = f.in_time["strength_pa"], f.in_time["strain_at_peak"]
-    return f"strength of {look.modulus(stress)} at a strain of {look.number(1e6 * strain, 3)} µm/m"
+    words = f"strength of {look.modulus(stress)} at a strain of {look.number(1e6 * strain, 3)} µm/m"
+    work, box = f.in_time.get("work_of_fracture_j"), f.summary.get("box_m")
+    if work is None:
+        return words
+    words += f", work of fracture {look.number(1e3 * work, 3)} mJ"
+    return words + (f" ({look.number(work / (box[0] * box[1]), 3)} J/m² of the section)" if box else "")
 
 
 def _broken(result: dict[str, Any]) -> str:

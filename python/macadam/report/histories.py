@@ -174,7 +174,8 @@ def _monotonic(found: list[Folder]) -> tuple[Any, str]:
             left.plot(*peak, "x", color=f.colour, ms=7, mew=1.5)
             words.append(
                 f"{f.label}: the largest stress (cross) is {look.modulus(f.in_time['strength_pa'])}, at a strain of "
-                f"{look.number(peak[0], 3)} µm/m."
+                f"{look.number(peak[0], 3)} µm/m"
+                + (", from a fit of the peak." if f.in_time.get("strength_from") == "fit" else ".")
             )
         rate = f.in_time.get("rate_1_s")
         loading = (

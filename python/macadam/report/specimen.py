@@ -41,7 +41,7 @@ def add(page: Page, folders: list[Folder]) -> None:
     for folder in drawn:
         if len(drawn) > 1:
             page.heading(folder.label)
-        box, paint = _box(folder), _colours(folder)
+        box, paint = box_of(folder), colours_of(folder)
         page.figure(
             _block(folder, box, paint),
             f"The specimen, {look.percent(SAWN, 2)} sawn off the front, the right and the top. " + _legend_words(folder),
@@ -57,13 +57,13 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 # Returns the edges of the box [m]; without a summary, the edges of the volume that contains the spheres.
-def _box(folder: Folder) -> np.ndarray:
+def box_of(folder: Folder) -> np.ndarray:
     edges = folder.summary.get("box_m")
     s = folder.specimen
     return np.array(edges, float) if edges else np.array([(s[a] + s["radius"]).max() for a in "xyz"])
 
 
-def _colours(folder: Folder) -> Paint:
+def colours_of(folder: Folder) -> Paint:
     """Returns a function from rows of specimen.csv to colours: mastic blue, air white, aggregates by size class, each a
     little lighter or darker."""
     s = folder.specimen
@@ -119,7 +119,7 @@ def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarra
         bound *= 4
 
 
-def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Paint) -> np.ndarray:
+def plane_of(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Paint) -> np.ndarray:
     """Returns the picture of the cells in the plane axis = value. Columns and rows are the two other axes in their
     order, from low to high."""
     u, v = [k for k in range(3) if k != axis]
@@ -160,7 +160,7 @@ def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
         where, source = corners[0, axis], f"Cells as the program cut them ({written[0].name})."
     else:
         axis, (u, v) = 1, (0, 2)
-        picture = _plane(folder, box, axis, box[axis] / 2, paint)
+        picture = plane_of(folder, box, axis, box[axis] / 2, paint)
         axes.imshow(picture, origin="lower", extent=(0, 1e3 * box[u], 0, 1e3 * box[v]), interpolation="antialiased")
         where, source = 1e3 * box[axis] / 2, "The cells of the particles fill the section."
     axes.set(xlim=(0, 1e3 * box[u]), ylim=(0, 1e3 * box[v]), xlabel=f"{'xyz'[u]} (mm)", ylabel=f"{'xyz'[v]} (mm)")
@@ -201,7 +201,7 @@ def _block(folder: Folder, box: np.ndarray, paint: Paint) -> Any:
     last = np.array([(1 - SAWN) * box[0], box[1], (1 - SAWN) * box[2]])
     for axis, value, light in ((1, first[1], 0.95), (0, last[0], 0.74), (2, last[2], 1.12)):
         u, v = [k for k in range(3) if k != axis]
-        picture = _plane(folder, box, axis, value, paint)
+        picture = plane_of(folder, box, axis, value, paint)
         rows, columns = picture.shape[:2]
         at = [
             round(x * n / e)

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// peak_fit.cpp  Fits a cubic polynomial to the stress of a strength test around its peak.
+#include "host/experiments/transient/peak_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr double range = 0.25;  ///< part of the peak's strain to each side that is fitted
+constexpr std::size_t least_samples = 20;
+constexpr double most_deviation = 0.02;  ///< root mean square, divided by the peak
+constexpr double covered = 0.9;          ///< part of the range to each side that the samples must reach
+
+/// Fits the stress around `strain`, tension and compression both positive.
+std::optional<experiments::FittedPeak> fit_around(std::span<const StressSample> samples, double sign, double strain) {
+  const double unit = range * std::abs(strain);
+  std::vector<double> at, stress;
+  for (const StressSample& s : samples) {
+    const double z = (s.strain - strain) * sign / unit;
+    if (!(std::abs(z) <= 1)) continue;
+    at.push_back(z), stress.push_back(sign * s.stress_pa);
+  }
+  if (at.size() < least_samples) return {};
+  const auto [least, most] = std::minmax_element(at.begin(), at.end());
+  if (*least > -covered || *most < covered) return {};
+
+  const auto rows = static_cast<Eigen::Index>(at.size());
+  const Eigen::Map<const Eigen::VectorXd> z(at.data(), rows), values(stress.data(), rows);
+  Eigen::MatrixXd powers(rows, 4);
+  powers.col(0).setOnes();
+  for (Eigen::Index k = 1; k < 4; ++k) powers.col(k) = powers.col(k - 1).cwiseProduct(z);
+  const Eigen::Vector4d p = powers.colPivHouseholderQr().solve(values);
+
+  // The maximum is the root of 3·p3·z² + 2·p2·z + p1 where the second derivative is negative
+  const double root = p[2] * p[2] - 3 * p[3] * p[1];
+  if (!(root > 0)) return {};
+  const double top = p[1] / (-p[2] + std::sqrt(root));
+  if (!(std::abs(top) < 1)) return {};
+  experiments::FittedPeak out;
+  out.strain = strain + sign * unit * top;
+  out.stress_pa = sign * (p[0] + top * (p[1] + top * (p[2] + top * p[3])));
+  out.deviation_pa = std::sqrt((powers * p - values).squaredNorm() / static_cast<double>(rows));
+  if (out.deviation_pa > most_deviation * std::abs(out.stress_pa)) return {};
+  return out;
+}
+
+}  // namespace
+
+std::optional<experiments::FittedPeak> fit_peak(std::span<const StressSample> samples, const experiments::Peak& peak) {
+  if (peak.strain == 0) return {};
+  const double sign = std::copysign(1.0, peak.strain);
+  const auto first = fit_around(samples, sign, peak.strain);
+  if (!first) return {};
+  const auto second = fit_around(samples, sign, first->strain);
+  return second ? second : first;
+}
+
+}  // namespace macadam

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file peak_fit.hpp  Finds the strength of a specimen in a stress that vibrates.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "macadam/experiments/response.hpp"
+
+namespace macadam {
+
+/// Strain and stress [Pa] at one time of a strength test.
+struct StressSample {
+  double strain = 0, stress_pa = 0;
+};
+
+/// Fits a cubic polynomial to the stress within ±25 % of the strain at `peak` and returns its largest value in the
+/// direction of the load. Repeats the fit once around the strain of this value. Empty if the curve ends before the end
+/// of this range, if the range has fewer than 20 samples, if the polynomial has no maximum within it, or if the samples
+/// differ from the polynomial by more than 2 % of the peak (root mean square): then the curve has a corner.
+std::optional<experiments::FittedPeak> fit_peak(std::span<const StressSample> samples, const experiments::Peak& peak);
+
+}  // namespace macadam

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section of the report on tests of specimens that crack: energies and cracked area over strain, and the crack in a
+section of the specimen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+
+from macadam.report import look, specimen
+from macadam.report.folders import Folder
+from macadam.report.page import Page
+
+# Energies from the bottom of the stack to its top: key of a point, name, colour.
+ENERGIES = (
+    ("crack_energy_j", "cracks", "#c4532f"),
+    ("friction_energy_j", "friction", "#b98a1d"),
+    ("viscous_energy_j", "dashpots", "#1f5a8a"),
+    ("elastic_energy_j", "springs", "#3c8558"),
+    ("kinetic_energy_j", "motion", "#80569b"),
+    ("damping_energy_j", "damping", "#6b6f76"),
+)
+DAMAGE = "inferno_r"  # colour map of the damage
+
+
+def add(page: Page, folders: list[Folder]) -> None:
+    """Adds the section for folders of tests whose points have crack energies."""
+    found = [f for f in folders if f.in_time and (f.in_time.get("points") or [{}])[0].get("work_j") is not None]
+    if not found:
+        return
+    page.section("Cracks and energies")
+    for folder in found:
+        if len(found) > 1:
+            page.heading(folder.label)
+        figure, words = _energies(folder)
+        page.figure(figure, words, "energies and cracked area over strain")
+        if folder.specimen is None or not folder.has("damage.csv"):
+            page.leave_out(folder.label, "the crack in a section", "no specimen.csv or no damage.csv in the folder")
+            continue
+        figure, words = _section(folder)
+        page.figure(figure, words, "the crack in a section of the specimen", raster=True)
+
+
+def _energies(folder: Folder) -> tuple[Any, str]:
+    """Draws the energies as a stack (left) and the area of broken points by pair (right). Returns figure and
+    caption."""
+    points = folder.in_time["points"]
+    strain = np.array([1e6 * p["strain"] for p in points])
+    figure, (left, right) = look.figure(look.WIDE, 2.7, 1, 2)
+    stack = [(name, colour, [1e3 * p[key] for p in points]) for key, name, colour in ENERGIES if _known(points, key)]
+    left.stackplot(
+        strain, [np.clip(values, 0, None) for _, _, values in stack], colors=[c for _, c, _ in stack], alpha=0.75,
+        labels=[name for name, _, _ in stack],
+    )  # fmt: skip
+    left.plot(strain, [1e3 * p["work_j"] for p in points], color=look.INK, lw=1, ls="--", label="work of the walls")
+    left.set(xlabel="strain (µm/m)", ylabel="energy (mJ)")
+    handles, labels = left.get_legend_handles_labels()
+    left.legend(handles[::-1], labels[::-1], loc="upper left")
+    drawn = _area(folder, right, strain)
+    right.set(xlabel="strain (µm/m)", ylabel="area of broken points (mm²)")
+    right.set_ylim(bottom=0)
+    if drawn:
+        right.legend()
+    words = "Left: the work of the walls (dashed) and the energies that it became, one above the other. "
+    words += "Right: area of the broken points, by pair of materials." if drawn else "Right: no contact point broke."
+    error = folder.in_time.get("energy_error")
+    if error is not None:
+        words += f" The sum of the energies differs from the work by at most {look.percent(error, 2)} of the work."
+    last = points[-1]
+    parts = [f"{name} {look.percent(last[key] / last['work_j'])}" for key, name, _ in ENERGIES if _known(points, key)]
+    if last["work_j"] > 0:
+        words += f" At the end: work {look.number(1e3 * last['work_j'], 3)} mJ, of which {', '.join(parts)}."
+    return figure, words
+
+
+def _known(points: list[dict[str, Any]], key: str) -> bool:
+    return all(p.get(key) is not None for p in points)
+
+
+def _area(folder: Folder, axes: Any, strain: np.ndarray) -> bool:
+    """Draws the area of the broken points over the strain at which they broke. Returns whether any point broke."""
+    broken = {pair: c for pair, c in (folder.summary.get("cracks") or {}).items() if c["points"]}
+    if not broken or not folder.has("cracks.csv"):
+        return False
+    table = folder.table("cracks.csv", ["pair", "area_m2", "time_s"])
+    times = np.array([p["time_s"] for p in folder.in_time["points"]])
+    for pair in broken:
+        rows = table[table["pair"] == pair]
+        by_time = [1e6 * rows.loc[rows["time_s"] <= t * (1 + 1e-9), "area_m2"].sum() for t in times]
+        axes.plot(strain, by_time, color=look.PAIRS.get(pair, look.INK), label=pair)
+    return True
+
+
+def chords(
+    centre: np.ndarray, normal: np.ndarray, area: np.ndarray, axis: int, value: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the lines in which discs cut the plane axis = value. Each disc has the centre, normal and area of a
+    facet. Returns which discs cut the plane, and both ends of each line: (n, 2, 3) [m]."""
+    across = np.zeros(3)
+    across[axis] = 1
+    along = np.cross(normal, across)
+    length = np.linalg.norm(along, axis=1)
+    steep = length > 1e-6  # other discs are parallel to the plane
+    along[steep] /= length[steep, None]
+    inside = np.cross(normal, along)  # in the disc, perpendicular to the line
+    slope = inside[:, axis]
+    distance = np.divide(value - centre[:, axis], slope, out=np.full(len(slope), np.inf), where=steep)
+    square = area / np.pi - distance**2
+    cuts = np.flatnonzero(square > 0)
+    middle = centre[cuts] + distance[cuts, None] * inside[cuts]
+    half = np.sqrt(square[cuts])[:, None] * along[cuts]
+    return cuts, np.stack([middle - half, middle + half], axis=1)
+
+
+def _section(folder: Folder) -> tuple[Any, str]:
+    """Draws a section through the middle with the facets that have begun to crack, coloured by their damage. Returns
+    figure and caption."""
+    box = specimen.box_of(folder)
+    axis, (u, v) = 1, (0, 2)
+    paint = specimen.colours_of(folder)
+    picture = specimen.plane_of(folder, box, axis, box[axis] / 2, paint)
+    height = specimen.HEIGHT * 1.2
+    figure, axes = look.figure(min(look.WIDE, height * box[u] / box[v] + 1.6), height)
+    axes.grid(False)
+    axes.set_aspect("equal")
+    extent = (0, 1e3 * box[u], 0, 1e3 * box[v])
+    axes.imshow(0.5 + 0.5 * picture, origin="lower", extent=extent, interpolation="antialiased")
+    scale = ScalarMappable(Normalize(0, 1), DAMAGE)
+    drawn = 0
+    if any(c["cracked_points"] for c in (folder.summary.get("cracks") or {}).values() if "cracked_points" in c):
+        table = folder.table("damage.csv", ["x", "y", "z", "nx", "ny", "nz", "area_m2", "damage"])
+        table = table.sort_values("damage", kind="stable")  # the most damaged facets are drawn last
+        cuts, lines = chords(
+            table[list("xyz")].to_numpy(float), table[["nx", "ny", "nz"]].to_numpy(float),
+            table["area_m2"].to_numpy(float), axis, box[axis] / 2,
+        )  # fmt: skip
+        damage = table["damage"].to_numpy(float)[cuts]
+        axes.add_collection(
+            LineCollection(1e3 * lines[:, :, [u, v]], colors=scale.to_rgba(damage), linewidths=0.6 + 1.6 * damage)
+        )
+        drawn = len(cuts)
+    figure.colorbar(scale, ax=axes, label="damage", shrink=0.8)
+    axes.set(xlim=extent[:2], ylim=extent[2:], xlabel=f"{'xyz'[u]} (mm)", ylabel=f"{'xyz'[v]} (mm)")
+    return figure, (
+        f"Section at {'xyz'[axis]} = {look.length(box[axis] / 2)} mm at the end of the test, with the {drawn} facets in "
+        "it that have begun to crack. Each facet is drawn as a disc of its area; its colour is its mean damage, 0 intact "
+        "and 1 separated."
+    )
