@@ -79,6 +79,7 @@ SixBySix motion_matrix(const Contact& c, int end) {
 
 ContactEnergies& ContactEnergies::operator+=(const ContactEnergies& o) {
   elastic += o.elastic, viscous += o.viscous, crack += o.crack, friction += o.friction, crack_work += o.crack_work;
+  opened += o.opened, growing += o.growing;
   return *this;
 }
 
@@ -385,6 +386,7 @@ ContactEnergies ContactIncrements::accept_points(std::size_t number, const Six& 
       out.viscous += weight * viscous;
       out.crack_work += weight * mean * (now[1] - old[1]);
     }
+    if (grows_[j]) out.opened += area * (state[1] - before[1]), out.growing += area;
     const laws::PointCrack crack = l.cracked->crack_of(state);
     out.crack += area * crack.energy;
     out.friction += area * crack.friction;

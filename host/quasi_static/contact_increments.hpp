@@ -25,7 +25,8 @@ enum class Tangent : std::uint8_t { none, consistent, secant };
 
 /// Sums over contacts at the end of an increment.
 struct ContactEnergies {
-  double elastic = 0, viscous = 0, crack = 0, friction = 0, crack_work = 0;
+  double elastic = 0, viscous = 0, crack = 0, friction = 0, crack_work = 0;  ///< [J]
+  double opened = 0, growing = 0;  ///< of points that grew: sum of area times increase of opening [m³], and area [m²]
   ContactEnergies& operator+=(const ContactEnergies& o);
 };
 

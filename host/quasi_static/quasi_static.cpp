@@ -53,6 +53,7 @@ struct QuasiStatic::Parts {
   std::array<Vec3d, wall_count> wall{}, reaction{};
   Trial last;  ///< motion of the last increment
   QuasiStaticEnergies energies;
+  double last_opening = 0;
   // The solution, until it is accepted
   Trial trial;
   WallIncrement increment;
@@ -115,6 +116,7 @@ struct QuasiStatic::Parts {
     energies.crack_j = sums.crack;
     energies.friction_j = sums.friction;
     energies.crack_work_j += sums.crack_work;
+    last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
     for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] += trial.motion[i];
     last.motion = trial.motion;
     last.wall = trial.wall;
@@ -136,6 +138,7 @@ void QuasiStatic::accept() { parts_->accept(); }
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_force() const { return parts_->shown_force; }
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_displacement() const { return parts_->shown_wall; }
 double QuasiStatic::growing_area() const { return parts_->newton.contacts().growing_part(); }
+double QuasiStatic::last_opening() const { return parts_->last_opening; }
 double QuasiStatic::time() const { return parts_->time; }
 const QuasiStaticEnergies& QuasiStatic::energies() const { return parts_->energies; }
 std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->newton.contacts().point_cracks(); }
@@ -192,14 +195,14 @@ ContactState QuasiStatic::contacts() const {
 
 std::vector<StateArray> QuasiStatic::state() const {
   const Parts& p = *parts_;
-  std::vector<double> numbers{p.time, p.last_dt, p.scale};
+  std::vector<double> numbers{p.time, p.last_dt, p.scale, p.last_opening};
   for (const auto* walls : {&p.wall, &p.reaction, &p.last.wall}) {
     for (const Vec3d& x : *walls) numbers.insert(numbers.end(), {x.x, x.y, x.z});
   }
   const QuasiStaticEnergies& e = p.energies;
   numbers.insert(numbers.end(), {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j});
   const std::vector<char>& grew = p.newton.contacts().grew();
-  return {{"quasi_static", "s, s, 1, m, N, m, J", std::move(numbers)},
+  return {{"quasi_static", "s, s, 1, m, m, N, m, J", std::move(numbers)},
           {"displacement", "m, 1", p.displacement},
           {"motion", "m, 1", p.last.motion},
           {"contacts", "Pa m, m", p.newton.contacts().states()},
@@ -223,13 +226,14 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   const auto doubles = [&](std::size_t k) { return std::get<std::vector<double>>(found[k]->values); };
   Parts& p = *parts_;
   const std::vector<double> numbers = doubles(0);
-  p.time = numbers[0], p.last_dt = numbers[1], p.scale = numbers[2];
-  std::size_t at = 3;
+  p.time = numbers[0], p.last_dt = numbers[1], p.scale = numbers[2], p.last_opening = numbers[3];
+  std::size_t at = 4;
   for (auto* walls : {&p.wall, &p.reaction, &p.last.wall}) {
     for (Vec3d& x : *walls) x = {numbers[at], numbers[at + 1], numbers[at + 2]}, at += 3;
   }
   QuasiStaticEnergies& e = p.energies;
-  e = {numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3], numbers[at + 4], 0, numbers[at + 5]};
+  e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
+  e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5];
   p.displacement = doubles(1);
   p.last.motion = doubles(2);
   const auto& grew = std::get<std::vector<std::int64_t>>(found[4]->values);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "macadam/experiments/energies.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam {
@@ -45,15 +46,9 @@ struct IncrementReport {
   std::int64_t loose = 0;       ///< number of particles without stiffness
 };
 
-/// Energies since the undeformed state [J].
-struct QuasiStaticEnergies {
-  double work_j = 0;      ///< of the walls
-  double elastic_j = 0;   ///< stored in springs
-  double viscous_j = 0;   ///< dissipated in dashpots
-  double crack_j = 0;     ///< dissipated by damage, and stored in open cracks
-  double friction_j = 0;  ///< work of friction in cracks
-  double kinetic_j = 0;   ///< always 0
-  /// Work of the stresses on the openings and slips of cracks, by the trapezoidal rule. It differs from
+/// Energies since the undeformed state. The kinetic energy is always zero.
+struct QuasiStaticEnergies : experiments::Energies {
+  /// Work of the stresses on the openings and slips of cracks, by the trapezoidal rule [J]. It differs from
   /// crack_j + friction_j by the error of the increments.
   double crack_work_j = 0;
 
@@ -88,6 +83,9 @@ class QuasiStatic {
   /// Returns the part of the crack points that grow, by area; 0 if no law has a crack.
   double growing_area() const;
   /// @}
+  /// Mean increase of the openings of the crack points that grew in the last accepted increment, weighted by their
+  /// areas [m]; 0 if none grew.
+  double last_opening() const;
 
   double time() const;                          ///< of the accepted state [s]
   const QuasiStaticEnergies& energies() const;  ///< of the accepted state
