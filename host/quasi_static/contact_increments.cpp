@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "kernels/base/parallel.hpp"
+#include "host/quasi_static/pieces.hpp"
 #include "kernels/contact/contact_kinematics.hpp"
 #include "kernels/contact/series_factors.hpp"
 #include "macadam/error.hpp"
@@ -16,16 +16,6 @@
 namespace macadam::quasi_static {
 
 namespace {
-
-constexpr std::size_t at_once = 512;  ///< contacts per piece of parallel work
-
-/// Calls f(c) for all contacts on all threads.
-template <class F>
-void for_each_contact(std::size_t n, F&& f) {
-  for_each_in_parallel((n + at_once - 1) / at_once, [&](std::size_t piece) {
-    for (std::size_t c = piece * at_once; c < std::min(n, (piece + 1) * at_once); ++c) f(c);
-  });
-}
 
 std::array<double, 6> moments_over_length(const Contact& c) {
   const AreaMoments& m = c.moments;
@@ -147,7 +137,7 @@ void ContactIncrements::begin(double dt) {
   }
   growing_area_ = 0;
   for (std::size_t j = 0; j < grew_.size(); ++j) growing_area_ += grew_[j] ? network_.point_area[j] : 0;
-  for_each_contact(network_.contacts.size(), [&](std::size_t c) { prepare(c); });
+  for_each_of(network_.contacts.size(), [&](std::size_t c) { prepare(c); });
 }
 
 void ContactIncrements::prepare(std::size_t number) {
@@ -176,7 +166,7 @@ void ContactIncrements::prepare(std::size_t number) {
 }
 
 void ContactIncrements::evaluate(const std::vector<Six>& u, Tangent tangent) {
-  for_each_contact(network_.contacts.size(), [&](std::size_t c) {
+  for_each_of(network_.contacts.size(), [&](std::size_t c) {
     if (law(network_.contacts[c]).cracked)
       evaluate_points(c, u[c], tangent);
     else
@@ -308,7 +298,7 @@ double ContactIncrements::growing_part() const {
 
 ContactEnergies ContactIncrements::accept(const std::vector<Six>& u) {
   std::vector<ContactEnergies> each(network_.contacts.size());
-  for_each_contact(each.size(), [&](std::size_t c) {
+  for_each_of(each.size(), [&](std::size_t c) {
     each[c] = law(network_.contacts[c]).cracked ? accept_points(c, u[c]) : accept_linear(c, u[c]);
   });
   grew_ = grows_;
@@ -397,7 +387,7 @@ ContactEnergies ContactIncrements::accept_points(std::size_t number, const Six& 
 std::vector<laws::PointCrack> ContactIncrements::point_cracks() const {
   if (!has_cracks_) return {};
   std::vector<laws::PointCrack> out(network_.point_area.size());
-  for_each_contact(network_.contacts.size(), [&](std::size_t number) {
+  for_each_of(network_.contacts.size(), [&](std::size_t number) {
     const Contact& c = network_.contacts[number];
     const PairLaw& l = law(c);
     if (!l.cracked) return;
@@ -411,7 +401,7 @@ std::vector<laws::PointCrack> ContactIncrements::point_cracks() const {
 std::vector<Break> ContactIncrements::point_breaks() const {
   if (!has_cracks_) return {};
   std::vector<Break> out(network_.point_area.size(), Break::none);
-  for_each_contact(network_.contacts.size(), [&](std::size_t number) {
+  for_each_of(network_.contacts.size(), [&](std::size_t number) {
     const Contact& c = network_.contacts[number];
     const PairLaw& l = law(c);
     if (!l.cracked) return;

@@ -13,7 +13,7 @@
 namespace macadam::quasi_static {
 namespace {
 
-constexpr std::size_t top = wall_index(wall_z_hi);
+constexpr std::size_t driven = wall_index(wall_z_hi);
 /// Error of the trapezoidal rule over the difference from the extrapolation through three earlier values, for a smooth
 /// response and increments of equal length: 1/12 over 1.
 constexpr double error_per_difference = 1.0 / 12;
@@ -54,8 +54,8 @@ std::int64_t Increments::length_to(std::int64_t stop) const {
 }
 
 double Increments::observed_value() const {
-  if (options_.by_force) return network_.wall_displacement()[top].z / options_.height;
-  return -network_.wall_force()[top].z / options_.area;
+  if (options_.by_force) return network_.wall_displacement()[driven].z / options_.height;
+  return -network_.wall_force()[driven].z / options_.area;
 }
 
 double Increments::error_at(double step, double value) const {
@@ -95,11 +95,11 @@ void Increments::advance() {
     const std::int64_t steps = length_to(stop);
     WallIncrement next;
     next.dt = static_cast<double>(steps) * options_.drive->dt();
-    const double moved = network_.wall_displacement()[top].z;
+    const double moved = network_.wall_displacement()[driven].z;
     if (options_.by_force) {
       next.load = options_.drive->value(step_ + steps);
     } else {
-      next.wall[top].z = drive_at(step_ + steps) - moved;
+      next.wall[driven].z = drive_at(step_ + steps) - moved;
     }
     const IncrementReport found = network_.solve(next);
     report_.passes += found.passes, report_.iterations += found.iterations;
@@ -144,7 +144,7 @@ void Increments::advance_by_opening(std::int64_t stop) {
     WallIncrement next;
     next.dt = static_cast<double>(steps) * options_.drive->dt();
     next.opening = opening_;
-    const double moved = network_.wall_displacement()[top].z, before = past_.back().value;
+    const double moved = network_.wall_displacement()[driven].z, before = past_.back().value;
     const IncrementReport found = network_.solve(next);
     report_.passes += found.passes, report_.iterations += found.iterations;
     const double change = found.converged ? std::abs(observed_value() - before) / largest_ : 0;
@@ -157,7 +157,7 @@ void Increments::advance_by_opening(std::int64_t stop) {
     accept(steps, found, 0);
     ++report_.by_opening;
     if (found.passes <= usual_passes) opening_ *= std::clamp(0.8 * stress_change / std::max(change, 1e-300), 0.7, 1.4);
-    const double at = network_.wall_displacement()[top].z;
+    const double at = network_.wall_displacement()[driven].z;
     const bool beyond = std::abs(at) > std::abs(furthest_) && std::abs(at) > std::abs(moved);
     if (beyond || std::abs(stress) < 1e-3 * largest_) {
       by_opening_ = false;
@@ -181,7 +181,7 @@ void Increments::fail(const IncrementReport& found) const {
       "quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} (the forces are out of balance by "
       "{:.1e} of their size{}), although increments became very short; the specimen fails there, or method = "
       "\"explicit\" in [solver] can follow its motion",
-      network_.time(), network_.wall_displacement()[top].z / options_.height, found.residual,
+      network_.time(), network_.wall_displacement()[driven].z / options_.height, found.residual,
       found.lost_stability ? "; its stiffness has a negative direction" : ""));
 }
 

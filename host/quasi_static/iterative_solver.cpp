@@ -7,32 +7,25 @@
 
 #include "host/quasi_static/rigid_boxes.hpp"
 #include "host/quasi_static/tangent_solver.hpp"
-#include "kernels/base/parallel.hpp"
+#include "host/quasi_static/pieces.hpp"
 
 namespace macadam::quasi_static {
 namespace {
 
-constexpr std::size_t at_once = 1024;  ///< particles per piece of parallel work
+constexpr std::size_t degrees_at_once = 6144;  ///< degrees of freedom per piece of parallel work
 constexpr double particles_per_box = 60;
 constexpr int most_iterations = 2000;
 /// The preconditioner is made again when a solution takes this many times the iterations of the first one with it.
 constexpr double more_iterations = 1.3;
 constexpr std::size_t restart = 50;  ///< vectors of GMRES
 
-double dot(const Vector& a, const Vector& b) {
+double product(const Vector& a, const Vector& b) {
   return sum_in_parallel<double>(a.size(), [&](std::size_t i) { return a[i] * b[i]; });
 }
 
-/// Calls f(first degree of freedom, end) for pieces of a vector on all threads.
-template <class F>
-void for_pieces(std::size_t n, F&& f) {
-  constexpr std::size_t piece = 6 * at_once;
-  for_each_in_parallel((n + piece - 1) / piece, [&](std::size_t p) { f(p * piece, std::min(n, (p + 1) * piece)); });
-}
-
 /// Computes y += a·x.
-void add(double a, const Vector& x, Vector& y) {
-  for_pieces(x.size(), [&](std::size_t from, std::size_t to) {
+void add_multiple(double a, const Vector& x, Vector& y) {
+  for_pieces(x.size(), degrees_at_once, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) y[i] += a * x[i];
   });
 }
@@ -64,7 +57,7 @@ class IterativeSolver : public TangentSolver {
   void make_preconditioner() {
     const TangentMatrix& k = *matrix_;
     inverse_.resize(k.particles());
-    for_pieces(6 * k.particles(), [&](std::size_t from, std::size_t to) {
+    for_pieces(6 * k.particles(), degrees_at_once, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from / 6; i < to / 6; ++i) {
         // Scaled to a diagonal of one; a block that is not positive definite is replaced by its diagonal
         const Block block = 0.5 * (k.diagonal(i) + k.diagonal(i).transpose());
@@ -84,7 +77,7 @@ class IterativeSolver : public TangentSolver {
   void precondition(const Vector& r, Vector& z) const {
     using Six1 = Eigen::Matrix<double, 6, 1>;
     z.resize(r.size());
-    for_pieces(r.size(), [&](std::size_t from, std::size_t to) {
+    for_pieces(r.size(), degrees_at_once, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from / 6; i < to / 6; ++i)
         Eigen::Map<Six1>(&z[6 * i]).noalias() = inverse_[i] * Eigen::Map<const Six1>(&r[6 * i]);
     });
@@ -97,27 +90,27 @@ class IterativeSolver : public TangentSolver {
     r_ = right;
     precondition(r_, z_);
     p_ = z_;
-    double rz = dot(r_, z_);
+    double rz = product(r_, z_);
     const double goal = tolerance * tolerance * rz;
     if (!(rz > 0)) return out.solved = rz == 0, out;
     while (out.iterations < most_iterations) {
       ++out.iterations;
       matrix_->multiply(p_, q_);
-      const double curvature = dot(p_, q_);
+      const double curvature = product(p_, q_);
       if (!(curvature > 0)) {
         out.negative = curvature < 0;
         return out;
       }
       const double step = rz / curvature;
-      for_pieces(x.size(), [&](std::size_t from, std::size_t to) {
+      for_pieces(x.size(), degrees_at_once, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) x[i] += step * p_[i], r_[i] -= step * q_[i];
       });
       precondition(r_, z_);
-      const double next = dot(r_, z_);
+      const double next = product(r_, z_);
       if (next <= goal) return out.solved = true, out;
       const double keep = next / rz;
       rz = next;
-      for_pieces(x.size(), [&](std::size_t from, std::size_t to) {
+      for_pieces(x.size(), degrees_at_once, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) p_[i] = z_[i] + keep * p_[i];
       });
     }
@@ -128,15 +121,15 @@ class IterativeSolver : public TangentSolver {
   LinearReport gmres(const Vector& right, Vector& x, double tolerance) {
     LinearReport out;
     x.assign(right.size(), 0.0);
-    const double goal = tolerance * std::sqrt(dot(right, right));
+    const double goal = tolerance * std::sqrt(product(right, right));
     if (goal == 0) return out.solved = true, out;
     std::vector<Vector> basis(restart + 1);
     Eigen::MatrixXd h(restart + 1, restart);
     while (out.iterations < most_iterations) {
       matrix_->multiply(x, q_);
       r_ = right;
-      add(-1, q_, r_);
-      const double size = std::sqrt(dot(r_, r_));
+      add_multiple(-1, q_, r_);
+      const double size = std::sqrt(product(r_, r_));
       if (size <= goal) return out.solved = true, out;
       basis[0] = r_;
       for (double& v : basis[0]) v /= size;
@@ -149,11 +142,11 @@ class IterativeSolver : public TangentSolver {
         precondition(basis[k], z_);
         matrix_->multiply(z_, basis[k + 1]);
         for (std::size_t j = 0; j <= k; ++j) {
-          const double along = dot(basis[k + 1], basis[j]);
+          const double along = product(basis[k + 1], basis[j]);
           h(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) = along;
-          add(-along, basis[j], basis[k + 1]);
+          add_multiple(-along, basis[j], basis[k + 1]);
         }
-        const double remains = std::sqrt(dot(basis[k + 1], basis[k + 1]));
+        const double remains = std::sqrt(product(basis[k + 1], basis[k + 1]));
         const auto n = static_cast<Eigen::Index>(k) + 1;
         h(n, n - 1) = remains;
         used = k + 1;
@@ -163,9 +156,9 @@ class IterativeSolver : public TangentSolver {
         for (double& v : basis[k + 1]) v /= remains;
       }
       q_.assign(x.size(), 0.0);
-      for (std::size_t k = 0; k < used; ++k) add(answer(static_cast<Eigen::Index>(k)), basis[k], q_);
+      for (std::size_t k = 0; k < used; ++k) add_multiple(answer(static_cast<Eigen::Index>(k)), basis[k], q_);
       precondition(q_, z_);
-      add(1, z_, x);
+      add_multiple(1, z_, x);
     }
     return out;
   }

@@ -6,25 +6,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/base/parallel.hpp"
+#include "host/quasi_static/pieces.hpp"
 
 namespace macadam::quasi_static {
 namespace {
 
-constexpr std::size_t at_once = 512;
 /// Part of the intact stiffness that is added to the diagonal of the tangent, so that rigid motions of the specimen,
 /// which no contact resists, do not make it singular. It changes corrections, not the equilibrium.
-constexpr double held = 1e-11;
+constexpr double held_part = 1e-11;
 /// A particle whose stiffness is less than this part of the intact one is loose. It keeps this part of its intact
 /// stiffness in the tangent.
-constexpr double loose = 1e-4;
-
-template <class F>
-void for_pieces(std::size_t n, F&& f) {
-  for_each_in_parallel((n + at_once - 1) / at_once, [&](std::size_t piece) {
-    for (std::size_t i = piece * at_once; i < std::min(n, (piece + 1) * at_once); ++i) f(i);
-  });
-}
+constexpr double loose_part = 1e-4;
 
 Six wall_motion(const std::array<Vec3d, wall_count>& walls, std::int32_t wall) {
   const Vec3d& x = walls[wall_index(wall)];
@@ -72,7 +64,7 @@ double Newton::size_of(const Vector& loads) const {
 
 void Newton::evaluate(Trial& trial, Tangent tangent) {
   trial.relative.resize(network_.contacts.size());
-  for_pieces(network_.contacts.size(), [&](std::size_t number) {
+  for_each_of(network_.contacts.size(), [&](std::size_t number) {
     const Contact& c = network_.contacts[number];
     const Six wall = c.b < 0 ? wall_motion(trial.wall, c.b) : Six{};
     const double* b = c.b < 0 ? wall.data() : &trial.motion[6 * static_cast<std::size_t>(c.b)];
@@ -81,7 +73,7 @@ void Newton::evaluate(Trial& trial, Tangent tangent) {
   contacts_.evaluate(trial.relative, tangent);
   trial.residual.resize(6 * particles_);
   Vector sizes(6 * particles_);
-  for_pieces(particles_, [&](std::size_t i) {
+  for_each_of(particles_, [&](std::size_t i) {
     Six sum{}, size{};
     for (const std::uint32_t number : network_.row(i)) {
       const Contact& c = network_.contacts[number];
@@ -108,10 +100,10 @@ void Newton::assemble(bool symmetric, IncrementReport& report) {
     const auto diagonal = matrix_.diagonal(i).diagonal();
     double now = 0, intact = 0;
     for (std::size_t k = 0; k < 3; ++k) now += diagonal(static_cast<Eigen::Index>(k)), intact += intact_[6 * i + k];
-    const bool is_loose = now < loose * intact;
+    const bool is_loose = now < loose_part * intact;
     report.loose += is_loose;
     for (std::size_t k = 0; k < 6; ++k)
-      matrix_.add_to_diagonal(6 * i + k, (is_loose ? loose : held) * intact_[6 * i + k]);
+      matrix_.add_to_diagonal(6 * i + k, (is_loose ? loose_part : held_part) * intact_[6 * i + k]);
   }
 }
 
@@ -207,7 +199,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tang
     const double wall_from = top;
     double best = INFINITY, best_length = 1;
     const auto move = [&](double length) {
-      for_pieces(from.size(), [&](std::size_t i) { trial.motion[i] = from[i] + length * correction[i]; });
+      for_each_of(from.size(), [&](std::size_t i) { trial.motion[i] = from[i] + length * correction[i]; });
       top = wall_from + length * wall_step;
       evaluate(trial, tangent);
       return merit();

@@ -22,7 +22,7 @@ double sum_of(const QuasiStaticEnergies& e) {
   return std::max(std::abs(e.work_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j));
 }
 
-constexpr std::size_t top = wall_index(wall_z_hi);
+constexpr std::size_t top_wall = wall_index(wall_z_hi);
 
 }  // namespace
 
@@ -68,7 +68,7 @@ struct QuasiStatic::Parts {
   /// Returns the factor by which the motion of the last increment is multiplied to guess the next one.
   double growth(const WallIncrement& next) const {
     if (last_dt == 0) return 0;
-    const double by_time = next.dt / last_dt, before = last.wall[top].z, now = next.wall[top].z;
+    const double by_time = next.dt / last_dt, before = last.wall[top_wall].z, now = next.wall[top_wall].z;
     if (next.load || next.opening) return next.opening && before != 0 ? now / before : by_time;
     if (before == 0 && now == 0) return by_time;
     return before != 0 && now / before > 0 && now / before < 10 ? now / before : 0;

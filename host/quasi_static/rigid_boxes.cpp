@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "kernels/base/parallel.hpp"
+#include "host/quasi_static/pieces.hpp"
 
 namespace macadam::quasi_static {
 
@@ -91,8 +91,8 @@ void RigidBoxes::add_solution(const Vector& x, Vector& out) const {
   if (!factored_) return;
   using Six1 = Eigen::Matrix<double, 6, 1>;
   Eigen::VectorXd right(static_cast<Eigen::Index>(6 * boxes()));
-  for_each_in_parallel((boxes() + 15) / 16, [&](std::size_t piece) {
-    for (std::size_t box = 16 * piece; box < std::min(boxes(), 16 * piece + 16); ++box) {
+  for_pieces(boxes(), 16, [&](std::size_t from, std::size_t to) {
+    for (std::size_t box = from; box < to; ++box) {
       Six1 sum = Six1::Zero();
       for (std::size_t m = begin_[box]; m < begin_[box + 1]; ++m) {
         const std::size_t i = members_[m];
@@ -102,8 +102,8 @@ void RigidBoxes::add_solution(const Vector& x, Vector& out) const {
     }
   });
   const Eigen::VectorXd found = current().solve(right);
-  for_each_in_parallel((boxes() + 15) / 16, [&](std::size_t piece) {
-    for (std::size_t box = 16 * piece; box < std::min(boxes(), 16 * piece + 16); ++box) {
+  for_pieces(boxes(), 16, [&](std::size_t from, std::size_t to) {
+    for (std::size_t box = from; box < to; ++box) {
       const Six1 rigid = found.segment<6>(static_cast<Eigen::Index>(6 * box));
       for (std::size_t m = begin_[box]; m < begin_[box + 1]; ++m) {
         const std::size_t i = members_[m];

@@ -5,17 +5,9 @@
 
 #include <algorithm>
 
-#include "kernels/base/parallel.hpp"
+#include "host/quasi_static/pieces.hpp"
 
 namespace macadam::quasi_static {
-namespace {
-
-constexpr std::size_t at_once = 256;  ///< rows per piece of parallel work
-
-using Map = Eigen::Map<const Block>;
-
-}  // namespace
-
 TangentMatrix::TangentMatrix(const ContactNetwork& network, std::size_t particles)
     : network_(network), diagonal_(particles), begin_(1, 0), top_(6 * particles) {
   for (std::size_t i = 0; i < particles; ++i) {
@@ -28,25 +20,28 @@ TangentMatrix::TangentMatrix(const ContactNetwork& network, std::size_t particle
   blocks_.resize(far_.size());
 }
 
+/// Number of rows in a piece of parallel work.
+static constexpr std::size_t rows_at_once = 256;
+
 void TangentMatrix::assemble(const ContactIncrements& contacts, bool symmetric) {
   symmetric_ = symmetric;
-  for_each_in_parallel((particles() + at_once - 1) / at_once, [&](std::size_t piece) {
-    for (std::size_t i = piece * at_once; i < std::min(particles(), (piece + 1) * at_once); ++i) {
+  for_pieces(particles(), rows_at_once, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
       Block sum = Block::Zero();
       Eigen::Matrix<double, 6, 1> top = Eigen::Matrix<double, 6, 1>::Zero();
       std::size_t at = begin_[i];
       for (const std::uint32_t number : network_.row(i)) {
         const Contact& c = network_.contacts[number];
-        Block k = Map(contacts.stiffness(number).data());
+        Block k = Eigen::Map<const Block>(contacts.stiffness(number).data());
         if (symmetric) k = (0.5 * (k + k.transpose())).eval();
         const int end = c.a == static_cast<std::int32_t>(i) ? 0 : 1;
         const SixBySix own = motion_matrix(c, end), far = motion_matrix(c, 1 - end);
-        const Block left = Map(own.data()).transpose() * k;
-        sum.noalias() += left * Map(own.data());
+        const Block left = Eigen::Map<const Block>(own.data()).transpose() * k;
+        sum.noalias() += left * Eigen::Map<const Block>(own.data());
         if (c.b >= 0)
-          blocks_[at++].noalias() = left * Map(far.data());
+          blocks_[at++].noalias() = left * Eigen::Map<const Block>(far.data());
         else if (c.b == wall_z_hi)
-          top.noalias() += left * Map(far.data()).col(2);
+          top.noalias() += left * Eigen::Map<const Block>(far.data()).col(2);
       }
       diagonal_[i] = sum;
       std::copy(top.data(), top.data() + 6, top_.begin() + static_cast<std::ptrdiff_t>(6 * i));
@@ -57,8 +52,8 @@ void TangentMatrix::assemble(const ContactIncrements& contacts, bool symmetric) 
 void TangentMatrix::multiply(const Vector& x, Vector& out) const {
   using Six1 = Eigen::Matrix<double, 6, 1>;
   out.resize(x.size());
-  for_each_in_parallel((particles() + at_once - 1) / at_once, [&](std::size_t piece) {
-    for (std::size_t i = piece * at_once; i < std::min(particles(), (piece + 1) * at_once); ++i) {
+  for_pieces(particles(), rows_at_once, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
       Six1 sum = diagonal_[i] * Eigen::Map<const Six1>(&x[6 * i]);
       for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k)
         sum.noalias() += blocks_[k] * Eigen::Map<const Six1>(&x[6 * static_cast<std::size_t>(far_[k])]);
