@@ -48,9 +48,14 @@ Newton::Newton(const Specimen& specimen, const ContactNetwork& network, const La
     for (std::size_t k = 0; k < 6; ++k)
       intact_[6 * i + k] = std::max(diagonal(static_cast<Eigen::Index>(k)), 1e-3 * (k < 3 ? forces : moments));
   }
-  for (const Contact& c : network.contacts) {
+  find_wall_stiffness();
+}
+
+void Newton::find_wall_stiffness() {
+  wall_stiffness_ = 0;
+  for (std::size_t number = 0; number < network_.contacts.size(); ++number) {
+    const Contact& c = network_.contacts[number];
     if (c.b != wall_z_hi) continue;
-    const auto number = static_cast<std::size_t>(&c - network.contacts.data());
     const SixBySix own = motion_matrix(c, 1);
     const Eigen::Map<const Block> g(own.data()), k(contacts_.stiffness(number).data());
     wall_stiffness_ += (g.transpose() * k * g)(2, 2);
@@ -95,6 +100,7 @@ void Newton::evaluate(Trial& trial, Tangent tangent) {
 
 void Newton::assemble(bool symmetric, IncrementReport& report) {
   matrix_.assemble(contacts_, symmetric);
+  find_wall_stiffness();
   report.loose = 0;
   for (std::size_t i = 0; i < particles_; ++i) {
     const auto diagonal = matrix_.diagonal(i).diagonal();
@@ -171,7 +177,6 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tang
   IncrementReport out;
   const bool wall_unknown = increment.load || increment.opening;
   double& top = trial.wall[wall_index(wall_z_hi)].z;
-  // the stiffness of elastic wall contacts is that of any time step
   contacts_.begin(increment.dt);
   evaluate(trial, tangent);
   Vector correction, by_wall;

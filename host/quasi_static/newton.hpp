@@ -35,6 +35,7 @@ class Newton {
  private:
   void evaluate(Trial& trial, Tangent tangent);
   void assemble(bool symmetric, IncrementReport& report);
+  void find_wall_stiffness();
   /// Prepares the solver with the present tangent and solves for the correction and, if the motion of the top wall is
   /// unknown, for the motion that a unit displacement of the wall causes.
   bool correct(const Trial& trial, double tolerance, bool wall_unknown, IncrementReport& report, Vector& correction,

@@ -69,7 +69,8 @@ struct QuasiStatic::Parts {
   double growth(const WallIncrement& next) const {
     if (last_dt == 0) return 0;
     const double by_time = next.dt / last_dt, before = last.wall[top_wall].z, now = next.wall[top_wall].z;
-    if (next.load || next.opening) return next.opening && before != 0 ? now / before : by_time;
+    if (next.opening) return last_opening > 0 ? std::clamp(*next.opening / last_opening, 0.0, 2.0) : 0;
+    if (next.load) return by_time;
     if (before == 0 && now == 0) return by_time;
     return before != 0 && now / before > 0 && now / before < 10 ? now / before : 0;
   }
@@ -84,6 +85,7 @@ struct QuasiStatic::Parts {
       trial.motion.resize(last.motion.size());
       for (std::size_t i = 0; i < trial.motion.size(); ++i) trial.motion[i] = factor * last.motion[i];
       trial.wall = next.wall;
+      if (next.load || next.opening) trial.wall[top_wall].z = factor * last.wall[top_wall].z;
       const IncrementReport found = newton.solve(next, scale, tangent, trial);
       out.converged = found.converged, out.residual = found.residual, out.loose = found.loose;
       out.passes += found.passes, out.iterations += found.iterations;

@@ -26,7 +26,7 @@ struct QuasiStaticOptions {
 };
 
 /// The motion of the walls in an increment. The displacement of the top wall along z is `wall` unless `load` or
-/// `opening` is given; `wall` is then the first guess.
+/// `opening` is given.
 struct WallIncrement {
   double dt = 0;                         ///< [s]
   std::array<Vec3d, wall_count> wall{};  ///< displacement of each wall in the increment, by wall_index() [m]

@@ -15,8 +15,8 @@ namespace {
 
 /// Number of units in a test, if its times do not ask for more.
 constexpr double units_of_test = 1e6;
-/// Number of units before the first point of a test with a sudden load.
-constexpr double units_before_first = 1e4;
+/// Number of units before the first point of the result, and in a ramp.
+constexpr double units_before_first = 1e4, units_of_ramp = 1e3;
 /// A first increment is this part of a test whose load grows.
 constexpr double first_increment = 2e-4;
 
@@ -35,14 +35,15 @@ LoadPlan make_quasi_static_plan(const TransientExperiment& test, const Scene& sc
   plan.geometry = Geometry::fixed;
   plan.critical.particle = -1;
   const double end = test.history.times.back(), first = test.history.times.front();
-  const double largest = std::min(end / units_of_test, is_sudden(test) ? first / units_before_first : end);
+  double largest = std::min(end / units_of_test, first / units_before_first);
+  if (!is_sudden(test) && !test.grows) largest = std::min(largest, test.when.ramp / units_of_ramp);
   require_possible(end / largest, largest, fmt::format("until {:g} s", end));
   const double ramp = test.grows ? end : test.when.ramp > 0 ? test.when.ramp : largest;
   plan.dt = test.step ? test.step(largest) : ramp / std::ceil(ramp / largest);
   plan.ramp = ramp;
   if (test.grows && !test.reverses) {
     // a constant rate: the unit divides the whole test
-    plan.dt = end / units_of_test;
+    plan.dt = end / std::ceil(end / largest);
   }
   const auto decide = [&](std::string text) { plan.decisions.push_back(std::move(text)); };
   if (!scene.solver.method_given) {
@@ -82,7 +83,9 @@ quasi_static::CourseOptions course_options(const TransientExperiment& test, cons
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
   const std::int64_t end = plan.step_at(test.history.times.back());
-  out.first = is_sudden(test) ? 1 : std::max<std::int64_t>(1, std::llround(first_increment * static_cast<double>(end)));
+  double begin = first_increment * static_cast<double>(end);
+  if (!test.grows) begin = std::min(begin, 0.02 * plan.ramp / plan.dt);
+  out.first = is_sudden(test) ? 1 : std::max<std::int64_t>(1, std::llround(begin));
   // large systems are solved by iterations, whose last digits cost as much as the first
   if (6 * prepared.specimen.size() > out.solver.direct_below)
     out.solver.residual = std::min(1e-6, 1e-3 * out.tolerance);

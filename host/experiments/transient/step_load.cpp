@@ -352,7 +352,8 @@ class SteppedLoad : public PlannedExperiment {
       return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
     std::vector<SteppedPoint> whole = found.points;
     if (found.rupture && !whole.empty()) whole.pop_back();  // at the last point the specimen was in two pieces
-    if (quasi_static_) return judge_increments(warnings);
+    if (quasi_static_) judge_increments(warnings);
+    if (quasi_static_ && !at_.unstepped) return;
     if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
   }
 
