@@ -257,8 +257,8 @@ class SteppedLoad : public PlannedExperiment {
     const Observation now = stepper_->observe();
     if (cracks_.sums()) {
       point.cracks = *cracks_.found().sums;
-      point.energies =
-          quasi_static_ ? quasi_static_->energies() : ledger_.sample(now, state, stepper_->particles(), point.cracks);
+      point.energies = quasi_static_ ? experiments::Energies(quasi_static_->energies())
+                                     : ledger_.sample(now, state, stepper_->particles(), point.cracks);
       end_cracks_ = std::move(state.point_cracks);
     }
     if (drive_->value(now.step) > 0 && !cracks_.joins_walls()) {
