@@ -24,8 +24,11 @@ constexpr double repeated_above = 4;
 constexpr double longer_at_most = 2, shorter_at_most = 0.4, caution = 0.85;
 /// Newton's method is fastest with at most this number of passes.
 constexpr int usual_passes = 9;
-/// After this many halvings an increment counts as impossible.
+/// After this many halvings an increment counts as impossible; also if it is shorter than this part of a usual one.
 constexpr int most_halvings = 7;
+constexpr double impossibly_short = 1.0 / 100;
+/// Usual lengths and openings are the largest ones, each of which loses this factor with each increment after it.
+constexpr double forgotten = 0.8;
 /// In an increment controlled by opening, the stress may change by at most this part of the largest stress.
 constexpr double stress_change = 0.06;
 
@@ -82,6 +85,8 @@ void Increments::accept(std::int64_t steps, const IncrementReport& found, double
   report_.loose = std::max(report_.loose, found.loose);
   if (error > 0) report_.error += error;
   largest_ = std::max(largest_, std::abs(value));
+  usual_ = std::max(static_cast<double>(steps), forgotten * usual_);
+  usual_opening_ = std::max(network_.last_opening(), forgotten * usual_opening_);
   past_.push_back({static_cast<double>(step_), value});
   if (past_.size() > 3) past_.erase(past_.begin());
 }
@@ -105,16 +110,16 @@ void Increments::advance() {
     report_.passes += found.passes, report_.iterations += found.iterations;
     if (!found.converged) {
       ++report_.rejected;
-      if (steps > 1 && ++halvings <= most_halvings) {
+      const bool too_short = static_cast<double>(steps) <= impossibly_short * usual_;
+      if (steps > 1 && !too_short && ++halvings <= most_halvings) {
         length_ = 0.5 * static_cast<double>(steps);
         continue;
       }
       if (!options_.grows || options_.by_force || network_.last_opening() <= 0) fail(found);
       by_opening_ = true;
       furthest_ = moved;
-      // in the size of the last increments; both are shortened if they are too long
-      opening_ = network_.last_opening();
-      opening_steps_ = std::max<std::int64_t>(1, steps << std::min(halvings, 20));
+      opening_ = 0.5 * usual_opening_;
+      opening_steps_ = std::max<std::int64_t>(1, std::llround(0.25 * usual_));
       if (!report_.unstable) report_.unstable = {network_.time(), moved / options_.height, past_.back().value};
       return advance_by_opening(stop);
     }
@@ -206,6 +211,7 @@ std::vector<StateArray> Increments::state() const {
   const CourseReport::Unstable unstable = report_.unstable.value_or(CourseReport::Unstable{});
   numbers.insert(numbers.end(), {unstable.time_s, unstable.strain, unstable.stress_pa});
   numbers.push_back(static_cast<double>(past_.size()));
+  numbers.insert(numbers.end(), {usual_, usual_opening_});
   for (std::size_t k = 0; k < 3; ++k) {
     const Past p = k < past_.size() ? past_[k] : Past{0, 0};
     numbers.insert(numbers.end(), {p.step, p.value});
@@ -219,17 +225,18 @@ void Increments::set_state(const std::vector<StateArray>& arrays) {
   for (const StateArray& array : arrays) {
     if (array.name == "increments") n = std::get_if<std::vector<double>>(&array.values);
   }
-  if (!n || n->size() != 26 || !((*n)[19] >= 1 && (*n)[19] <= 3))
-    throw RunError("state: found no array increments with 26 numbers for method \"quasi_static\"");
+  if (!n || n->size() != 28 || !((*n)[19] >= 1 && (*n)[19] <= 3))
+    throw RunError("state: found no array increments with 28 numbers for method \"quasi_static\"");
   network_.set_state(arrays);
   const auto whole = [&](std::size_t k) { return static_cast<std::int64_t>((*n)[k]); };
+  usual_ = (*n)[20], usual_opening_ = (*n)[21];
   step_ = whole(0), length_ = (*n)[1], largest_ = (*n)[2], by_opening_ = (*n)[3] != 0, opening_ = (*n)[4];
   opening_steps_ = whole(5), furthest_ = (*n)[6], lag_ = whole(7);
   report_ = {whole(8), whole(9), whole(10), whole(11), (*n)[12], whole(13), {}, whole(14)};
   if ((*n)[15] != 0) report_.unstable = {(*n)[16], (*n)[17], (*n)[18]};
   past_.clear();
   for (std::size_t k = 0; k < static_cast<std::size_t>((*n)[19]); ++k)
-    past_.push_back({(*n)[20 + 2 * k], (*n)[21 + 2 * k]});
+    past_.push_back({(*n)[22 + 2 * k], (*n)[23 + 2 * k]});
 }
 
 }  // namespace macadam::quasi_static

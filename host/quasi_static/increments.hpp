@@ -78,6 +78,8 @@ class Increments {
   double length_;           ///< proposed length of the next increment [steps]
   std::vector<Past> past_;  ///< since the last kink, at most three
   double largest_ = 0;      ///< largest value so far
+  /// Length of usual increments [steps], and their openings of cracks [m]: the largest of the last ones.
+  double usual_ = 0, usual_opening_ = 0;
   // Control by opening
   bool by_opening_ = false;
   double opening_ = 0;              ///< increase of the openings in the next increment [m]
