@@ -45,7 +45,7 @@ void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_js
   const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
   const ExperimentResult none =
       cyclic ? ExperimentResult(experiments::SteppedCyclic{}) : ExperimentResult(experiments::SteppedResponse{});
-  const bool shown = nothing && scene.solver.method == SolverMethod::explicit_;
+  const bool shown = nothing && is_stepped(scene.solver.method);
   of_found(shown ? none : result.found, 0, [&]<class Result>(const Result& found) {
     ResultOf<Result>::summarise(found, scene, result, out);
     return 0;

@@ -35,7 +35,7 @@ std::string of_breakable(const Cracks& cracks) {
 }  // namespace
 
 bool counts_cracks(const Scene& scene) {
-  return scene.solver.method == SolverMethod::explicit_ && can_break(facts_of(scene.laws));
+  return is_stepped(scene.solver.method) && can_break(facts_of(scene.laws));
 }
 
 ContactState read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network) {

@@ -247,8 +247,9 @@ std::vector<std::string> tests_of_new_scenes() {
 }
 
 std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, bool cracks) {
-  if (cracks && rule == ContactRule::series)
-    throw InputError("--cracks: found this option with --rule series, expected --rule centres");
+  if (cracks && has_laws_of_phases(rule))
+    throw InputError(
+        fmt::format("--cracks: found this option with --rule {}, expected --rule centres", to_string(rule)));
   if (cracks && test != "monotonic") {
     throw InputError(
         fmt::format("--cracks: found this option with --test {}, expected --test monotonic, which measures "

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/sections.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -17,7 +18,7 @@ void apply(const Overrides& asked, Scene& scene) {
     scene.text += fmt::format("\n# --seed {}\n", *asked.seed);
   }
   SolverSpec& solver = scene.solver;
-  if (asked.method) solver.method = *asked.method;
+  if (asked.method) solver.method = *asked.method, solver.method_given = true;
   if (asked.backend) {
     solver.backend = *asked.backend;
     const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
@@ -27,6 +28,7 @@ void apply(const Overrides& asked, Scene& scene) {
   if (asked.precision) solver.precision = asked.precision;
   if (asked.linear) solver.linear = *asked.linear;
   if (asked.threads) solver.threads = *asked.threads;
+  scene::choose_method(solver, scene.experiment, scene.laws);
 }
 
 }  // namespace macadam

@@ -53,7 +53,35 @@ DeviceList read_devices(const Value& value, int most) {
   return out;
 }
 
+/// Refuses the keys of time steps with increments. \throws InputError
+void refuse_steps(const Section& section) {
+  for (const char* key :
+       {"density_scaling", "safety", "time_step", "damping_kind", "damping", "form", "inertia", "linear", "device"}) {
+    if (const auto value = section.find(key))
+      section.refuse(key, value->shown() + " with method \"quasi_static\"",
+                     "no such key, because increments have no inertia and no time step; or method = \"explicit\"");
+  }
+  const auto only = [&](const char* key, const char* possible) {
+    const auto value = section.find(key);
+    if (value && value->shown() != fmt::format("\"{}\"", possible) && value->shown() != "\"auto\"")
+      section.refuse(key, value->shown() + " with method \"quasi_static\"", fmt::format("\"{}\"", possible));
+  };
+  only("geometry", "fixed");
+  only("precision", "double");
+  only("backend", "cpu");
+}
+
 }  // namespace
+
+void choose_method(SolverSpec& solver, const Experiment& experiment, const LawTable& laws) {
+  if (solver.method_given || stepping_of(experiment) != experiments::Stepping::if_asked) return;
+  if (!can_crack(facts_of(laws))) return;
+  const bool steps = solver.density_scaling || solver.safety || solver.time_step || solver.damping_given ||
+                     solver.form || solver.geometry == Geometry::updated || solver.backend == Backend::cuda ||
+                     solver.backend == Backend::reference || !solver.devices.empty() ||
+                     solver.precision.value_or(Precision::double_) != Precision::double_;
+  solver.method = steps ? SolverMethod::explicit_ : SolverMethod::quasi_static;
+}
 
 SolverSpec usual_solver(const Experiment& experiment) {
   SolverSpec out;
@@ -71,13 +99,16 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
   SolverSpec spec = usual_solver(experiment);
   section.read(
       {{"method", Need::optional,
-        into<SolverMethod>(spec.method, {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}}),
-        "step the test in time, or solve it in the frequency domain",
-        "cyclic: \"explicit\"; other tests: \"harmonic\""},
+        into<SolverMethod>(spec.method, {{"explicit", SolverMethod::explicit_},
+                                         {"harmonic", SolverMethod::harmonic},
+                                         {"quasi_static", SolverMethod::quasi_static}}),
+        "step the test in time, solve it in the frequency domain, or follow it by increments without inertia",
+        "cyclic: \"explicit\"; other tests: \"harmonic\", or with cracks \"quasi_static\" unless a key for inertia "
+        "or damping is given"},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error),
-        "largest error of |E*| (relative) and of phi [rad]; the program chooses and reports the settings that are not "
-        "given",
-        "none"},
+        "largest error: of |E*| (relative) and of phi [rad], for which the program chooses and reports the settings "
+        "that are not given; method \"quasi_static\": of the stress, for which it chooses the increments",
+        "none; method \"quasi_static\": 0.001"},
        {"density_scaling",
         Need::optional,
         {[&](const Value& v) {
@@ -132,12 +163,18 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         "the first device that can run Macadam; a stepped run of 300,000 contacts or more also uses idle devices of "
         "the same type"},
        {"inertia", Need::optional, into(spec.inertia), "method \"harmonic\": whether particles have inertia"}});
+  spec.method_given = section.has("method");
   read_damping(section, spec);
 
   if (spec.method == SolverMethod::explicit_ && stepping_of(experiment) == experiments::Stepping::never) {
     section.refuse("method", fmt::format("\"explicit\" with kind = \"{}\" in [loading]", kind_of(experiment)),
                    "\"harmonic\", because this kind is not stepped in time");
   }
+  if (spec.method == SolverMethod::quasi_static && stepping_of(experiment) != experiments::Stepping::if_asked) {
+    section.refuse("method", fmt::format("\"quasi_static\" with kind = \"{}\" in [loading]", kind_of(experiment)),
+                   "\"explicit\" or \"harmonic\"; a cyclic load by increments is kind = \"history\" with a sine");
+  }
+  if (spec.method == SolverMethod::quasi_static) refuse_steps(section);
   if (spec.inertia && spec.method == SolverMethod::explicit_) {
     section.refuse("inertia", "true with method \"explicit\"",
                    "no key inertia, because this method always has inertia; or method = \"harmonic\"");
@@ -158,3 +195,19 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
 }
 
 }  // namespace macadam::scene
+
+namespace macadam {
+
+const char* to_string(SolverMethod method) {
+  switch (method) {
+    case SolverMethod::explicit_:
+      return "explicit";
+    case SolverMethod::harmonic:
+      return "harmonic";
+    case SolverMethod::quasi_static:
+      return "quasi_static";
+  }
+  return "unknown";
+}
+
+}  // namespace macadam

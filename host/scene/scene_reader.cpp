@@ -222,6 +222,7 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   if (rule == ContactRule::volumetric && out.solver.backend == Backend::automatic) out.solver.backend = Backend::cpu;
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   set_laws_of_phases(out, phases, root);
+  choose_method(out.solver, out.experiment, out.laws);
   check_together(out, root);
   apply_temperature(out, root, tables);
   return out;

@@ -91,6 +91,9 @@ Experiment read_experiment(const Section& section);
 
 /// Returns the solver settings of a scene without `[solver]`.
 SolverSpec usual_solver(const Experiment& experiment);
+/// Chooses the method of a test with cracks that is stepped only if the scene asks for it, unless the scene gives the
+/// method: increments without inertia, or time steps if the scene has a key of time steps.
+void choose_method(SolverSpec& solver, const Experiment& experiment, const LawTable& laws);
 
 /// Reads `[solver]`. Density scaling and time step are checked against the experiment's frequencies.
 /// \throws InputError

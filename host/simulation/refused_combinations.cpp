@@ -53,6 +53,20 @@ void require_combination(const Scene& scene) {
         fmt::format("{} temperature(s) with method \"explicit\"", temperatures_of(scene.experiment).size()),
         "method \"harmonic\", or a single temperature as temperature in [materials]");
   }
+  if (scene.solver.method == SolverMethod::quasi_static) {
+    const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
+      throw InputError(scene.file.string(), 0, std::string(what) + " with method \"quasi_static\"", found, expected);
+    };
+    if (stepping_of(scene.experiment) != experiments::Stepping::if_asked)
+      refuse("kind", kind_of(scene.experiment), "\"monotonic\", \"relaxation\", \"creep\" or \"history\"");
+    if (scene.solver.backend == Backend::cuda || scene.solver.backend == Backend::reference)
+      refuse("backend", to_string(scene.solver.backend), "cpu");
+    if (scene.solver.precision.value_or(Precision::double_) != Precision::double_)
+      refuse("precision", to_string(*scene.solver.precision), "double");
+    if (scene.output.sensitivities) refuse("sensitivities in [output]", "true", "false");
+    if (!temperatures_of(scene.experiment).empty())
+      refuse("temperatures in [loading]", "a list", "a single temperature as temperature in [materials]");
+  }
   if (scene.network.rule == ContactRule::series) {
     if (scene.solver.method == SolverMethod::harmonic && frequencies_of(scene.experiment).empty()) {
       throw InputError(scene.file.string(), 0, "rule in [network]",

@@ -107,8 +107,8 @@ class FoundBackend {
  public:
   /// Begins to look for the backend, and waits for the result for at most `wait`. \throws as select_backend(), if the
   /// search fails within that time. That a device exists but cannot be used may become known only later.
-  FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(solver.backend) {
-    const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
+  FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(requested_backend(solver)) {
+    const auto select = [solver] { return select_backend(requested_backend(solver), nullptr, solver.devices); };
     if (asked_ == Backend::cuda || asked_ == Backend::automatic) {
       waking_ = std::async(select);  // runs in this thread if no other thread can be started
       waking_.wait_for(wait);
@@ -171,7 +171,7 @@ class SceneRun {
 
  private:
   const Preparation& prepared() const { return given_ ? *given_ : *made_; }
-  bool is_stepped() const { return scene_.solver.method == SolverMethod::explicit_; }
+  bool is_stepped() const { return macadam::is_stepped(scene_.solver.method); }
 
   /// Looks for the backend, locks the folder and reads the checkpoint.
   void begin() {

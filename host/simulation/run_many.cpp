@@ -59,7 +59,8 @@ void require_folders_differ(const std::vector<SceneJob>& jobs) {
 /// second, only if a scene may use one.
 DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   const auto may = [](const SceneJob& job) {
-    return job.scene.solver.backend == Backend::cuda || job.scene.solver.backend == Backend::automatic;
+    const Backend backend = requested_backend(job.scene.solver);
+    return backend == Backend::cuda || backend == Backend::automatic;
   };
   if (std::ranges::none_of(jobs, may)) return {};
   DeviceList out;

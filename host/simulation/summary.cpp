@@ -33,16 +33,6 @@ Json volume_fractions(const Specimen& specimen, const Tessellation& tessellation
           {"aggregate_cells", cells[0] / box}, {"mastic_cells", cells[1] / box}, {"void_cells", cells[2] / box}};
 }
 
-const char* to_string(SolverMethod method) {
-  switch (method) {
-    case SolverMethod::explicit_:
-      return "explicit";
-    case SolverMethod::harmonic:
-      return "harmonic";
-  }
-  return "unknown";
-}
-
 /// Returns the settings of the solution; the experiment adds its own settings to them. In a run without time stepping
 /// the keys of time stepping are null.
 Json solver_json(const Scene& scene, const RunResult& result) {

@@ -43,13 +43,19 @@ static_assert(all_one.back() == 1);
 /// The shift law of each pair, which gives the effect of temperature.
 using ShiftLaws = std::array<laws::Shift, pair_types>;
 
-/// `explicit_`: time stepping; `harmonic`: the frequency domain.
-enum class SolverMethod : std::uint8_t { explicit_, harmonic };
+/// `explicit_`: time stepping; `harmonic`: the frequency domain; `quasi_static`: increments without inertia.
+enum class SolverMethod : std::uint8_t { explicit_, harmonic, quasi_static };
+/// Returns "explicit", "harmonic" or "quasi_static".
+const char* to_string(SolverMethod);
+/// Returns whether a method follows a test in time, step by step or increment by increment.
+constexpr bool is_stepped(SolverMethod method) { return method != SolverMethod::harmonic; }
 
 /// The section `[solver]` of a scene. Options that are empty are chosen by make_plan().
 struct SolverSpec {
   SolverMethod method = SolverMethod::explicit_;
-  std::optional<double> tolerance;                     ///< largest error of |E*| (relative) and φ [rad]; explicit only
+  bool method_given = false;  ///< whether the scene gives the method; otherwise the program chooses it
+  std::optional<double>
+      tolerance;  ///< largest error: explicit, of |E*| (relative) and φ [rad]; quasi-static, of the stress
   std::optional<std::vector<double>> density_scaling;  ///< one value, or one per frequency
   std::optional<double> safety;                        ///< fraction of the computed critical step
   std::optional<double> time_step;                     ///< time step [s]; empty: it is computed
@@ -67,6 +73,12 @@ struct SolverSpec {
   int side_by_side = 1;                           ///< as in StepperOptions; a scene cannot set it
   bool inertia = false;                           ///< harmonic only: include −ω²M, multiplied by density_scaling
 };
+
+/// Returns the backend that the scene asks for; increments without inertia are computed by the CPU.
+inline Backend requested_backend(const SolverSpec& solver) {
+  const bool on_cpu = solver.method == SolverMethod::quasi_static && solver.backend == Backend::automatic;
+  return on_cpu ? Backend::cpu : solver.backend;
+}
 
 /// The section `[output]` of a scene.
 struct OutputSpec {
@@ -104,7 +116,7 @@ std::vector<Experiment> all_experiments();
 /// Returns whether a run of the scene yields particle motions that can be drawn: steady states and steps do, spectra do
 /// not.
 inline bool has_fields(const Scene& scene) {
-  return scene.solver.method == SolverMethod::explicit_ || !frequencies_of(scene.experiment).empty();
+  return is_stepped(scene.solver.method) || !frequencies_of(scene.experiment).empty();
 }
 
 /// Reads a TOML scene and checks everything that can be checked without building the specimen: unknown keys (names the

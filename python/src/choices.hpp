@@ -74,7 +74,8 @@ inline const std::vector<std::pair<const char*, Backend>> backends{
 inline const std::vector<std::pair<const char*, Precision>> precisions{
     {"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}};
 inline const std::vector<std::pair<const char*, SolverMethod>> methods{{"explicit", SolverMethod::explicit_},
-                                                                       {"harmonic", SolverMethod::harmonic}};
+                                                                       {"harmonic", SolverMethod::harmonic},
+                                                                       {"quasi_static", SolverMethod::quasi_static}};
 inline const std::vector<std::pair<const char*, LinearMethod>> linear_methods{
     {"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}};
 inline const std::vector<std::pair<const char*, ContactForm>> forms{{"condensed", ContactForm::condensed},

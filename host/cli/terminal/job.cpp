@@ -52,8 +52,11 @@ void add_overrides(CLI::App& command, Overrides& instead) {
   add_choice(command, "--precision", instead.precision, "precision of the time steps",
              {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}})
       ->group(instead_of_scene);
-  add_choice(command, "--method", instead.method, "step the test in time, or solve it in the frequency domain",
-             {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})
+  add_choice(command, "--method", instead.method,
+             "step the test in time, solve it in the frequency domain, or follow it by increments without inertia",
+             {{"explicit", SolverMethod::explicit_},
+              {"harmonic", SolverMethod::harmonic},
+              {"quasi_static", SolverMethod::quasi_static}})
       ->group(instead_of_scene);
   add_choice(
       command, "--linear", instead.linear,

@@ -59,4 +59,19 @@ std::optional<experiments::FittedPeak> fit_peak(std::span<const StressSample> sa
   return second ? second : first;
 }
 
+std::optional<experiments::FittedPeak> interpolate_peak(std::span<const StressSample> samples) {
+  if (samples.size() < 3) return {};
+  const double sign = std::copysign(1.0, samples.front().strain);
+  const auto top = std::max_element(samples.begin(), samples.end(), [sign](const auto& a, const auto& b) {
+    return sign * a.stress_pa < sign * b.stress_pa;
+  });
+  if (top == samples.begin() || top + 1 == samples.end()) return {};
+  const double before = (top - 1)->strain - top->strain, after = (top + 1)->strain - top->strain;
+  const double fall = (top - 1)->stress_pa - top->stress_pa, next = (top + 1)->stress_pa - top->stress_pa;
+  const double bend = (next / after - fall / before) / (after - before), slope = fall / before - bend * before;
+  if (!(before * after < 0) || !(sign * bend < 0)) return {};
+  const double at = -0.5 * slope / bend;
+  return experiments::FittedPeak{top->strain + at, top->stress_pa + 0.5 * slope * at, 0};
+}
+
 }  // namespace macadam

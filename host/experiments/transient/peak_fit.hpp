@@ -20,4 +20,8 @@ struct StressSample {
 /// differ from the polynomial by more than 2 % of the peak (root mean square): then the curve has a corner.
 std::optional<experiments::FittedPeak> fit_peak(std::span<const StressSample> samples, const experiments::Peak& peak);
 
+/// Returns the vertex of the parabola through the sample with the largest stress in the direction of the load and its
+/// two neighbours, for a stress without vibrations. Empty if there are no such samples.
+std::optional<experiments::FittedPeak> interpolate_peak(std::span<const StressSample> samples);
+
 }  // namespace macadam

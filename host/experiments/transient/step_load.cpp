@@ -12,6 +12,7 @@
 
 #include "host/experiments/transient/load_rules.hpp"
 #include "host/experiments/transient/load_state.hpp"
+#include "host/experiments/transient/quasi_static_plan.hpp"
 #include "host/experiments/transient/stepped_columns.hpp"
 #include "host/run/sampled_run.hpp"
 #include "host/run/cracks.hpp"
@@ -83,6 +84,7 @@ class SteppedLoad : public PlannedExperiment {
     drive_ = options.boundary.wall[wall_index(wall_z_hi)].axis[2].drive;
     const std::vector<StateArray> state = std::exchange(at_.state, {});
     try {
+      if (is_quasi_static()) return make_quasi_static(options.boundary, state);
       stepper_ = stepper_from(state, result.backend, scene_, prepared_, inertia_, options);
     } catch (const Error& error) {
       if (!state.empty())
@@ -122,6 +124,7 @@ class SteppedLoad : public PlannedExperiment {
 
   /// Warns of a run with very many steps.
   void warn_of_many_steps() const {
+    if (is_quasi_static()) return;
     const std::int64_t steps = at_.plan.step_at(test_.history.times.back());
     if (steps > many_steps && watcher_.warn) {
       watcher_.warn(fmt::format("the run takes {} time steps of {:.3g} s until t = {:g} s; {}", steps, at_.plan.dt,
@@ -169,8 +172,10 @@ class SteppedLoad : public PlannedExperiment {
       if (cracks_.active()) found.cracks = cracks_.found();
       found.rupture = rupture_;
       if (measures_peak()) found.peak = at_.peak;
-      if (measures_peak() && cracks_.sums()) found.fitted = fit_peak(at_.stresses, at_.peak);
+      if (measures_peak() && cracks_.sums())
+        found.fitted = quasi_static_ ? interpolate_peak(at_.stresses) : fit_peak(at_.stresses, at_.peak);
       if (rupture_) found.steps = stepper_->observe().step;
+      if (quasi_static_) found.increments = increments_found();
       found.seconds = before + seconds_since(start);
       found.kinetic_share = kinetic_share(found);
       owns_checkpoint_ = sampled_runs.own_checkpoint();
@@ -201,6 +206,28 @@ class SteppedLoad : public PlannedExperiment {
     stepper_->set_velocities(velocity, spin);
     ledger_.start(stepper_->particles());
   }
+  bool is_quasi_static() const { return scene_.solver.method == SolverMethod::quasi_static; }
+  void make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state) {
+    auto made = std::make_unique<QuasiStaticStepper>(prepared_.specimen, prepared_.network, scene_.laws, inertia_,
+                                                     boundary, course_options(test_, at_.plan, scene_, prepared_));
+    if (!state.empty()) made->set_state(state);
+    quasi_static_ = made.get();
+    if (measures_peak()) made->after_each([this](const Observation& now) { follow_peak(now); });
+    stepper_ = std::move(made);
+  }
+  experiments::Increments increments_found() const {
+    const quasi_static::CourseReport& report = quasi_static_->report();
+    experiments::Increments out;
+    out.increments = report.increments, out.rejected = report.rejected, out.systems = report.passes;
+    out.error = report.error;
+    out.loose = report.loose, out.by_opening = report.by_opening;
+    out.imbalance = quasi_static_->energies().imbalance();
+    out.increment_error = quasi_static_->energies().increment_error();
+    if (report.unstable)
+      out.unstable = experiments::Peak{report.unstable->time_s, report.unstable->strain, report.unstable->stress_pa};
+    return out;
+  }
+
   std::string head(const LoadWords& words) const {
     const std::string ratio =
         words.ratio ? fmt::format("{}: ratio of the strain and stress in its row; ", words.ratio) : "";
@@ -241,7 +268,8 @@ class SteppedLoad : public PlannedExperiment {
     const Observation now = stepper_->observe();
     if (cracks_.sums()) {
       point.cracks = *cracks_.found().sums;
-      point.energies = ledger_.sample(now, state, stepper_->particles(), point.cracks);
+      point.energies = quasi_static_ ? experiments::Energies(quasi_static_->energies())
+                                     : ledger_.sample(now, state, stepper_->particles(), point.cracks);
       end_cracks_ = std::move(state.point_cracks);
     }
     if (drive_->value(now.step) > 0 && !cracks_.joins_walls()) {
@@ -268,7 +296,7 @@ class SteppedLoad : public PlannedExperiment {
       if (k > 0) add(point(now));
     };
     course.looks_at_stepper = true;  // point() computes the kinetic energy from it
-    if (measures_peak() || cracks_.sums()) {
+    if (!quasi_static_ && (measures_peak() || cracks_.sums())) {
       course.between = [this](const Observation& now) {
         if (measures_peak()) follow_peak(now);
         if (cracks_.sums()) ledger_.observe(now);
@@ -307,7 +335,7 @@ class SteppedLoad : public PlannedExperiment {
       out.stress_pa = out.top_pa;
       out.ratio = out.strain == 0 ? none : out.stress_pa / out.strain;
     }
-    out.error = errors_.of(out, at_.points);
+    out.error = quasi_static_ && !at_.unstepped ? quasi_static_->report().error : errors_.of(out, at_.points);
     return out;
   }
 
@@ -335,7 +363,26 @@ class SteppedLoad : public PlannedExperiment {
       return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
     std::vector<SteppedPoint> whole = found.points;
     if (found.rupture && !whole.empty()) whole.pop_back();  // at the last point the specimen was in two pieces
+    if (quasi_static_) judge_increments(warnings);
+    if (quasi_static_ && !at_.unstepped) return;
     if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
+  }
+
+  void judge_increments(std::vector<std::string>& warnings) const {
+    const quasi_static::CourseReport& report = quasi_static_->report();
+    if (report.unstable) {
+      warnings.push_back(fmt::format(
+          "from t = {:.6g} s and a strain of {:.6g} on ({:.4g} MPa) no equilibrium was found at a larger displacement "
+          "of "
+          "the wall; {} increments were controlled by the opening of cracks, so that the strain may decrease there. A "
+          "test that prescribes the strain drops suddenly at this strain",
+          report.unstable->time_s, report.unstable->strain, report.unstable->stress_pa / 1e6, report.by_opening));
+    }
+    if (report.loose > 0) {
+      warnings.push_back(fmt::format(
+          "up to {} particles had no stiffness, because all their contacts had separated; they were held in place",
+          report.loose));
+    }
   }
 
   const TransientExperiment test_;
@@ -347,6 +394,7 @@ class SteppedLoad : public PlannedExperiment {
   LoadErrors errors_;
   std::shared_ptr<const Drive> drive_;
   std::unique_ptr<Stepper> stepper_;
+  const QuasiStaticStepper* quasi_static_ = nullptr;  ///< `stepper_`, if the method is quasi-static
   CrackWatch cracks_;
   EnergyLedger ledger_;
   std::vector<laws::PointCrack> end_cracks_;  // of the contact points, at the last point of the result
@@ -372,7 +420,8 @@ std::unique_ptr<PlannedExperiment> plan_load_steps(const TransientExperiment& te
     }
   } else {
     at.checksum = test.checksum;
-    at.plan = make_load_plan(test, scene, prepared, inertia);
+    at.plan = scene.solver.method == SolverMethod::quasi_static ? make_quasi_static_plan(test, scene, prepared)
+                                                                : make_load_plan(test, scene, prepared, inertia);
     const InPhase harmonic(result.phases, &PhaseSeconds::harmonic);
     at.unstepped = solve_unstepped(test, scene, prepared, watcher, result.backend, at.plan);
     at.seconds_planning = seconds_since(start);

@@ -58,17 +58,27 @@ std::string strength_words(const SteppedResponse& found) {
   std::string out = fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
                                 passed_peak(found) ? "strength" : "largest stress", peak.stress_pa / 1e6, peak.strain,
                                 found.peak->time_s, passed_peak(found) ? "" : "; the strength was not reached");
-  if (found.fitted) {
+  if (found.fitted && found.increments) {
+    out += fmt::format(
+        "the strength is that of a parabola through three increments; the largest stress at the end of "
+        "an increment is {:.6g} MPa\n",
+        found.peak->stress_pa / 1e6);
+  } else if (found.fitted) {
     out += fmt::format("the strength is that of a cubic fit around the peak; the largest single stress is {:.6g} MPa\n",
                        found.peak->stress_pa / 1e6);
   }
   return out;
 }
 
+/// Returns the error of the balance of energies.
+std::optional<double> energy_error_of(const SteppedResponse& found) {
+  return found.increments ? std::optional(found.increments->imbalance) : found.energy_error();
+}
+
 /// Returns the line about the energies at the end of a test with cracks.
 std::string energy_words(const SteppedResponse& found) {
   const experiments::Energies& e = found.points.back().energies;
-  const auto error = found.energy_error();
+  const auto error = energy_error_of(found);
   return fmt::format(
       "work {:.4g} J: crack {:.4g}, friction {:.4g}, viscous {:.4g}, elastic {:.4g}, kinetic {:.4g}{} J; {}\n",
       e.work_j, e.crack_j, e.friction_j, e.viscous_j, e.elastic_j, e.kinetic_j,
@@ -90,6 +100,31 @@ void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
   out["work_of_fracture_j"] = passed ? Json(found.points.back().energies.work_j) : Json();
 }
 
+/// Adds how a test was followed by increments.
+void add_increments(const experiments::Increments& found, nlohmann::ordered_json& out) {
+  out["increments"] = found.increments;
+  out["repeated_increments"] = found.rejected;
+  out["linear_systems"] = found.systems;
+  out["increment_error"] = found.increment_error;
+  out["loose_particles"] = found.loose;
+  if (!found.unstable) return;
+  out["unstable"] = {{"time_s", found.unstable->time_s},
+                     {"strain", found.unstable->strain},
+                     {"stress_pa", found.unstable->stress_pa},
+                     {"increments", found.by_opening}};
+}
+
+std::string increment_words(const SteppedResponse& found) {
+  const experiments::Increments& i = *found.increments;
+  return fmt::format(
+      "\n{}; {} increments without inertia, {} linear systems in {:.1f} s\n"
+      "error: {}\n",
+      modulus_words(found.confined), i.increments, i.systems, found.seconds,
+      found.cracks ? "sum of the estimated errors of the increments, relative to the largest stress"
+                   : "difference from the solution without increments, or an estimate if there is no "
+                     "such solution");
+}
+
 }  // namespace
 
 template <>
@@ -101,7 +136,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     Json out = {{"kind", found.kind},
                 {"sides", found.confined ? "held" : "free"},
                 {"modulus", found.confined ? "confined" : "uniaxial"},
-                {"method", "explicit"},
+                {"method", found.increments ? "quasi_static" : "explicit"},
                 {"density_scaling", found.density_scaling},
                 {"dt_s", found.dt_s},
                 {"steps", found.steps},
@@ -113,9 +148,10 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     add_extremes(found.kind, found.points, out);
     if (measures_strength(found)) add_strength(found, out);
     if (found.cracks && found.cracks->sums) {
-      const auto error = found.energy_error();
+      const auto error = energy_error_of(found);
       out["energy_error"] = error ? Json(*error) : Json();
     }
+    if (found.increments) add_increments(*found.increments, out);
     if (found.rupture) out["rupture"] = rupture_json(*found.rupture, *found.cracks);
     if (found.platen_mass_kg > 0) out["platen_mass_kg"] = found.platen_mass_kg;
     for (const SteppedPoint& p : found.points) {
@@ -162,6 +198,7 @@ std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
     out += shown_line(words, ratio, p) + fmt::format(" {:>9.1e}", p.error) +
            (found.cracks ? fmt::format(" {:>9}", p.broken_points) : "");
   }
+  if (found.increments) return out + increment_words(found);
   return out + fmt::format(
                    "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
                    "error: difference from the solution without time steps, or an estimate if there is no such "

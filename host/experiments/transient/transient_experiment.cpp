@@ -127,7 +127,7 @@ std::vector<std::string> load_files(const std::string& kind, const Scene& scene)
   std::vector<std::string> out{load_words(kind).file};
   if (counts_cracks(scene)) out.push_back(cracks_file);
   if (counts_cracks(scene) && can_crack(facts_of(scene.laws))) out.push_back(damage_file);
-  if (scene.solver.method == SolverMethod::explicit_) return out;
+  if (is_stepped(scene.solver.method)) return out;
   for (const std::string& file : material_files(scene.network.lateral_walls)) out.push_back(file);
   return out;
 }
@@ -135,7 +135,7 @@ std::vector<std::string> load_files(const std::string& kind, const Scene& scene)
 std::unique_ptr<PlannedExperiment> plan_load_test(const TransientExperiment& test, const Scene& scene,
                                                   const Preparation& prepared, const Watcher& watcher,
                                                   std::optional<Resumed> resumed, RunResult& result) {
-  if (scene.solver.method == SolverMethod::explicit_) {
+  if (is_stepped(scene.solver.method)) {
     return plan_load_steps(test, scene, prepared, watcher, std::move(resumed), result);
   }
   const auto responds = [test](const std::filesystem::path& out, Material material, RunResult& found) {

@@ -54,7 +54,18 @@ struct FittedPeak {
   double deviation_pa = 0;  ///< root mean square of the differences from the polynomial
 };
 
-/// Result of method "explicit".
+/// The increments of a test by method "quasi_static".
+struct Increments {
+  std::int64_t increments = 0, rejected = 0, systems = 0;  ///< accepted, repeated; linear systems solved
+  double error = 0;                                        ///< sum of the estimated errors, as SteppedPoint::error
+  double imbalance = 0;                                    ///< error of the balance of energies (energy_error)
+  /// Difference between the energy of cracks by their states and by the work of their stresses, over all energy.
+  double increment_error = 0;
+  std::int64_t loose = 0, by_opening = 0;  ///< particles without stiffness; increments controlled by opening
+  std::optional<Peak> unstable = {};       ///< the state after which the test was controlled by opening
+};
+
+/// Result of methods "explicit" and "quasi_static".
 struct SteppedResponse : Stepped {
   std::string kind;
   bool confined = false;  ///< whether the sides were held
@@ -73,6 +84,8 @@ struct SteppedResponse : Stepped {
   std::optional<Rupture> rupture = {};    ///< the rupture, if it ended the test early
   std::optional<Peak> peak = {};          ///< constant rate only, and only if a law of the scene can break
   std::optional<FittedPeak> fitted = {};  ///< as `peak`, only if a law has a crack and a polynomial fits
+
+  std::optional<Increments> increments = {};  ///< only method "quasi_static"
 
   double error() const;  ///< Returns the largest error of the points before the rupture.
   /// Returns the largest |Energies::missing()| of all points, divided by the largest work. Empty if no law has a crack,

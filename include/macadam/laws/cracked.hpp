@@ -49,13 +49,13 @@ struct Cracked : Inner {
     return out;
   }
 
-  /// Coefficients of one time step, see law.hpp.
-  template <class R>
-  struct Step {
+  /// Coefficients of one time step or, with more passes of Newton's method, of one quasi-static increment.
+  template <class R, int passes>
+  struct Advance {
     static constexpr bool memoryless = false, coupled = true;
     static constexpr int most_units = Inner::max_units + crack_numbers;
     typename Inner::template Step<R> chain;
-    CrackSolve<R> crack;
+    CrackSolve<R, passes> crack;
     R alpha, inverse_alpha;
 
     template <int L, class S, class State>
@@ -125,13 +125,24 @@ struct Cracked : Inner {
     }
   };
 
+  /// See law.hpp.
+  template <class R>
+  using Step = Advance<R, passes_of_step>;
   template <class R>
   Step<R> step(double dt) const {
-    return {Inner::template step<R>(dt), CrackSolve<R>::of(crack, this->alpha), R(this->alpha),
-            R(this->alpha > 0 ? 1 / this->alpha : 0)};
+    return advance_in<R, passes_of_step>(dt);
+  }
+  /// Returns the coefficients of a quasi-static increment.
+  Advance<double, passes_of_increment> increment(double dt) const {
+    return advance_in<double, passes_of_increment>(dt);
   }
 
  private:
+  template <class R, int passes>
+  Advance<R, passes> advance_in(double dt) const {
+    return {Inner::template step<R>(dt), CrackSolve<R, passes>::of(crack, this->alpha), R(this->alpha),
+            R(this->alpha > 0 ? 1 / this->alpha : 0)};
+  }
   /// Gives access to number n of component c of a contact point.
   struct Place {
     const double* state;

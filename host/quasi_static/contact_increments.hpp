@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_increments.hpp  Stores the states of all contacts, and computes the forces and the tangent stiffness
+/// of each contact in a quasi-static increment.
+///
+/// A contact has six relative displacements u (kernels/contact/contact_kinematics.hpp), and six forces F that do the
+/// work F·du. Contacts of linear laws are condensed, contacts with cracks are summed over their points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "macadam/quasi_static.hpp"
+
+namespace macadam::quasi_static {
+
+using Six = std::array<double, 6>;
+/// Derivatives of six forces with respect to six displacements, row by row.
+using SixBySix = std::array<double, 36>;
+
+/// What to compute of the tangent: nothing, the consistent tangent, or the secant, which leaves out the derivatives
+/// with respect to the growth of cracks.
+enum class Tangent : std::uint8_t { none, consistent, secant };
+
+/// Sums over contacts at the end of an increment.
+struct ContactEnergies {
+  double elastic = 0, viscous = 0, crack = 0, friction = 0, crack_work = 0;  ///< [J]
+  double opened = 0, growing = 0;  ///< of points that grew: sum of area times increase of opening [m³], and area [m²]
+  ContactEnergies& operator+=(const ContactEnergies& o);
+};
+
+class ContactIncrements {
+ public:
+  ContactIncrements(const ContactNetwork& network, const LawTable& laws);
+
+  /// Prepares an increment of `dt` seconds from the accepted state.
+  void begin(double dt);
+  /// Computes forces (and stiffnesses) for the relative displacements `u` of each contact in the increment.
+  void evaluate(const std::vector<Six>& u, Tangent tangent);
+  const Six& force(std::size_t c) const { return force_[c]; }
+  const SixBySix& stiffness(std::size_t c) const { return stiffness_[c]; }
+  /// Returns the forces of the accepted state.
+  Six accepted_force(std::size_t c) const;
+
+  /// Mean increase of the openings of the points that grew in the last accepted increment, weighted by their areas, and
+  /// its derivatives with respect to `u` (per contact; zero for most contacts). evaluate() with a tangent sets them if
+  /// begin() was called with points that grew.
+  double opening() const { return opening_; }
+  const Six& opening_rate(std::size_t c) const { return opening_rate_[c]; }
+  bool has_growing_points() const { return growing_area_ > 0; }
+  /// Part of the area of points with a crack law that grows at the last evaluation.
+  double growing_part() const;
+
+  /// Takes over the last evaluation. Energies of the increment (viscous, crack_work) or at its end (others).
+  ContactEnergies accept(const std::vector<Six>& u);
+
+  std::vector<laws::PointCrack> point_cracks() const;
+  std::vector<Break> point_breaks() const;
+  bool has_cracks() const { return has_cracks_; }
+  /// States as in ContactState::chain.
+  const std::vector<double>& states() const { return states_; }
+  const std::vector<std::size_t>& state_begin() const { return begin_; }
+  const std::vector<char>& grew() const { return grew_; }
+  void set_states(std::vector<double> states, std::vector<char> grew);
+  std::int64_t bytes() const;
+
+ private:
+  using Chain = laws::GeneralisedKelvin;
+  using CrackedChain = laws::Cracked<Chain>;
+  /// The law of a pair type. Elastic laws are chains without dashpots.
+  struct PairLaw {
+    Chain chain;
+    std::optional<CrackedChain> cracked;
+    int words = 1;  ///< numbers per component
+    Chain::Step<double> step{};
+    std::optional<decltype(CrackedChain{}.increment(1.0))> increment;
+  };
+
+  void prepare(std::size_t c);
+  void evaluate_linear(std::size_t c, const Six& u, Tangent tangent);
+  void evaluate_points(std::size_t c, const Six& u, Tangent tangent);
+  ContactEnergies accept_linear(std::size_t c, const Six& u);
+  ContactEnergies accept_points(std::size_t c, const Six& u);
+  const PairLaw& law(const Contact& c) const { return laws_[static_cast<std::size_t>(c.pair)]; }
+
+  const ContactNetwork& network_;
+  std::array<PairLaw, pair_types> laws_;
+  bool has_cracks_ = false;
+  double dt_ = 0;
+  std::vector<double> states_;
+  std::vector<std::size_t> begin_;       ///< of each contact in states_
+  std::vector<double> base_;             ///< f (linear) or stresses (points) without motion
+  std::vector<std::size_t> base_begin_;  ///< of each contact in base_
+  std::vector<Six> force_;
+  std::vector<SixBySix> stiffness_;
+  std::vector<char> grew_, grows_;  ///< per point: grew in the last accepted increment; grows in the evaluation
+  double growing_area_ = 0;         ///< of the points with grew_
+  double crackable_area_ = 0;
+  double opening_ = 0;
+  std::vector<double> opening_of_;  ///< per contact
+  std::vector<Six> opening_rate_;
+};
+
+/// Returns the relative displacements of a contact whose ends move by `a` and `b` (three displacements, three
+/// rotations).
+Six relative(const Contact& c, const double* a, const double* b);
+/// Returns the load on an end (0: A, 1: B) that does the work of the forces `f`; the contact exerts its negative.
+Six load_on(const Contact& c, const Six& f, int end);
+/// Returns the derivatives of the relative displacements with respect to the motion of an end, [6][6] row by row.
+SixBySix motion_matrix(const Contact& c, int end);
+
+}  // namespace macadam::quasi_static

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file increments.hpp  Chooses the lengths of increments from their errors, and the quantity that controls them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "macadam/drives/drive.hpp"
+#include "macadam/quasi_static.hpp"
+
+namespace macadam::quasi_static {
+
+/// The course of a test: the load on the top wall, and how accurately to follow it.
+struct CourseOptions {
+  std::shared_ptr<const Drive> drive;  ///< of the top wall along z; its dt() is the unit of time
+  bool by_force = false;               ///< whether the drive is a force [N], not a displacement [m]
+  /// Whether the displacement only grows. Only then can a test be controlled by the opening of cracks.
+  bool grows = false;
+  double height = 1, area = 1;      ///< of the specimen [m], [m²], for strains and stresses
+  double tolerance = 1e-3;          ///< error of the stress (under a force: of the strain), relative to the largest
+  std::vector<std::int64_t> stops;  ///< steps at which increments end, rising: samples, and kinks of the drive
+  std::vector<std::int64_t> kinks;  ///< those stops at which the rate of the drive jumps
+  std::int64_t first = 1;           ///< length of the first increment, and of the first one after a kink [steps]
+  std::int64_t longest = 0;         ///< length of the longest increment [steps]; 0: no limit
+  QuasiStaticOptions solver;
+};
+
+/// What happened in a test.
+struct CourseReport {
+  std::int64_t increments = 0, rejected = 0, passes = 0, iterations = 0;
+  double error = 0;        ///< sum of the estimated errors of all increments, relative to the largest stress or strain
+  std::int64_t loose = 0;  ///< largest number of particles without stiffness
+  /// The state before the first increment that was controlled by the opening of cracks, because no equilibrium was
+  /// found at a larger displacement of the wall.
+  struct Unstable {
+    double time_s = 0, strain = 0, stress_pa = 0;
+  };
+  std::optional<Unstable> unstable = {};
+  std::int64_t by_opening = 0;  ///< number of increments that were controlled by the opening of cracks
+};
+
+class Increments {
+ public:
+  Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia& inertia,
+             CourseOptions options);
+
+  /// Takes one increment, which ends at the next stop or earlier. \throws RunError if no equilibrium is found.
+  void advance();
+  std::int64_t step() const { return step_; }
+  const QuasiStatic& network() const { return network_; }
+  const CourseReport& report() const { return report_; }
+
+  std::vector<StateArray> state() const;
+  void set_state(const std::vector<StateArray>& arrays);
+
+ private:
+  /// A quantity whose error is controlled, at one of the last ends of increments.
+  struct Past {
+    double step, value;
+  };
+  std::int64_t next_stop() const;
+  /// Number of steps of the next increment.
+  std::int64_t length_to(std::int64_t stop) const;
+  double drive_at(std::int64_t step) const { return options_.drive->value(step - lag_); }
+  double observed_value() const;  ///< of the solution: stress or, under a force, strain
+  /// Estimated error of the solution at `step`, divided by the largest value; negative: not known.
+  double error_at(double step, double value) const;
+  void accept(std::int64_t steps, const IncrementReport& found, double error);
+  void advance_by_opening(std::int64_t stop);
+  [[noreturn]] void fail(const IncrementReport& found) const;
+
+  CourseOptions options_;
+  QuasiStatic network_;
+  CourseReport report_;
+  std::int64_t step_ = 0;
+  double length_;           ///< proposed length of the next increment [steps]
+  std::vector<Past> past_;  ///< since the last kink, at most three
+  double largest_ = 0;      ///< largest value so far
+  /// Length of usual increments [steps], and their openings of cracks [m]: the largest of the last ones.
+  double usual_ = 0, usual_opening_ = 0;
+  // Control by opening
+  bool by_opening_ = false;
+  double opening_ = 0;              ///< increase of the openings in the next increment [m]
+  std::int64_t opening_steps_ = 0;  ///< steps that an increment then lasts
+  double furthest_ = 0;             ///< displacement of the wall at which control by opening began [m]
+  std::int64_t lag_ = 0;            ///< steps by which the drive is late since then
+};
+
+}  // namespace macadam::quasi_static

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// quasi_static.cpp  Keeps the accepted state of a specimen, and guesses the motion of the next increment.
+#include "macadam/quasi_static.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/quasi_static/newton.hpp"
+#include "kernels/base/parallel.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+using quasi_static::Newton;
+using quasi_static::Six;
+using quasi_static::Tangent;
+using quasi_static::Trial;
+
+namespace {
+
+double sum_of(const QuasiStaticEnergies& e) {
+  return std::max(std::abs(e.work_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j));
+}
+
+constexpr std::size_t top_wall = wall_index(wall_z_hi);
+
+}  // namespace
+
+double QuasiStaticEnergies::imbalance() const {
+  const double sum = sum_of(*this);
+  return sum > 0 ? std::abs(work_j - elastic_j - viscous_j - crack_work_j) / sum : 0;
+}
+
+double QuasiStaticEnergies::increment_error() const {
+  const double sum = sum_of(*this);
+  return sum > 0 ? std::abs(crack_j + friction_j - crack_work_j) / sum : 0;
+}
+
+struct QuasiStatic::Parts {
+  Parts(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
+        const QuasiStaticOptions& options)
+      : network(network), particles(specimen.size()), newton(specimen, network, laws, options) {
+    displacement.assign(6 * particles, 0.0);
+    last.motion = displacement;
+  }
+
+  const ContactNetwork& network;
+  std::size_t particles;
+  Newton newton;
+  // The accepted state
+  double time = 0, last_dt = 0, scale = 0;
+  std::vector<double> displacement;  ///< [6·particles]
+  std::array<Vec3d, wall_count> wall{}, reaction{};
+  Trial last;  ///< motion of the last increment
+  QuasiStaticEnergies energies;
+  double last_opening = 0;
+  // The solution, until it is accepted
+  Trial trial;
+  WallIncrement increment;
+  bool solved = false;
+  std::array<Vec3d, wall_count> shown_force{}, shown_wall{};
+
+  void show(const std::array<Vec3d, wall_count>& at, const std::array<Vec3d, wall_count>& held) {
+    shown_wall = at;
+    for (std::size_t w = 0; w < wall_count; ++w) shown_force[w] = -held[w];
+  }
+
+  /// Returns the factor by which the motion of the last increment is multiplied to guess the next one.
+  double growth(const WallIncrement& next) const {
+    if (last_dt == 0) return 0;
+    const double by_time = next.dt / last_dt, before = last.wall[top_wall].z, now = next.wall[top_wall].z;
+    if (next.opening) return last_opening > 0 ? std::clamp(*next.opening / last_opening, 0.0, 2.0) : 0;
+    if (next.load) return by_time;
+    if (before == 0 && now == 0) return by_time;
+    return before != 0 && now / before > 0 && now / before < 10 ? now / before : 0;
+  }
+
+  IncrementReport solve(const WallIncrement& next) {
+    increment = next;
+    IncrementReport out;
+    for (const Tangent tangent : {Tangent::consistent, Tangent::secant}) {
+      if (tangent == Tangent::secant && !newton.contacts().has_cracks()) break;
+      if (tangent == Tangent::secant && next.opening) break;
+      const double factor = growth(next);
+      trial.motion.resize(last.motion.size());
+      for (std::size_t i = 0; i < trial.motion.size(); ++i) trial.motion[i] = factor * last.motion[i];
+      trial.wall = next.wall;
+      if (next.load || next.opening) trial.wall[top_wall].z = factor * last.wall[top_wall].z;
+      const IncrementReport found = newton.solve(next, scale, tangent, trial);
+      out.converged = found.converged, out.residual = found.residual, out.loose = found.loose;
+      out.passes += found.passes, out.iterations += found.iterations;
+      if (tangent == Tangent::consistent || found.converged)
+        out.negative_pivots = found.negative_pivots, out.lost_stability = found.lost_stability;
+      if (found.converged || !use_secant) break;
+    }
+    solved = out.converged;
+    if (solved) {
+      auto at = wall;
+      for (std::size_t w = 0; w < wall_count; ++w) at[w] += trial.wall[w];
+      show(at, trial.reaction);
+    } else {
+      show(wall, reaction);
+    }
+    return out;
+  }
+  bool use_secant = false;  ///< the secant is slower than a shorter increment, and rarely succeeds where that fails
+
+  void accept() {
+    if (!solved) throw RunError("quasi-static: accept() needs an increment that has converged");
+    const quasi_static::ContactEnergies sums = newton.contacts().accept(trial.relative);
+    for (std::size_t w = 0; w < wall_count; ++w) {
+      energies.work_j += 0.5 * dot(reaction[w] + trial.reaction[w], trial.wall[w]);
+      wall[w] += trial.wall[w];
+    }
+    reaction = trial.reaction;
+    energies.elastic_j = sums.elastic;
+    energies.viscous_j += sums.viscous;
+    energies.crack_j = sums.crack;
+    energies.friction_j = sums.friction;
+    energies.crack_work_j += sums.crack_work;
+    last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
+    for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] += trial.motion[i];
+    last.motion = trial.motion;
+    last.wall = trial.wall;
+    last_dt = increment.dt;
+    time += increment.dt;
+    scale = std::max(scale, trial.scale);
+    solved = false;
+  }
+};
+
+QuasiStatic::QuasiStatic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia&,
+                         const QuasiStaticOptions& options)
+    : parts_(std::make_unique<Parts>(specimen, network, laws, options)) {}
+QuasiStatic::~QuasiStatic() = default;
+QuasiStatic::QuasiStatic(QuasiStatic&&) noexcept = default;
+
+IncrementReport QuasiStatic::solve(const WallIncrement& increment) { return parts_->solve(increment); }
+void QuasiStatic::accept() { parts_->accept(); }
+const std::array<Vec3d, wall_count>& QuasiStatic::wall_force() const { return parts_->shown_force; }
+const std::array<Vec3d, wall_count>& QuasiStatic::wall_displacement() const { return parts_->shown_wall; }
+double QuasiStatic::growing_area() const { return parts_->newton.contacts().growing_part(); }
+double QuasiStatic::last_opening() const { return parts_->last_opening; }
+double QuasiStatic::time() const { return parts_->time; }
+const QuasiStaticEnergies& QuasiStatic::energies() const { return parts_->energies; }
+std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->newton.contacts().point_cracks(); }
+std::vector<Break> QuasiStatic::point_breaks() const { return parts_->newton.contacts().point_breaks(); }
+std::int64_t QuasiStatic::bytes() const { return parts_->newton.bytes(); }
+std::string QuasiStatic::description() const {
+  return std::string("quasi-static, cpu, double, ") + parts_->newton.solver_name();
+}
+
+ParticleState QuasiStatic::particles() const {
+  ParticleState out;
+  const std::vector<double>& u = parts_->displacement;
+  for (std::size_t i = 0; i < parts_->particles; ++i) {
+    out.displacement.push_back({u[6 * i], u[6 * i + 1], u[6 * i + 2]});
+    out.rotation.push_back({u[6 * i + 3], u[6 * i + 4], u[6 * i + 5]});
+  }
+  out.velocity.assign(parts_->particles, {});
+  out.spin = out.velocity, out.force = out.velocity, out.moment = out.velocity;
+  return out;
+}
+
+ContactState QuasiStatic::contacts() const {
+  ContactState out;
+  const auto& contacts = parts_->newton.contacts();
+  const auto& network = parts_->network;
+  const std::vector<double>& u = parts_->displacement;
+  out.point_breaks = contacts.point_breaks();
+  out.point_cracks = contacts.point_cracks();
+  for (std::size_t number = 0; number < network.contacts.size(); ++number) {
+    const Contact& c = network.contacts[number];
+    const Six f = contacts.accepted_force(number);
+    // The force and moment on A about x0 are the negative of what moves B; model (7.1)
+    const auto seen = [&](double n, double s, double t) { return n * c.n + s * c.s + t * c.t; };
+    out.force.push_back(seen(f[0], f[3], f[4]));
+    out.moment.push_back(seen(f[5], f[2], -f[1]));
+    Six wall{};
+    if (c.b < 0) {
+      const Vec3d& x = parts_->wall[wall_index(c.b)];
+      wall = {x.x, x.y, x.z, 0, 0, 0};
+    }
+    out.relative.push_back(quasi_static::relative(c, &u[6 * static_cast<std::size_t>(c.a)],
+                                                  c.b < 0 ? wall.data() : &u[6 * static_cast<std::size_t>(c.b)]));
+    if (!out.point_breaks.empty()) {
+      double broken = 0;
+      for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) broken += out.point_breaks[j] != Break::none;
+      const std::uint32_t points = c.point_end - c.point_begin;
+      out.broken.push_back(points > 0 ? broken / points : 0);
+    }
+  }
+  out.chain = contacts.states();
+  out.chain_begin = contacts.state_begin();
+  return out;
+}
+
+std::vector<StateArray> QuasiStatic::state() const {
+  const Parts& p = *parts_;
+  std::vector<double> numbers{p.time, p.last_dt, p.scale, p.last_opening};
+  for (const auto* walls : {&p.wall, &p.reaction, &p.last.wall}) {
+    for (const Vec3d& x : *walls) numbers.insert(numbers.end(), {x.x, x.y, x.z});
+  }
+  const QuasiStaticEnergies& e = p.energies;
+  numbers.insert(numbers.end(), {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j});
+  const std::vector<char>& grew = p.newton.contacts().grew();
+  return {{"quasi_static", "s, s, 1, m, m, N, m, J", std::move(numbers)},
+          {"displacement", "m, 1", p.displacement},
+          {"motion", "m, 1", p.last.motion},
+          {"contacts", "Pa m, m", p.newton.contacts().states()},
+          {"growing", "1", std::vector<std::int64_t>(grew.begin(), grew.end())}};
+}
+
+void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
+  const std::vector<StateArray> own = state();
+  const auto find = [&](const StateArray& want) -> const StateArray& {
+    for (const StateArray& array : arrays) {
+      if (array.name != want.name || array.values.index() != want.values.index()) continue;
+      const auto size = [](const StateArray& a) {
+        return std::visit([](const auto& v) { return v.size(); }, a.values);
+      };
+      if (size(array) == size(want)) return array;
+    }
+    throw RunError("state: found no array " + want.name + " of the right kind and length for method \"quasi_static\"");
+  };
+  std::vector<const StateArray*> found;
+  for (const StateArray& want : own) found.push_back(&find(want));
+  const auto doubles = [&](std::size_t k) { return std::get<std::vector<double>>(found[k]->values); };
+  Parts& p = *parts_;
+  const std::vector<double> numbers = doubles(0);
+  p.time = numbers[0], p.last_dt = numbers[1], p.scale = numbers[2], p.last_opening = numbers[3];
+  std::size_t at = 4;
+  for (auto* walls : {&p.wall, &p.reaction, &p.last.wall}) {
+    for (Vec3d& x : *walls) x = {numbers[at], numbers[at + 1], numbers[at + 2]}, at += 3;
+  }
+  QuasiStaticEnergies& e = p.energies;
+  e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
+  e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5];
+  p.displacement = doubles(1);
+  p.last.motion = doubles(2);
+  const auto& grew = std::get<std::vector<std::int64_t>>(found[4]->values);
+  p.newton.contacts().set_states(doubles(3), {grew.begin(), grew.end()});
+  p.solved = false;
+  p.show(p.wall, p.reaction);
+}
+
+}  // namespace macadam

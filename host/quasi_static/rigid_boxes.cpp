@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// rigid_boxes.cpp  Sums the blocks of the matrix over boxes of a regular grid, and factors the small matrix.
+#include "host/quasi_static/rigid_boxes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "host/quasi_static/pieces.hpp"
+
+namespace macadam::quasi_static {
+
+RigidBoxes::RigidBoxes(const Specimen& specimen, double per_box) {
+  const std::size_t n = specimen.size();
+  const Vec3d size = specimen.box.size;
+  const double edge = std::cbrt(size.x * size.y * size.z * per_box / static_cast<double>(std::max<std::size_t>(n, 1)));
+  const auto count = [edge](double length) { return std::max(1, static_cast<int>(std::lround(length / edge))); };
+  const int nx = count(size.x), ny = count(size.y), nz = count(size.z);
+  const auto index = [](double x, double length, int cells) {
+    return std::clamp(static_cast<int>(x / length * cells), 0, cells - 1);
+  };
+  std::map<int, std::vector<std::uint32_t>> cells;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3d& x = specimen.centre[i];
+    cells[(index(x.z, size.z, nz) * ny + index(x.y, size.y, ny)) * nx + index(x.x, size.x, nx)].push_back(
+        static_cast<std::uint32_t>(i));
+  }
+  box_of_.resize(n);
+  lever_.resize(n);
+  begin_.push_back(0);
+  for (const auto& [cell, members] : cells) {
+    Vec3d centre{};
+    for (const std::uint32_t i : members) centre += specimen.centre[i];
+    centre = (1 / static_cast<double>(members.size())) * centre;
+    for (const std::uint32_t i : members) {
+      box_of_[i] = static_cast<std::int32_t>(begin_.size()) - 1;
+      lever_[i] = specimen.centre[i] - centre;
+      members_.push_back(i);
+    }
+    begin_.push_back(members_.size());
+  }
+}
+
+Block RigidBoxes::motion(std::size_t particle) const {
+  const Vec3d& r = lever_[particle];
+  Block out = Block::Identity();
+  out(0, 4) = r.z, out(0, 5) = -r.y;
+  out(1, 3) = -r.z, out(1, 5) = r.x;
+  out(2, 3) = r.y, out(2, 4) = -r.x;
+  return out;
+}
+
+bool RigidBoxes::factor(const TangentMatrix& matrix) {
+  std::vector<std::map<std::int32_t, Block>> rows(boxes());
+  for_each_in_parallel(boxes(), [&](std::size_t box) {
+    for (std::size_t m = begin_[box]; m < begin_[box + 1]; ++m) {
+      const std::size_t i = members_[m];
+      const Block left = motion(i).transpose();
+      matrix.for_each_block_of(i, [&](std::size_t j, const Block& block) {
+        const std::int32_t other = box_of_[j];
+        if (other < static_cast<std::int32_t>(box)) return;
+        const auto [at, added] = rows[box].try_emplace(other, Block::Zero());
+        at->second.noalias() += left * (block * motion(j)).eval();
+      });
+    }
+  });
+  std::vector<Eigen::Triplet<double>> entries;
+  double largest = 0;
+  for (std::size_t box = 0; box < boxes(); ++box) {
+    for (const auto& [other, block] : rows[box]) {
+      const bool same = other == static_cast<std::int32_t>(box);
+      for (int r = 0; r < 6; ++r) {
+        for (int c = same ? r : 0; c < 6; ++c)
+          entries.emplace_back(6 * other + c, static_cast<int>(6 * box) + r, block(r, c));
+      }
+      if (same) largest = std::max(largest, block.diagonal().head<3>().maxCoeff());
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(6 * boxes());
+  Eigen::SparseMatrix<double> lower(n, n);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  auto& into = factored_ ? (second_ ? factors_ : next_) : factors_;
+  into.compute(lower);
+  if (into.info() != Eigen::Success) return false;
+  if (factored_) second_ = !second_;
+  factored_ = true;
+  return true;
+}
+
+void RigidBoxes::add_solution(const Vector& x, Vector& out) const {
+  if (!factored_) return;
+  using Six1 = Eigen::Matrix<double, 6, 1>;
+  Eigen::VectorXd right(static_cast<Eigen::Index>(6 * boxes()));
+  for_pieces(boxes(), 16, [&](std::size_t from, std::size_t to) {
+    for (std::size_t box = from; box < to; ++box) {
+      Six1 sum = Six1::Zero();
+      for (std::size_t m = begin_[box]; m < begin_[box + 1]; ++m) {
+        const std::size_t i = members_[m];
+        sum.noalias() += motion(i).transpose() * Eigen::Map<const Six1>(&x[6 * i]);
+      }
+      right.segment<6>(static_cast<Eigen::Index>(6 * box)) = sum;
+    }
+  });
+  const Eigen::VectorXd found = current().solve(right);
+  for_pieces(boxes(), 16, [&](std::size_t from, std::size_t to) {
+    for (std::size_t box = from; box < to; ++box) {
+      const Six1 rigid = found.segment<6>(static_cast<Eigen::Index>(6 * box));
+      for (std::size_t m = begin_[box]; m < begin_[box + 1]; ++m) {
+        const std::size_t i = members_[m];
+        Eigen::Map<Six1>(&out[6 * i]) += motion(i) * rigid;
+      }
+    }
+  });
+}
+
+}  // namespace macadam::quasi_static

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file quasi_static.hpp  Declares the quasi-static method: a network in equilibrium is advanced by increments of
+/// time, without inertia, by Newton's method (docs/quasi-static.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "macadam/experiments/energies.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+/// Options of a quasi-static solution.
+struct QuasiStaticOptions {
+  /// Largest force that is out of balance, relative to the forces of the contacts (root mean square over particles).
+  double residual = 1e-9;
+  /// Largest number of passes of Newton's method per increment.
+  int passes = 25;
+  /// Systems with at most this number of unknowns are solved by factors of their matrix, larger ones by iterations.
+  std::size_t direct_below = 6000;
+};
+
+/// The motion of the walls in an increment. The displacement of the top wall along z is `wall` unless `load` or
+/// `opening` is given.
+struct WallIncrement {
+  double dt = 0;                         ///< [s]
+  std::array<Vec3d, wall_count> wall{};  ///< displacement of each wall in the increment, by wall_index() [m]
+  std::optional<double> load;            ///< external force on the top wall along z at the end [N]
+  /// Mean increase of the openings of those crack points that grew in the last increment, weighted by their areas [m].
+  std::optional<double> opening;
+};
+
+/// The course of Newton's method in an increment.
+struct IncrementReport {
+  bool converged = false;
+  int passes = 0;               ///< linear systems solved
+  int iterations = 0;           ///< of the iterative linear solver, in all passes
+  double residual = 0;          ///< QuasiStaticOptions::residual reached
+  int negative_pivots = 0;      ///< of the symmetric part of the tangent; direct solver only
+  bool lost_stability = false;  ///< whether the tangent has a direction of negative stiffness
+  std::int64_t loose = 0;       ///< number of particles without stiffness
+};
+
+/// Energies since the undeformed state. The kinetic energy is always zero.
+struct QuasiStaticEnergies : experiments::Energies {
+  /// Work of the stresses on the openings and slips of cracks, by the trapezoidal rule [J]. It differs from
+  /// crack_j + friction_j by the error of the increments.
+  double crack_work_j = 0;
+
+  /// Returns what is missing in the balance of work, relative to the sum of the energies. It is the error of the
+  /// solutions of the increments.
+  double imbalance() const;
+  /// Returns the difference of the two sums of the energy of cracks, relative to the sum of the energies. It is an
+  /// error of the increments' lengths.
+  double increment_error() const;
+};
+
+/// A specimen in quasi-static equilibrium. Contacts keep their initial geometry.
+class QuasiStatic {
+ public:
+  /// Starts from the undeformed state. Specimen and network must outlive this object. \throws InputError for a law that
+  /// has neither a linear chain nor a crack in series with one (brittle_bond), naming the pair and the law.
+  QuasiStatic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia& inertia,
+              const QuasiStaticOptions& options = {});
+  ~QuasiStatic();
+  QuasiStatic(QuasiStatic&&) noexcept;
+
+  /// Solves an increment from the accepted state, and keeps the solution until accept() or the next solve().
+  IncrementReport solve(const WallIncrement& increment);
+  /// Makes the last solution the accepted state. It must have converged.
+  void accept();
+
+  /// Return measurements of the solution, or of the accepted state if there is no solution since then. Forces are those
+  /// of the particles on the walls [N], by wall_index().
+  /// @{
+  const std::array<Vec3d, wall_count>& wall_force() const;
+  const std::array<Vec3d, wall_count>& wall_displacement() const;
+  /// Returns the part of the crack points that grow, by area; 0 if no law has a crack.
+  double growing_area() const;
+  /// @}
+  /// Mean increase of the openings of the crack points that grew in the last accepted increment, weighted by their
+  /// areas [m]; 0 if none grew.
+  double last_opening() const;
+
+  double time() const;                          ///< of the accepted state [s]
+  const QuasiStaticEnergies& energies() const;  ///< of the accepted state
+  /// Displacements and rotations of the accepted state, with zero velocities.
+  ParticleState particles() const;
+  /// Forces and deformation of the contacts in the accepted state; chains in the format of Stepper::contacts().
+  ContactState contacts() const;
+  /// Cracks, and breaks, of all points in the accepted state, network order.
+  std::vector<laws::PointCrack> point_cracks() const;
+  std::vector<Break> point_breaks() const;
+
+  /// Everything that accept() changes, as for Stepper::state().
+  std::vector<StateArray> state() const;
+  /// Restores a state. If that is not possible, changes nothing. \throws RunError naming the array that does not fit.
+  void set_state(const std::vector<StateArray>& arrays);
+
+  std::string description() const;  ///< for example "quasi-static, cpu, double, direct solver"
+  std::int64_t bytes() const;       ///< of states and matrices
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace macadam

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// quasi_static_test.cpp  Tests increments without inertia: a whole specimen against values of an independent program,
+// bars that separate at one facet, energies, states, and a linear specimen against its relaxation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/quasi_static/increments.hpp"
+#include "macadam/drives/constant_rate.hpp"
+#include "macadam/quasi_static.hpp"
+#include "macadam/spectrum.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace macadam::test {
+namespace {
+
+constexpr double height = 0.011, area = 64e-6;  ///< of the specimen t8 [m], [m²]
+constexpr std::size_t driven = wall_index(wall_z_hi);
+
+template <class Chain>
+Law cracked(const Chain& chain, double strength, double energy, double ratio, double friction) {
+  return laws::Cracked<Chain>{chain, {strength, energy, ratio * strength, energy, friction, friction}};
+}
+
+/// Returns the specimen t8 with cracks in mastic and at aggregates. The shear strengths are 1.5 times the tensile ones.
+TestScene cracking_t8() {
+  Laws laws = am1_laws();
+  const auto chain = [&](PairType pair) {
+    return std::get<laws::GeneralisedKelvin>(*laws[static_cast<std::size_t>(pair)]);
+  };
+  laws[static_cast<std::size_t>(PairType::mm)] = cracked(chain(PairType::mm), 1e6, 50, 1.5, 0.5);
+  laws[static_cast<std::size_t>(PairType::ma)] = cracked(chain(PairType::ma), 0.8e6, 40, 1.5, 0.5);
+  laws[static_cast<std::size_t>(PairType::aa)] = cracked(laws::Elastic{1.151e11, 0.05}, 2e6, 60, 1.5, 0.6);
+  return make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}}), {}, laws);
+}
+
+QuasiStatic quasi_static(const TestScene& scene, const QuasiStaticOptions& options = {}) {
+  return {scene.specimen, scene.network, scene.laws, scene.inertia, options};
+}
+
+double stress(const QuasiStatic& q) { return -q.wall_force()[driven].z / area; }
+
+/// Takes an increment of strain in `seconds`.
+void pull(QuasiStatic& q, double strain, double seconds) {
+  WallIncrement next;
+  next.dt = seconds;
+  next.wall[driven].z = strain * height;
+  const IncrementReport report = q.solve(next);
+  ASSERT_TRUE(report.converged) << q.time() << " s, residual " << report.residual;
+  q.accept();
+}
+
+/// A strain, and the stress there by an independent program [MPa].
+struct Known {
+  double strain, stress;
+};
+
+/// Pulls t8 at a constant rate in increments of 3e-5 and compares with known stresses. The independent program had the
+/// same increments; its stresses have six digits, and agree with shorter increments to 1e-4 of the peak.
+void compare(double rate, const std::vector<Known>& known, double peak) {
+  const TestScene scene = cracking_t8();
+  QuasiStatic q = quasi_static(scene);
+  constexpr double increment = 3e-5;
+  int taken = 0;
+  for (const Known& want : known) {
+    for (const int end = static_cast<int>(std::lround(std::abs(want.strain) / increment)); taken < end; ++taken) {
+      ASSERT_NO_FATAL_FAILURE(pull(q, std::copysign(increment, want.strain), increment / rate));
+    }
+    EXPECT_NEAR(stress(q) / 1e6, want.stress, 1e-4 * peak) << want.strain;
+  }
+  // forces are out of balance by 1e-9 at most
+  EXPECT_LT(q.energies().imbalance(), 1e-9);
+  EXPECT_LT(q.energies().increment_error(), 1e-3);
+}
+
+TEST(QuasiStaticSpecimen, HasTheKnownCurveAtAHighRate) {
+  compare(1,
+          {{6e-5, 0.605861},
+           {3e-4, 1.05420},
+           {6e-4, 1.21794},
+           {9e-4, 1.29691},
+           {1.2e-3, 1.33667},
+           {1.5e-3, 1.34331},
+           {2.1e-3, 1.24763},
+           {3e-3, 1.04186}},
+          1.3458);
+}
+
+TEST(QuasiStaticSpecimen, HasTheKnownCurveAtALowRate) {
+  compare(0.01,
+          {{6e-5, 0.589681}, {3e-4, 1.00486}, {9e-4, 1.20219}, {1.5e-3, 1.26025}, {2.1e-3, 1.27867}, {3e-3, 1.26995}},
+          1.2801);
+}
+
+// In compression faces slide with friction, and the tangent is not symmetric.
+TEST(QuasiStaticSpecimen, HasTheKnownCurveInCompression) {
+  compare(1, {{-3e-4, -3.309}, {-6e-4, -5.922}, {-9e-4, -8.166}, {-1.5e-3, -11.889}}, 11.889);
+}
+
+// The wall reverses twice, so that cracks close and open again. The known stresses have an error of 1e-3.
+TEST(QuasiStaticSpecimen, ClosesAndOpensAgain) {
+  const TestScene scene = cracking_t8();
+  QuasiStatic q = quasi_static(scene);
+  constexpr double increment = 1.52e-5;
+  const double turns[] = {1.5e-3, 1.5e-3 + 1.8e-3};
+  const std::vector<Known> known{{1.5048e-3, 1.3435}, {2.4928e-3, 0.4470}, {3.2984e-3, -3.2593}, {3.9976e-3, 0.3478}};
+  double now = 0, wall = 0;
+  const auto wall_at = [&](double t) {
+    return t < turns[0] ? t : t < turns[1] ? 2 * turns[0] - t : t - 2 * (turns[1] - turns[0]);
+  };
+  for (const Known& want : known) {
+    while (now < want.strain - 1e-9) {
+      now += increment;
+      const double next = wall_at(now);
+      ASSERT_NO_FATAL_FAILURE(pull(q, next - wall, increment));
+      wall = next;
+    }
+    EXPECT_NEAR(stress(q) / 1e6, want.stress, 2e-3 * 1.3435) << now;
+  }
+}
+
+/// Returns a bar of cubes along z with the middle contact as the weakest.
+TestScene bar(int facets) {
+  HandMade made = cubic_lattice_network(1, 1, facets, 2e-3, 1e-5);
+  Laws laws;
+  laws.fill(laws::Elastic{1e10, 0});
+  laws[static_cast<std::size_t>(PairType::mm)] = cracked(laws::Elastic{1e10, 0.1}, 2e6, 60, 1.5, 0);
+  laws[static_cast<std::size_t>(PairType::ma)] = cracked(laws::Elastic{1e10, 0.1}, 1.96e6, 60, 1.5, 0);
+  std::size_t weak = made.network.contacts.size() / 2;
+  while (made.network.contacts[weak].b < 0) weak = (weak + 1) % made.network.contacts.size();
+  made.network.contacts[weak].pair = PairType::ma;
+  --made.network.count[static_cast<std::size_t>(PairType::mm)];
+  ++made.network.count[static_cast<std::size_t>(PairType::ma)];
+  return {made.specimen, made.network, laws, made.inertia};
+}
+
+// The weakest facet takes G_f·A, and nothing else is damaged, for any length of the bar.
+TEST(QuasiStaticBar, TakesTheFractureEnergy) {
+  for (const int facets : {2, 4, 8}) {
+    const TestScene scene = bar(facets);
+    QuasiStatic q = quasi_static(scene);
+    for (int k = 0; k < 400; ++k) {
+      WallIncrement next;
+      next.dt = 1;
+      next.wall[driven].z = 2.5e-7;  // the crack is separated at 6.1e-5 m
+      ASSERT_TRUE(q.solve(next).converged) << facets << " " << k;
+      q.accept();
+    }
+    const double right = 60 * 4e-6;
+    // the energy of damage is a function of the state; the work has the error of the increments besides
+    EXPECT_NEAR(q.energies().crack_j, right, 1e-8 * right);
+    EXPECT_NEAR(q.energies().work_j, right, 1e-3 * right);
+    EXPECT_LT(q.energies().imbalance(), 1e-9);
+    int damaged = 0;
+    for (const laws::PointCrack& crack : q.point_cracks()) damaged += crack.damage > 0;
+    EXPECT_EQ(damaged, 5);
+    EXPECT_NEAR(q.wall_force()[driven].z, 0, 1e-6);  // against a strength of 8 N
+  }
+}
+
+// A specimen that goes on from a state takes the same increments to the bit, with any number of threads.
+TEST(QuasiStaticState, ContinuesToTheSameBits) {
+  const TestScene scene = cracking_t8();
+  QuasiStaticOptions by_iterations;
+  by_iterations.direct_below = 0, by_iterations.residual = 1e-7;
+  for (const QuasiStaticOptions& options : {QuasiStaticOptions{}, by_iterations}) {
+    QuasiStatic whole = quasi_static(scene, options), first = quasi_static(scene, options),
+                second = quasi_static(scene, options);
+    for (int k = 0; k < 6; ++k) pull(whole, 6e-5, 6e-5);
+    for (int k = 0; k < 4; ++k) pull(first, 6e-5, 6e-5);
+    second.set_state(first.state());
+    for (int k = 0; k < 2; ++k) pull(second, 6e-5, 6e-5);
+    // The iterative solver keeps a preconditioner from earlier increments, so it agrees to its tolerance only
+    const double tolerance = options.direct_below > 0 ? 0 : 1e-6;
+    EXPECT_NEAR(stress(second), stress(whole), tolerance * stress(whole));
+    EXPECT_NEAR(second.energies().crack_j, whole.energies().crack_j, tolerance * whole.energies().crack_j);
+  }
+}
+
+// Both linear solvers find the same equilibrium.
+TEST(QuasiStaticSolvers, Agree) {
+  const TestScene scene = cracking_t8();
+  QuasiStaticOptions by_iterations;
+  by_iterations.direct_below = 0, by_iterations.residual = 1e-9;
+  QuasiStatic direct = quasi_static(scene), iterative = quasi_static(scene, by_iterations);
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_NO_FATAL_FAILURE(pull(direct, 6e-5, 6e-5));
+    ASSERT_NO_FATAL_FAILURE(pull(iterative, 6e-5, 6e-5));
+  }
+  EXPECT_NEAR(stress(iterative), stress(direct), 1e-7 * stress(direct));
+}
+
+// A held load, and a linear specimen: the strain is that of the creep compliance. The tolerance of the increments is
+// 1e-4, that of the spectrum 1e-5.
+TEST(QuasiStaticLinear, FollowsTheRelaxationOfTheSpecimen) {
+  const TestScene scene = make_scene(random_specimen(4));
+  SpectrumOptions spectrum;
+  spectrum.shortest = 0.01, spectrum.longest = 10, spectrum.tolerance = 1e-5;
+  const PronySeries relaxation = spectrum_of(scene.specimen, scene.network, scene.laws, spectrum).relaxation;
+  const double rate = 1e-4, end = 10;
+  const Vec3d size = scene.specimen.box.size;
+  quasi_static::CourseOptions options;
+  options.drive = std::make_shared<drives::ConstantRate>(rate * size.z, end / 1e6, end);
+  options.height = size.z, options.area = size.x * size.y;
+  options.grows = true, options.tolerance = 1e-4, options.first = 100;
+  options.stops = {1000, 10'000, 100'000, 1'000'000};
+  quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  for (const std::int64_t stop : options.stops) {
+    while (increments.step() < stop) increments.advance();
+    const double t = end * 1e-6 * static_cast<double>(stop);
+    const double want = rate * t * relaxation.after_ramp(t, t);
+    const double found = -increments.network().wall_force()[driven].z / (size.x * size.y);
+    EXPECT_NEAR(found, want, 2e-4 * want) << t;
+  }
+  EXPECT_LT(increments.report().error, 1e-3);
+}
+
+// After a fall of stress for which no equilibrium exists at a larger displacement of the wall, the opening of cracks
+// controls the test, and the displacement decreases.
+TEST(QuasiStaticSpecimen, FollowsSnapBack) {
+  Laws laws = am1_laws();
+  laws[static_cast<std::size_t>(PairType::mm)] = cracked(laws::Elastic{1.115e10, 0.1}, 1e6, 1.5, 1, 0.5);
+  laws[static_cast<std::size_t>(PairType::ma)] = cracked(laws::Elastic{3.511e10, 0.1}, 0.8e6, 1, 1, 0.5);
+  laws[static_cast<std::size_t>(PairType::aa)] = cracked(laws::Elastic{1.151e11, 0.05}, 2e6, 1.5, 1, 0.5);
+  const TestScene scene = make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}}), {}, laws);
+  quasi_static::CourseOptions options;
+  options.drive = std::make_shared<drives::ConstantRate>(height, 1e-9, 1e-3);
+  options.height = height, options.area = area, options.grows = true;
+  options.stops = {1'000'000};
+  quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  double peak = 0, furthest = 0, least = 1, last = 1;
+  while (increments.report().by_opening < 200 && last > 0.14e6) {
+    increments.advance();
+    const double strain = increments.network().wall_displacement()[driven].z / height;
+    last = stress(increments.network());
+    peak = std::max(peak, last);
+    furthest = std::max(furthest, strain);
+    if (increments.report().by_opening > 0) least = std::min(least, strain);
+    if (strain < 1e-4) last = 1e6;  // not yet loaded
+  }
+  // Known from an independent program: peak 0.845 MPa, largest strain 3.1226e-4 to 3.124e-4, 2.898e-4 at 0.14 MPa
+  EXPECT_NEAR(peak / 1e6, 0.845, 1e-3);
+  EXPECT_NEAR(furthest, 3.124e-4, 1e-6);
+  EXPECT_NEAR(least, 2.898e-4, 2e-6);
+  EXPECT_GT(increments.report().by_opening, 5);
+}
+
+TEST(QuasiStaticInput, RefusesLawsWithoutATangent) {
+  TestScene scene = make_scene(random_specimen(2));
+  scene.laws[static_cast<std::size_t>(PairType::mm)] = laws::BrittleBond{};
+  EXPECT_THROW(quasi_static(scene), InputError);
+}
+
+}  // namespace
+}  // namespace macadam::test
