@@ -97,6 +97,19 @@ std::string words_of(const RockReport& rock, const Specimen& specimen) {
   return out + fmt::format("; the centres of {} mastic spheres lie in aggregates", rock.mastic_centres_in_rock);
 }
 
+/// Returns what a run reports about a mastic that is the specimen of another scene.
+std::string words_of(const MasticSource& source) {
+  const MasticSource::Computed& c = source.computed.value();
+  return fmt::format(
+      "mastic: the specimen of {}, solved from {:g} to {:g} Hz; a chain of {} Kelvin units stands for it and differs "
+      "by at "
+      "most {:.2g} % of E*; {}",
+      source.file.string(), c.lowest_hz, c.highest_hz, c.units, 100 * c.largest_difference,
+      c.folder.empty() ? "the result could not be kept beside that scene"
+      : c.kept_before  ? "taken from " + c.folder.string()
+                       : "kept in " + c.folder.string());
+}
+
 /// The backend that runs the scene. Another thread looks for it: the devices are counted and start up while the
 /// specimen is made.
 class FoundBackend {
@@ -133,7 +146,8 @@ class SceneRun {
            const Preparation* given)
       : scene_(std::move(scene)), out_(out), watcher_(watcher), resume_(resume), parts_(parts), given_(given) {}
 
-  RunResult run() {
+  /// Runs the scene. `about_laws`: warnings about the laws of the scene.
+  RunResult run(const std::vector<std::string>& about_laws) {
     begin();
     if (!given_) made_ = make_preparation();
     if (given_) require_same_rule(scene_, given_->network);
@@ -151,7 +165,9 @@ class SceneRun {
       list.insert(list.end(), more.begin(), more.end());
     };
     append(result.decisions, decisions);
+    if (scene_.mastic_source) result.decisions.push_back(words_of(*scene_.mastic_source));
     if (prepared().rock) result.decisions.push_back(words_of(*prepared().rock, prepared().specimen));
+    append(result.warnings, about_laws);
     append(result.warnings, warnings);
     append(result.warnings, packing);
     if (scene_.network.lateral_walls) {
@@ -291,7 +307,10 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
                     const RunParts& parts, const Preparation* given) {
   require_combination(scene);
   const ThreadLimit threads(scene.solver.threads);
-  return SceneRun(std::move(scene), out, watcher, resume, parts, given).run();
+  std::vector<std::string> warnings = compute_mastic_law(scene, watcher);
+  for (const std::string& words : law_range_warnings(scene)) warnings.push_back(words);
+  if (watcher.warn) std::ranges::for_each(warnings, watcher.warn);
+  return SceneRun(std::move(scene), out, watcher, resume, parts, given).run(warnings);
 }
 
 namespace {
