@@ -67,7 +67,7 @@ class FileForecast {
   /// the result is its order of magnitude for a specimen that breaks in two.
   double broken_points() const {
     constexpr double points_per_contact = 5.9, broken_part = 0.11;  // measured: specimen t8, torn in two
-    const auto part = mean_of_usual(scene_, [](const Law& law) {
+    const auto part = mean_of_usual(scene_, [](const Law& law, PairType) {
       return std::visit([](const auto& l) { return facts_of(l).breaks ? 1.0 : 0.0; }, law);
     });
     const double tests = static_cast<double>(std::max<std::size_t>(1, frequencies_of(scene_.experiment).size()));

@@ -172,6 +172,7 @@ struct SpecimenSpec {
   Box box;
   std::uint64_t seed = 1;
   std::vector<AggregateClass> aggregate;  ///< in any order; placed largest first
+  std::vector<std::string> merged;        ///< a sentence per class of a recipe that was too small for the box
   std::optional<ShapeSpec> shapes;        ///< empty: aggregates are single spheres
   std::optional<MasticSpec> mastic;
   std::optional<VoidSpec> voids;
