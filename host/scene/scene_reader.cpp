@@ -186,10 +186,10 @@ toml::table without_lines(const toml::table& table) {
 }
 
 /// Reads all sections. `densities`: whether the scene must give the densities of its materials.
-Scene read_root(const std::filesystem::path& file, const Section& root, Need densities) {
+Scene read_root(const ReadingFile& reading, const Section& root, Need densities) {
   Scene out;
-  out.file = file;
-  const std::filesystem::path folder = file.parent_path();
+  out.file = reading.file;
+  const std::filesystem::path folder = reading.file.parent_path();
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   std::optional<SolverSpec> solver;
   PhaseLaws phases;
@@ -199,13 +199,13 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   root.read({{"specimen", Need::required, section_by(read_the_specimen),
               "the specimen, which is read from a file or generated"},
              {"materials", densities, section_by([&](const Value& v) {
-                out.materials = read_materials(v.section(), densities, rule, phases);
+                out.materials = read_materials(v.section(), densities, rule, reading, phases);
                 tables.temperature = out.materials.temperature;
               }),
               "densities, and the temperature", "computed from [specimen.recipe] if that is given"},
              {"contacts", of_phases ? Need::optional : Need::required, sections_by([&](const Value& v) {
                 if (of_phases) return read_limits_of_pairs(v.sections(), rule, out.network);
-                out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network, tables);
+                out.laws = read_contacts(v.sections(), out.shifts, out.ranges, out.deltas, out.network, tables);
               }),
               "contact law of a pair of materials; one section per pair"},
              {"network", Need::optional, section_by([&](const Value& v) { read_network(v.section(), out.network); }),
@@ -228,14 +228,20 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   return out;
 }
 
-Scene read_tables(const std::filesystem::path& file, std::string text, const toml::table& table) {
+Scene read_tables(const ReadingFile& reading, std::string text, const toml::table& table) {
   const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
-  Scene out = read_root(file, Section(file.string(), 0, "", "", table), densities);
+  Scene out = read_root(reading, Section(reading.file.string(), 0, "", "", table), densities);
   out.text = std::move(text);
   return out;
 }
 
 }  // namespace
+
+Scene read_inner_scene(const ReadingFile& reading) {
+  std::string text;
+  const toml::table table = read_toml(reading.file, "scene", text);
+  return read_tables(reading, std::move(text), table);
+}
 
 std::vector<KnownKey> known_keys() {
   const toml::table nothing;
@@ -248,16 +254,12 @@ std::vector<KnownKey> known_keys() {
 
 }  // namespace scene
 
-Scene read_scene(const std::filesystem::path& file) {
-  std::string text;
-  const toml::table table = scene::read_toml(file, "scene", text);
-  return scene::read_tables(file, std::move(text), table);
-}
+Scene read_scene(const std::filesystem::path& file) { return scene::read_inner_scene({file}); }
 
 Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines) {
   const toml::table table = scene::parse_toml(text, file, "scene");
-  if (lines) return scene::read_tables(file, text, table);
-  return scene::read_tables(file, text, scene::without_lines(table));
+  if (lines) return scene::read_tables({file}, text, table);
+  return scene::read_tables({file}, text, scene::without_lines(table));
 }
 
 std::string read_scene_text(const std::filesystem::path& file) {

@@ -33,6 +33,15 @@ LawTable laws_at(const Scene& scene, double temperature, LawTable laws) {
   return laws;
 }
 
+LawTable reference_laws(const Scene& scene) {
+  LawTable out = scene.laws;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (out[pair] && shifts(scene.shifts[pair]))
+      out[pair] = laws::shifted(*out[pair], std::pow(10.0, -present(scene, scene.shifts[pair])));
+  }
+  return out;
+}
+
 std::optional<double> common_log10_shift(const Scene& scene, double temperature) {
   std::optional<double> out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {

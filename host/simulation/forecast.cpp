@@ -26,7 +26,7 @@ StepCost step_cost(const Scene& scene, const Forecast& f) {
     const LawFacts facts = facts_of(law);
     return facts.memoryless && f.geometry == Geometry::fixed ? no_chain : facts.units;
   };
-  const auto units = mean_of_usual(scene, [&](const Law& law) { return std::visit(of_law, law); });
+  const auto units = mean_of_usual(scene, [&](const Law& law, PairType) { return std::visit(of_law, law); });
   return step_cost(f.backend == Backend::cuda, f.form, f.precision, f.geometry, units.value_or(0));
 }
 

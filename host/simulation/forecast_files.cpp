@@ -67,7 +67,7 @@ class FileForecast {
 
   /// Returns the part of the contacts whose law has the property.
   double part_of_contacts(bool LawFacts::*property) const {
-    const auto part = mean_of_usual(scene_, [property](const Law& law) {
+    const auto part = mean_of_usual(scene_, [property](const Law& law, PairType) {
       return std::visit([property](const auto& l) { return facts_of(l).*property ? 1.0 : 0.0; }, law);
     });
     return part.value_or(0);

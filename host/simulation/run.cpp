@@ -101,6 +101,30 @@ std::string words_of(const RockReport& rock, const Specimen& specimen, ContactRu
   return out + fmt::format("; the centres of {} mastic spheres lie in aggregates", rock.mastic_centres_in_rock);
 }
 
+/// Returns what a run reports about air voids of a recipe that are not voids of the specimen; empty if there are none.
+std::string words_of_air_voids(const Scene& scene) {
+  if (!scene.recipe || !scene.specimen.mastic || scene.specimen.file) return {};
+  const double porosity = scene.specimen.mastic->porosity.value_or(0);  // of the volume beside the voids
+  if (porosity < 1e-9) return {};
+  return fmt::format(
+      "air voids: {:.3g} % of the volume outside of voids is space between spheres, which the cells "
+      "fill; it reduces the mass but does not weaken the specimen (a section [specimen.voids] makes voids of it)",
+      100 * porosity);
+}
+
+/// Returns what a run reports about a mastic that is the specimen of another scene.
+std::string words_of(const MasticSource& source) {
+  const MasticSource::Computed& c = source.computed.value();
+  return fmt::format(
+      "mastic: the specimen of {}, solved from {:g} to {:g} Hz; a chain of {} Kelvin units stands for it and differs "
+      "by at "
+      "most {:.2g} % of E*; {}",
+      source.file.string(), c.lowest_hz, c.highest_hz, c.units, 100 * c.largest_difference,
+      c.folder.empty() ? "the result could not be kept beside that scene"
+      : c.kept_before  ? "taken from " + c.folder.string()
+                       : "kept in " + c.folder.string());
+}
+
 /// The backend that runs the scene. Another thread looks for it: the devices are counted and start up while the
 /// specimen is made.
 class FoundBackend {
@@ -137,7 +161,8 @@ class SceneRun {
            const Preparation* given)
       : scene_(std::move(scene)), out_(out), watcher_(watcher), resume_(resume), parts_(parts), given_(given) {}
 
-  RunResult run() {
+  /// Runs the scene. `about_scene`: warnings about the scene itself.
+  RunResult run(const std::vector<std::string>& about_scene) {
     begin();
     if (!given_) made_ = make_preparation();
     if (given_) require_same_rule(scene_, given_->network);
@@ -155,8 +180,11 @@ class SceneRun {
       list.insert(list.end(), more.begin(), more.end());
     };
     append(result.decisions, decisions);
+    if (const std::string words = words_of_air_voids(scene_); !words.empty()) result.decisions.push_back(words);
+    if (scene_.mastic_source) result.decisions.push_back(words_of(*scene_.mastic_source));
     if (prepared().rock)
       result.decisions.push_back(words_of(*prepared().rock, prepared().specimen, scene_.network.rule));
+    append(result.warnings, about_scene);
     append(result.warnings, warnings);
     append(result.warnings, packing);
     if (scene_.network.lateral_walls) {
@@ -296,7 +324,11 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
                     const RunParts& parts, const Preparation* given) {
   require_combination(scene);
   const ThreadLimit threads(scene.solver.threads);
-  return SceneRun(std::move(scene), out, watcher, resume, parts, given).run();
+  std::vector<std::string> warnings = compute_mastic_law(scene, watcher);
+  for (const auto& more : {law_range_warnings(scene), scene.specimen.merged})
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  if (watcher.warn) std::ranges::for_each(warnings, watcher.warn);
+  return SceneRun(std::move(scene), out, watcher, resume, parts, given).run(warnings);
 }
 
 namespace {

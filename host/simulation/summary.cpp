@@ -84,6 +84,15 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                    {"void_fraction_nominal", rock.void_nominal},
                    {"mastic_centres_in_rock", rock.mastic_centres_in_rock}};
   }
+  if (scene.mastic_source && scene.mastic_source->computed) {
+    const MasticSource::Computed& c = *scene.mastic_source->computed;
+    out["mastic"] = {{"from", scene.mastic_source->file.string()},
+                     {"frequency_range_hz", {c.lowest_hz, c.highest_hz}},
+                     {"units", c.units},
+                     {"largest_difference", c.largest_difference},
+                     {"folder", c.folder.empty() ? Json() : Json(c.folder.string())},
+                     {"kept_before", c.kept_before}};
+  }
   for (const CompositionRow& row : prepared.composition) {
     out["composition"].push_back({{"class", row.name},
                                   {"count_asked", row.count_asked},

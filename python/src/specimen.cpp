@@ -51,12 +51,21 @@ Specimen particles_of(const Domain& domain, const ArrayLike& box, const ArrayLik
   return out;
 }
 
+/// Returns a copy of the scene. If its mastic is the specimen of another scene, computes the law of the mastic.
+std::shared_ptr<const GivenScene> with_mastic_law(const GivenScene& scene, LongCall& call) {
+  auto out = std::make_shared<GivenScene>(scene);
+  Watcher watcher;
+  watcher.progress = call.progress_function();
+  compute_mastic_law(*out, watcher);
+  return out;
+}
+
 PreparedPointer prepare_scene(const GivenScene& scene, nb::object progress) {
   LongCall call(std::move(progress));
   return call([&] {
-    auto copy = std::make_shared<const GivenScene>(scene);
+    const auto copy = with_mastic_law(scene, call);
     Preparation made = prepare(*copy, call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
+    return std::make_shared<Prepared>(Prepared{copy, std::move(made)});
   });
 }
 
@@ -66,9 +75,9 @@ PreparedPointer prepare_particles(const GivenScene& scene, const ArrayLike& box,
   Specimen specimen = particles_of(scene.specimen.box, box, centre, radius, phase, body);
   LongCall call;
   return call([&] {
-    auto copy = std::make_shared<const GivenScene>(scene);
+    const auto copy = with_mastic_law(scene, call);
     Preparation made = prepare(*copy, std::move(specimen), call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
+    return std::make_shared<Prepared>(Prepared{copy, std::move(made)});
   });
 }
 
@@ -76,11 +85,11 @@ PreparedPointer prepare_to_folder(const GivenScene& scene, const std::filesystem
                                   const std::vector<std::string>& sections, nb::object progress) {
   LongCall call(std::move(progress));
   return call([&] {
-    auto copy = std::make_shared<const GivenScene>(scene);
+    const auto copy = with_mastic_law(scene, call);
     std::vector<SectionPlane> planes;
     for (const std::string& text : sections) planes.push_back(read_section_plane(text, scene.specimen.box));
     Preparation made = prepare_into(out, *copy, planes, call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
+    return std::make_shared<Prepared>(Prepared{copy, std::move(made)});
   });
 }
 

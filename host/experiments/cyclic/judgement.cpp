@@ -65,14 +65,7 @@ void warn(const Frequency& f, const std::string& text, std::vector<std::string>&
 }  // namespace
 
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz) {
-  double stiffest = 0;
-  for (std::size_t pair = 0; pair < pair_types; ++pair) {
-    if (network.count[pair] == 0) continue;
-    const double alpha = std::visit([](const auto& law) { return law.alpha; }, *scene.laws[pair]);
-    const double own = stiffness_at(*scene.laws[pair], 2 * std::numbers::pi * frequency_hz);
-    stiffest = std::max(stiffest, std::max(1.0, alpha) * own);
-  }
-  return stiffest;
+  return stiffness_range(scene, network, 2 * std::numbers::pi * frequency_hz, true).second;
 }
 
 void judge(HarmonicFrequency& f, double stiffest, std::vector<std::string>& warnings) {
