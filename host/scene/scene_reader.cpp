@@ -71,6 +71,11 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   into<ContactRule>(spec.rule, {{"centres", ContactRule::centres}, {"series", ContactRule::series}}),
                   "stiffness of a contact: from the law of its pair and the distance of the centres, or from the laws "
                   "of mastic and rock in series along the line between the centres"});
+  keys.push_back({"void_cells", Need::optional,
+                  into<VoidCells>(spec.void_cells, {{"volume", VoidCells::volume}, {"spheres", VoidCells::spheres}}),
+                  "volume of the cell of a void: the volume of its sphere, or the larger volume that follows from its "
+                  "radius",
+                  "\"volume\" with rule \"series\", else \"spheres\""});
   section.read(keys);
 }
 

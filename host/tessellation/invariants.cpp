@@ -11,7 +11,9 @@
 namespace macadam {
 
 TessellationInvariants measure_invariants(const Specimen& particles, const Tessellation& tessellation) {
-  const Specimen specimen = with_voids_as_cells(particles);
+  Specimen specimen = with_voids_as_cells(particles);
+  std::copy(tessellation.void_radius.begin(), tessellation.void_radius.end(),
+            specimen.radius.begin() + static_cast<std::ptrdiff_t>(particles.size()));
   TessellationInvariants out;
   const Vec3d& box = specimen.box.size;
   std::vector<Vec3d> closing(specimen.size());

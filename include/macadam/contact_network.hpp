@@ -33,6 +33,10 @@ const char* to_string(Quadrature);
 enum class ContactRule : std::uint8_t { centres, series };
 const char* to_string(ContactRule);
 
+/// Volumes of the cells of voids. `spheres`: the weights are the squared radii, so cells are larger than their spheres
+/// (tessellate()); `volume`: each cell has the volume of its sphere (tessellate_with_void_volumes()).
+enum class VoidCells : std::uint8_t { spheres, volume };
+
 /// Limits within which a facet between two particles becomes a contact. Without limits, every facet becomes a contact.
 struct FacetLimits {
   std::optional<double> gap_max;   ///< largest surface gap, over the mean of the two radii
@@ -44,9 +48,15 @@ struct NetworkSpec : FacetLimits {
   /// Limits of single pair types between particles; a limit given here replaces the limit for all pairs.
   std::array<FacetLimits, particle_pair_types> of_pair;
   Quadrature quadrature = Quadrature::lumped;
-  bool bottom_top_walls = true;             ///< facets on −z and +z are contacts
-  bool lateral_walls = false;               ///< facets on ±x and ±y are contacts
-  ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; apply_series() changes the contacts
+  bool bottom_top_walls = true;              ///< facets on −z and +z are contacts
+  bool lateral_walls = false;                ///< facets on ±x and ±y are contacts
+  ContactRule rule = ContactRule::centres;   ///< build_network() ignores it; apply_series() changes the contacts
+  std::optional<VoidCells> void_cells = {};  ///< build_network() ignores it; empty: `volume` for the rule "series" only
+
+  /// Returns the volumes of the cells of voids that this network is made with.
+  VoidCells cells_of_voids() const {
+    return void_cells.value_or(rule == ContactRule::series ? VoidCells::volume : VoidCells::spheres);
+  }
 };
 
 /// Area moments of a facet: Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t², in local coordinates about x0:

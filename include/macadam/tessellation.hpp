@@ -39,6 +39,7 @@ struct Facet {
 };
 
 /// Laguerre cells of all particles and voids (weights R²) inside the box. Voids are numbered after the particles.
+/// The weights of voids may differ: see `void_radius`.
 struct Tessellation {
   std::vector<Facet> facets;    ///< sorted by (a, b); among the facets of one a, walls (negative b) come first
   std::vector<Vec3d> vertices;  ///< [m]; the vertices of a facet are consecutive, counter-clockwise about its normal
@@ -47,6 +48,8 @@ struct Tessellation {
   std::vector<std::int32_t> hidden;  ///< particles and voids without a cell in the box, in rising order
   /// Number of neighbours that meet only in an edge or a point (zero area); these are not facets.
   std::int64_t null_facets = 0;
+  /// [m], one per void: the squares are the weights of the voids. Empty if the weights are the squares of the radii.
+  std::vector<double> void_radius = {};
 
   /// Returns the vertices of a facet.
   std::span<const Vec3d> polygon(const Facet& f) const {
@@ -59,6 +62,16 @@ struct Tessellation {
 ///
 /// \throws InputError from validate(): coincident centres, particles outside the box and so on.
 Tessellation tessellate(const Specimen& specimen);
+
+/// Builds the tessellation with weights of the voids for which the cell of each void has the volume of the void's
+/// sphere, to 0.1 %. With the weight R² the cell of a void is usually larger than its sphere, because it has few
+/// facets. The planes between two particles do not change, because the weights of particles stay R².
+///
+/// A cell keeps another volume if its weight would have to be negative, or if a larger cell would leave a particle
+/// without a cell. Builds the diagram once per correction of the weights, usually three to six times.
+///
+/// \throws InputError from validate(): coincident centres, particles outside the box and so on.
+Tessellation tessellate_with_void_volumes(const Specimen& specimen);
 
 /// Returns one sentence for each of the following faults; returns none for a packing that fills its box.
 /// - The spheres fill less than a tenth of the box (see sparse_box()). In this case the faults below are not checked.

@@ -252,6 +252,50 @@ TEST(GeneratedVoids, AreRefusedWhereTheyAreImpossible) {
   EXPECT_HAS(message_of([&] { generate_specimen(spec); }), "no space for void");
 }
 
+TEST(VoidCells, HaveTheVolumesOfTheirSpheres) {
+  const Specimen s = generate_specimen(mix(0.05)).specimen;
+  const Tessellation plain = tessellate(s), equal = tessellate_with_void_volumes(s);
+  ASSERT_EQ(equal.void_radius.size(), s.voids.size());
+  EXPECT_TRUE(plain.void_radius.empty());
+  double spheres = 0, cells = 0;
+  for (std::size_t k = 0; k < s.voids.size(); ++k) {
+    const double sphere = volume_of(s.voids[k].radius);
+    spheres += sphere, cells += plain.cell_volume[s.size() + k];
+    EXPECT_NEAR(equal.cell_volume[s.size() + k] / sphere, 1, 1e-3) << k;  // the tolerance that the function promises
+  }
+  EXPECT_GT(cells, 1.1 * spheres);  // otherwise the test would show nothing
+  const TessellationInvariants i = measure_invariants(s, equal);
+  EXPECT_LT(std::max({i.volume, i.closure, i.flatness, i.power, i.walls}), 1e-9);
+  for (const Facet& f : equal.facets) {
+    if (f.b < 0 || f.b >= static_cast<std::int32_t>(s.size())) continue;
+    const auto a = static_cast<std::size_t>(f.a), b = static_cast<std::size_t>(f.b);
+    const double d = norm(s.centre[b] - s.centre[a]);
+    const double arm = 0.5 * (d + (s.radius[a] * s.radius[a] - s.radius[b] * s.radius[b]) / d);
+    EXPECT_NEAR(dot(f.centroid - s.centre[a], f.normal) / d, arm / d, 1e-9);  // rounding of the vertices
+  }
+}
+
+TEST(VoidCells, AreThoseOfTheTessellationWithoutVoids) {
+  const Specimen s = random_specimen(3, 5, 5, 6);
+  const Tessellation plain = tessellate(s), equal = tessellate_with_void_volumes(s);
+  EXPECT_EQ(equal.cell_volume, plain.cell_volume);
+  EXPECT_EQ(equal.facets.size(), plain.facets.size());
+  EXPECT_TRUE(equal.void_radius.empty());
+}
+
+TEST_F(VoidFiles, KeepLargerCellsIfTheWeightWouldBeNegative) {
+  // The plane between the spheres would have to lie beyond the void: the weight would be -55 mm², and its cell has half
+  // of the box instead.
+  const Specimen s = read_rows("0,0.002,0.005,0.005,0.002,mastic,-1\n1,0.008,0.005,0.005,0.001,void,-1\n");
+  const Tessellation cells = tessellate_with_void_volumes(s);
+  ASSERT_EQ(cells.void_radius.size(), 1U);
+  EXPECT_GT(cells.void_radius[0], 0);
+  EXPECT_TRUE(cells.hidden.empty());
+  // weight 0: the plane is at x = 2 + (6 + 4/6)/2 = 5.3333 mm, so the cell has 466.67 mm³; the weight has become
+  // smaller by factors of 4, of which less than 1e-3 mm² is left
+  EXPECT_NEAR(cells.cell_volume[1], 466.667e-9, 0.1e-9);
+}
+
 class VoidScenes : public VoidFiles {
  protected:
   Scene scene(const std::string& specimen, const std::string& voids) const {
