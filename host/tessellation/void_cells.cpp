@@ -10,8 +10,9 @@
 namespace macadam {
 namespace {
 
-constexpr double tolerance = 1e-3;  // largest difference between the volumes of a void and its cell, over the void's
-constexpr int most_rounds = 12;     // weights that do not converge were limited below; three to six rounds are usual
+constexpr double tolerance = 1e-3;     // largest difference between the volumes of a void and its cell, over the void's
+constexpr double least_radius = 0.01;  // smallest root of a weight, over the void's radius
+constexpr int most_rounds = 12;        // eight rounds reach the smallest weight; three to six are usual
 
 /// Returns the derivative of the volume of each void's cell with respect to its weight [m]. A facet moves by
 /// 1/(2·distance of the centres) per unit of weight; a wall does not move.
@@ -39,9 +40,10 @@ bool correct(const Specimen& specimen, const Tessellation& cells, Specimen& weig
   for (std::size_t k = 0; k < growth.size(); ++k) {
     const double wanted = sphere_volume(2 * specimen.voids[k].radius);
     const double missing = wanted - cells.cell_volume[specimen.size() + k];
-    if (!(growth[k] > 0) || std::abs(missing) <= tolerance * wanted) continue;
-    differs = true;
     double& radius = weighted.voids[k].radius;
+    const bool is_least = missing < 0 && radius <= least_radius * specimen.voids[k].radius;
+    if (is_least || !(growth[k] > 0) || std::abs(missing) <= tolerance * wanted) continue;
+    differs = true;
     // the limits keep the weight positive, and a neighbour's cell from vanishing in one step
     radius *= std::sqrt(std::clamp(1 + missing / growth[k] / (radius * radius), 0.25, 2.0));
   }
