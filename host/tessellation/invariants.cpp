@@ -6,14 +6,13 @@
 #include <numeric>
 
 #include "host/tessellation/facets.hpp"
+#include "host/tessellation/void_cells.hpp"
 #include "macadam/tessellation.hpp"
 
 namespace macadam {
 
 TessellationInvariants measure_invariants(const Specimen& particles, const Tessellation& tessellation) {
-  Specimen specimen = with_voids_as_cells(particles);
-  std::copy(tessellation.void_radius.begin(), tessellation.void_radius.end(),
-            specimen.radius.begin() + static_cast<std::ptrdiff_t>(particles.size()));
+  const Specimen specimen = with_voids_as_cells(with_void_weights(particles, tessellation.void_weight));
   TessellationInvariants out;
   const Vec3d& box = specimen.box.size;
   std::vector<Vec3d> closing(specimen.size());

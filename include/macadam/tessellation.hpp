@@ -39,7 +39,7 @@ struct Facet {
 };
 
 /// Laguerre cells of all particles and voids (weights R²) inside the box. Voids are numbered after the particles.
-/// The weights of voids may differ: see `void_radius`.
+/// The weights of voids may differ: see `void_weight`.
 struct Tessellation {
   std::vector<Facet> facets;    ///< sorted by (a, b); among the facets of one a, walls (negative b) come first
   std::vector<Vec3d> vertices;  ///< [m]; the vertices of a facet are consecutive, counter-clockwise about its normal
@@ -48,8 +48,8 @@ struct Tessellation {
   std::vector<std::int32_t> hidden;  ///< particles and voids without a cell in the box, in rising order
   /// Number of neighbours that meet only in an edge or a point (zero area); these are not facets.
   std::int64_t null_facets = 0;
-  /// [m], one per void: the squares are the weights of the voids. Empty if the weights are the squares of the radii.
-  std::vector<double> void_radius = {};
+  /// Weights of the voids [m²], one per void; they may be negative. Empty if the weights are the squares of the radii.
+  std::vector<double> void_weight = {};
 
   /// Returns the vertices of a facet.
   std::span<const Vec3d> polygon(const Facet& f) const {
@@ -67,8 +67,8 @@ Tessellation tessellate(const Specimen& specimen);
 /// sphere, to 0.1 %. With the weight R² the cell of a void is usually larger than its sphere, because it has few
 /// facets. The planes between two particles do not change, because the weights of particles stay R².
 ///
-/// A cell keeps another volume if its weight would have to be negative, or if a larger cell would leave a particle
-/// without a cell. Builds the diagram once per correction of the weights, usually three to six times.
+/// Cells keep the volumes that they have reached if the next correction of the weights would leave a particle or void
+/// without a cell. Builds the diagram once per correction, usually three to six times.
 ///
 /// \throws InputError from validate(): coincident centres, particles outside the box and so on.
 Tessellation tessellate_with_void_volumes(const Specimen& specimen);

@@ -66,7 +66,7 @@ TEST_F(SeriesScene, PairsFollowFromThePhases) {
 }
 
 TEST_F(SeriesScene, CellsOfVoidsHaveTheVolumesOfTheVoids) {
-  const std::string voids = "[specimen.voids]\nradius = [0.0008, 0.0012]\nfraction = 0.04\n";
+  const std::string voids = "[specimen.voids]\nradius = [0.0005, 0.001]\nfraction = 0.04\n";
   const auto scene_with = [&](const std::string& key) {
     return read(specimen + voids + aggregate + mastic + series + key + cyclic);
   };
