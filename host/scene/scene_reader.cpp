@@ -75,6 +75,11 @@ void read_network(const Section& section, NetworkSpec& spec) {
        "stiffness of a contact: from the law of its pair and the distance of the centres; from the laws of "
        "mastic and rock in series along the line between the centres; or in series, with the Poisson's ratios "
        "of mastic and rock"});
+  keys.push_back({"void_cells", Need::optional,
+                  into<VoidCells>(spec.void_cells, {{"volume", VoidCells::volume}, {"spheres", VoidCells::spheres}}),
+                  "volume of the cell of a void: the volume of its sphere, or the larger volume that follows from its "
+                  "radius",
+                  "\"spheres\" with rule \"centres\", else \"volume\""});
   section.read(keys);
 }
 

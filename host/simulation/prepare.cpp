@@ -42,9 +42,11 @@ void remove_older(const std::filesystem::path& file) {
   if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
 }
 
-void make_cells(const Progress& progress, Preparation& out) {
+void make_cells(const Scene& scene, const Progress& progress, Preparation& out) {
   if (progress) progress("tessellation", 0);
-  out.seconds_tessellation = seconds_of([&] { out.tessellation = tessellate(out.specimen); });
+  const bool of_volume = scene.network.cells_of_voids() == VoidCells::volume;
+  out.seconds_tessellation = seconds_of(
+      [&] { out.tessellation = of_volume ? tessellate_with_void_volumes(out.specimen) : tessellate(out.specimen); });
 }
 
 /// Returns the volume of the true aggregates over the box; nothing if it is unknown.
@@ -143,7 +145,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
     out.tessellation = std::move(*cells);
     out.seconds_specimen -= out.seconds_tessellation;
   } else {
-    make_cells(progress, out);
+    make_cells(scene, progress, out);
   }
   make_contacts(scene, surfaces, progress, out);
   return out;
@@ -154,7 +156,7 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
   Preparation out;
   validate(specimen, specimen.source);
   out.specimen = std::move(specimen);
-  make_cells(progress, out);
+  make_cells(scene, progress, out);
   make_contacts(scene, {}, progress, out);
   return out;
 }

@@ -6,12 +6,13 @@
 #include <numeric>
 
 #include "host/tessellation/facets.hpp"
+#include "host/tessellation/void_cells.hpp"
 #include "macadam/tessellation.hpp"
 
 namespace macadam {
 
 TessellationInvariants measure_invariants(const Specimen& particles, const Tessellation& tessellation) {
-  const Specimen specimen = with_voids_as_cells(particles);
+  const Specimen specimen = with_voids_as_cells(with_void_weights(particles, tessellation.void_weight));
   TessellationInvariants out;
   std::vector<Vec3d> closing(specimen.size());
   std::vector<double> surface(specimen.size(), 0);

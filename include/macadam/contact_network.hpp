@@ -36,6 +36,10 @@ const char* to_string(ContactRule);
 /// Returns whether a scene with this rule has one law for each phase, from which the laws of the pairs follow.
 constexpr bool has_laws_of_phases(ContactRule rule) { return rule != ContactRule::centres; }
 
+/// Volumes of the cells of voids. `spheres`: the weights are the squared radii, so cells are larger than their spheres
+/// (tessellate()); `volume`: each cell has the volume of its sphere (tessellate_with_void_volumes()).
+enum class VoidCells : std::uint8_t { spheres, volume };
+
 /// Limits within which a facet between two particles becomes a contact. Without limits, every facet becomes a contact.
 struct FacetLimits {
   std::optional<double> gap_max;   ///< largest surface gap, over the mean of the two radii
@@ -47,9 +51,15 @@ struct NetworkSpec : FacetLimits {
   /// Limits of single pair types between particles; a limit given here replaces the limit for all pairs.
   std::array<FacetLimits, particle_pair_types> of_pair;
   Quadrature quadrature = Quadrature::lumped;
-  bool bottom_top_walls = true;             ///< facets on −z and +z are contacts
-  bool lateral_walls = false;               ///< facets on ±x and ±y are contacts
-  ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; prepare() applies it to the contacts
+  bool bottom_top_walls = true;              ///< facets on −z and +z are contacts
+  bool lateral_walls = false;                ///< facets on ±x and ±y are contacts
+  ContactRule rule = ContactRule::centres;   ///< build_network() ignores it; prepare() applies it to the contacts
+  std::optional<VoidCells> void_cells = {};  ///< build_network() ignores it; empty: `spheres` for the rule "centres", else `volume`
+
+  /// Returns the volumes of the cells of voids that this network is made with.
+  VoidCells cells_of_voids() const {
+    return void_cells.value_or(rule == ContactRule::centres ? VoidCells::spheres : VoidCells::volume);
+  }
 };
 
 /// Area moments of a facet: Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t², in local coordinates about x0:

@@ -40,6 +40,7 @@ struct Facet {
 };
 
 /// Laguerre cells of all particles and voids (weights R²) inside the domain. Voids are numbered after the particles.
+/// The weights of voids may differ: see `void_weight`.
 struct Tessellation {
   /// Sorted by (a, b); among the facets of one a, walls (negative b) come first. A cell may have several facets on a
   /// curved side, one for each plane that represents the side (domains/cylinder.hpp).
@@ -50,6 +51,8 @@ struct Tessellation {
   std::vector<std::int32_t> hidden;  ///< particles and voids without a cell in the domain, in rising order
   /// Number of neighbours that meet only in an edge or a point (zero area); these are not facets.
   std::int64_t null_facets = 0;
+  /// Weights of the voids [m²], one per void; they may be negative. Empty if the weights are the squares of the radii.
+  std::vector<double> void_weight = {};
 
   /// Returns the vertices of a facet.
   std::span<const Vec3d> polygon(const Facet& f) const {
@@ -62,6 +65,16 @@ struct Tessellation {
 ///
 /// \throws InputError from validate(): coincident centres, particles outside the box and so on.
 Tessellation tessellate(const Specimen& specimen);
+
+/// Builds the tessellation with weights of the voids for which the cell of each void has the volume of the void's
+/// sphere, to 0.1 %. With the weight R² the cell of a void is usually larger than its sphere, because it has few
+/// facets. The planes between two particles do not change, because the weights of particles stay R².
+///
+/// Cells keep the volumes that they have reached if the next correction of the weights would leave a particle or void
+/// without a cell. Builds the diagram once per correction, usually three to six times.
+///
+/// \throws InputError from validate(): coincident centres, particles outside the box and so on.
+Tessellation tessellate_with_void_volumes(const Specimen& specimen);
 
 /// Returns one sentence for each of the following faults; returns none for a packing that fills its box.
 /// - The spheres fill less than a tenth of the box (see sparse_box()). In this case the faults below are not checked.
