@@ -65,7 +65,8 @@ void warn(const Frequency& f, const std::string& text, std::vector<std::string>&
 }  // namespace
 
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz) {
-  double stiffest = 0;
+  // With rule "series" the law of a pair is that of the mastic alone, and a contact lies between it and the rock.
+  double stiffest = network.rock_modulus;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (network.count[pair] == 0) continue;
     const double alpha = std::visit([](const auto& law) { return law.alpha; }, *scene.laws[pair]);
