@@ -322,3 +322,22 @@ SELECT s.*, 100 * (s.e_star_pa / r.e_star_pa - 1) AS e, 100 * (s.phase_deg / r.p
   CASE s.scene WHEN 'ac14_ss_am1' THEN 'SS' WHEN 'ac14_ms_poly_coarse' THEN 'MS-Poly-coarse' WHEN 'ac14_ms_poly_fine' THEN 'MS-Poly-fine'
     WHEN 'ac14_ms_ico_coarse' THEN 'MS-Ico-coarse' ELSE 'MS-Ico-fine' END AS specimen
 FROM "series-paper.csv" s JOIN "series-paper.csv" r USING (seed, mix, reading, frequency_hz) WHERE r.scene = 'ac14_ss_am1';
+
+CREATE VIEW model_bounds AS  -- networks beside the bounds of Hashin and Shtrikman; above, below: distance from them (%), < 0 outside
+SELECT *, 100 * (e_over_mastic / lower - 1) AS above, 100 * (1 - e_over_mastic / upper) AS below,
+  100 * (e_over_mastic / lower_zero - 1) AS above_zero, 100 * (1 - e_over_mastic / upper_zero) AS below_zero
+FROM "bounds.csv";
+
+-- Mixtures
+
+CREATE VIEW mixture_convergence AS  -- a case of bench/mixture/convergence at one point of the test: geometric mean over the seeds
+SELECT study, radius_m, box_over_grain, temperature_c, frequency_hz, count(*) AS seeds, max(particles) AS particles,
+  exp(avg(ln(e_star_pa))) AS e, avg(phase_deg) AS phase,
+  100 * sqrt(max(0, avg(ln(e_star_pa) * ln(e_star_pa)) - avg(ln(e_star_pa)) * avg(ln(e_star_pa))) * count(*) / (count(*) - 1)) AS scatter
+FROM "mixture-convergence.csv" GROUP BY study, radius_m, box_over_grain, temperature_c, frequency_hz;
+
+CREATE VIEW mixture_finer AS  -- change (%) of |E*| and of phi by smaller spheres, over the seeds that both have
+SELECT a.radius_m AS coarse, b.radius_m AS fine, a.temperature_c, a.frequency_hz,
+  100 * (exp(avg(ln(b.e_star_pa / a.e_star_pa))) - 1) AS e, avg(b.phase_deg - a.phase_deg) AS phi
+FROM "mixture-convergence.csv" a JOIN "mixture-convergence.csv" b USING (study, seed, temperature_c, frequency_hz)
+WHERE study = 'radius' AND b.radius_m < a.radius_m GROUP BY a.radius_m, b.radius_m, a.temperature_c, a.frequency_hz;

@@ -121,6 +121,16 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfThePairsThatArePresent) {
   EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 1.151e11);
 }
 
+// With rule "series" a specimen may be stiffer than its mastic, whose law all contacts of this specimen have.
+TEST_F(WithoutReference, WithRuleSeriesTheRockIsTheStiffest) {
+  Scene scene = read_scene(write_scene());
+  Preparation prepared = prepare(scene);
+  for (auto& law : scene.laws) law = laws::Elastic{1e6, 1};
+  prepared.network.rule = ContactRule::series;
+  prepared.network.rock_modulus = 60e9;
+  EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 60e9);
+}
+
 // A spring and a dashpot in series that are equally stiff at 20 Hz have 1/√2 of the spring's stiffness.
 TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   Scene scene = read_scene(write_scene());

@@ -65,7 +65,10 @@ void warn(const Frequency& f, const std::string& text, std::vector<std::string>&
 }  // namespace
 
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz) {
-  return stiffness_range(scene, network, 2 * std::numbers::pi * frequency_hz, true).second;
+  // With the rules of phases a specimen may be as stiff as its rock, for example by the resistance of cells to a change
+  // of volume.
+  const double of_contacts = stiffness_range(scene, network, 2 * std::numbers::pi * frequency_hz, true).second;
+  return std::max(network.rock_modulus, of_contacts);
 }
 
 void judge(HarmonicFrequency& f, double stiffest, std::vector<std::string>& warnings) {
