@@ -34,9 +34,7 @@ std::string of_breakable(const Cracks& cracks) {
 
 }  // namespace
 
-bool counts_cracks(const Scene& scene) {
-  return is_stepped(scene.solver.method) && can_break(facts_of(scene.laws));
-}
+bool counts_cracks(const Scene& scene) { return is_stepped(scene.solver.method) && can_break(facts_of(scene.laws)); }
 
 ContactState read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network) {
   if (scene.solver.backend != Backend::reference) return stepper.contacts(network);

@@ -51,10 +51,11 @@ struct NetworkSpec : FacetLimits {
   /// Limits of single pair types between particles; a limit given here replaces the limit for all pairs.
   std::array<FacetLimits, particle_pair_types> of_pair;
   Quadrature quadrature = Quadrature::lumped;
-  bool bottom_top_walls = true;              ///< facets on −z and +z are contacts
-  bool lateral_walls = false;                ///< facets on ±x and ±y are contacts
-  ContactRule rule = ContactRule::centres;   ///< build_network() ignores it; prepare() applies it to the contacts
-  std::optional<VoidCells> void_cells = {};  ///< build_network() ignores it; empty: `spheres` for the rule "centres", else `volume`
+  bool bottom_top_walls = true;             ///< facets on −z and +z are contacts
+  bool lateral_walls = false;               ///< facets on ±x and ±y are contacts
+  ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; prepare() applies it to the contacts
+  std::optional<VoidCells> void_cells =
+      {};  ///< build_network() ignores it; empty: `spheres` for the rule "centres", else `volume`
 
   /// Returns the volumes of the cells of voids that this network is made with.
   VoidCells cells_of_voids() const {

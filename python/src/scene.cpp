@@ -133,8 +133,7 @@ void bind_scene(nb::module_& m) {
       .def_prop_ro(
           "kind", [](const GivenScene& s) { return kind_of(s.experiment); }, "Kind of the test in `[loading]`.")
       .def_prop_ro(
-          "method",
-          [](const GivenScene& s) { return to_string(s.solver.method); },
+          "method", [](const GivenScene& s) { return to_string(s.solver.method); },
           "Method: explicit, harmonic or quasi_static.")
       .def_prop_ro(
           "backend", [](const GivenScene& s) { return to_string(s.solver.backend); }, "Requested backend.")

@@ -246,12 +246,11 @@ TEST_F(History, WrongScenesAreRefused) {
   EXPECT_HAS(refusal("drive = \"haversine\"\n"), "[loading] duration: found nothing");
   EXPECT_HAS(refusal(pulse + "strain = 1e-4\n"), "[loading] pulse: found nothing, expected this key, which drive");
   EXPECT_HAS(refusal(pulse + "strain = 0\npulse = 0.1\n"), "[loading] strain: found 0, expected a strain above -1");
-  EXPECT_HAS(
-      refusal(pulse + "strain = 1e-4\npulse = 0.1\nrate = 1\n"),
-      "[loading] rate: found this key with drive = \"haversine\", expected only the keys of this drive: strain, "
-      "pulse, rest, pulses");
-  EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 0.1\nfile = \"a.csv\"\n"),
-             "[loading] file: found this key with");
+  EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 0.1\nrate = 1\n"),
+             "[loading] rate: found this key with drive = \"haversine\", expected only the keys of this drive: strain, "
+             "pulse, rest, pulses");
+  write(folder_ / "a.csv", "time_s,strain\n1,1e-4\n");
+  EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 0.1\nfile = \"a.csv\"\n"), "[loading] file: found this key with");
   EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 1e-7\nrest = 1e-7\n"), "found more than 500000 pulses");
   EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 0.1\nsamples = 0\n"), "[loading] samples: found 0");
   EXPECT_HAS(refusal(time + "drive = \"ramp\"\nstrain = 1e-4\nramp = 0\n"), "[loading] ramp: found 0");
@@ -279,8 +278,7 @@ TEST_F(History, WrongTablesAreRefusedByTheirLine) {
   EXPECT_HAS(refused("time_s,strain\n1,nan\n"), "strains.csv:2: strain: found nan");
   EXPECT_HAS(refused("time_s,strain\n1,1e-4\n1,2e-4\n"), "strains.csv:3: time_s: found 1 after 1, expected times that");
   EXPECT_HAS(refused("time_s,strain\n0,1e-4\n1,2e-4\n"), "strains.csv:2: strain: found 0.0001, expected 0 at time 0");
-  EXPECT_HAS(refused("time_s,strain\n0,0\n"),
-             "[loading] file: found 1 times and 1 strains, expected a time after 0");
+  EXPECT_HAS(refused("time_s,strain\n0,0\n"), "[loading] file: found 1 times and 1 strains, expected a time after 0");
 }
 
 }  // namespace
