@@ -75,11 +75,14 @@ std::optional<double> take_law(const Value& value, const ReadingFile& reading, c
   LawRanges ranges;
   Deltas deltas = all_one;
   NetworkSpec network;
+  TemperatureTables tables;
   Materials materials;
   const auto read_mastic = [&](const Value& mastic) {
     materials = read_mastic_alone(mastic.section(), reading, phases);
   };
-  const auto read_pairs = [&](const Value& v) { laws = read_contacts(v.sections(), shifts, ranges, deltas, network); };
+  const auto read_pairs = [&](const Value& v) {
+    laws = read_contacts(v.sections(), shifts, ranges, deltas, network, tables);
+  };
   const auto read_materials = [&](const Value& v) {
     v.section().read({{"mastic", Need::required, section_by(read_mastic)}});
   };

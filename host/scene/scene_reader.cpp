@@ -59,7 +59,7 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
 }
 
 void read_network(const Section& section, NetworkSpec& spec) {
-  std::vector<Key> keys = keys_of(spec);
+  std::vector<Key> keys = keys_of(static_cast<FacetLimits&>(spec));
   keys.push_back({"quadrature", Need::optional,
                   into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped},
                                                      {"exact", Quadrature::exact},
