@@ -15,6 +15,7 @@
 #include "host/files/result_folder.hpp"
 #include "host/run/checkpoints.hpp"
 #include "host/simulation/refused_combinations.hpp"
+#include "host/run/model_error.hpp"
 #include "host/run/phases.hpp"
 #include "host/simulation/preparation_files.hpp"
 #include "host/simulation/run_ranks.hpp"
@@ -179,6 +180,7 @@ class SceneRun {
     if (const std::string words = words_of_air_voids(scene_); !words.empty()) result.decisions.push_back(words);
     if (scene_.mastic_source) result.decisions.push_back(words_of(*scene_.mastic_source));
     if (prepared().rock) result.decisions.push_back(words_of(*prepared().rock, prepared().specimen));
+    if (const auto error = model_error_of(scene_, prepared())) result.decisions.push_back(words_of(*error));
     append(result.warnings, about_scene);
     append(result.warnings, warnings);
     append(result.warnings, packing);
