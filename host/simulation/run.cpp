@@ -15,10 +15,12 @@
 #include "host/files/result_folder.hpp"
 #include "host/run/checkpoints.hpp"
 #include "host/simulation/refused_combinations.hpp"
+#include "host/run/model_error.hpp"
 #include "host/run/phases.hpp"
 #include "host/simulation/preparation_files.hpp"
 #include "host/simulation/run_ranks.hpp"
 #include "host/simulation/run_scene.hpp"
+#include "host/simulation/run_words.hpp"
 #include "host/run/sparing_save.hpp"
 #include "host/run/planned_experiment.hpp"
 #include "host/simulation/summary.hpp"
@@ -89,42 +91,6 @@ void require_same_rule(const Scene& scene, const ContactNetwork& network) {
             network.rock_poisson_ratio);
 }
 
-/// Returns what a run with the rule "series" or "volumetric" reports about the rock of its specimen.
-std::string words_of(const RockReport& rock, const Specimen& specimen, ContactRule rule) {
-  std::string out =
-      fmt::format("rule \"{}\": cells of aggregates fill {:.2f} % of the box", to_string(rule), 100 * rock.rock_cells);
-  out += rock.rock_nominal ? fmt::format(" and the aggregates {:.2f} %", 100 * *rock.rock_nominal)
-                           : " (the aggregates' own volume is unknown)";
-  if (!specimen.voids.empty())
-    out += fmt::format("; cells of voids fill {:.2f} % and the voids {:.2f} %", 100 * rock.void_cells,
-                       100 * rock.void_nominal);
-  return out + fmt::format("; the centres of {} mastic spheres lie in aggregates", rock.mastic_centres_in_rock);
-}
-
-/// Returns what a run reports about air voids of a recipe that are not voids of the specimen; empty if there are none.
-std::string words_of_air_voids(const Scene& scene) {
-  if (!scene.recipe || !scene.specimen.mastic || scene.specimen.file) return {};
-  const double porosity = scene.specimen.mastic->porosity.value_or(0);  // of the volume beside the voids
-  if (porosity < 1e-9) return {};
-  return fmt::format(
-      "air voids: {:.3g} % of the volume outside of voids is space between spheres, which the cells "
-      "fill; it reduces the mass but does not weaken the specimen (a section [specimen.voids] makes voids of it)",
-      100 * porosity);
-}
-
-/// Returns what a run reports about a mastic that is the specimen of another scene.
-std::string words_of(const MasticSource& source) {
-  const MasticSource::Computed& c = source.computed.value();
-  return fmt::format(
-      "mastic: the specimen of {}, solved from {:g} to {:g} Hz; a chain of {} Kelvin units stands for it and differs "
-      "by at "
-      "most {:.2g} % of E*; {}",
-      source.file.string(), c.lowest_hz, c.highest_hz, c.units, 100 * c.largest_difference,
-      c.folder.empty() ? "the result could not be kept beside that scene"
-      : c.kept_before  ? "taken from " + c.folder.string()
-                       : "kept in " + c.folder.string());
-}
-
 /// The backend that runs the scene. Another thread looks for it: the devices are counted and start up while the
 /// specimen is made.
 class FoundBackend {
@@ -184,6 +150,7 @@ class SceneRun {
     if (scene_.mastic_source) result.decisions.push_back(words_of(*scene_.mastic_source));
     if (prepared().rock)
       result.decisions.push_back(words_of(*prepared().rock, prepared().specimen, scene_.network.rule));
+    if (const auto error = model_error_of(scene_, prepared())) result.decisions.push_back(words_of(*error));
     append(result.warnings, about_scene);
     append(result.warnings, warnings);
     append(result.warnings, packing);

@@ -10,6 +10,7 @@
 #include "host/experiments/experiment.hpp"
 #include "host/files/result_files.hpp"
 #include "host/run/checkpoints.hpp"
+#include "host/run/model_error.hpp"
 #include "host/simulation/recipe_summary.hpp"
 #include "macadam/error.hpp"
 #include "macadam/version.hpp"
@@ -83,6 +84,14 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                    {"void_fraction_cells", rock.void_cells},
                    {"void_fraction_nominal", rock.void_nominal},
                    {"mastic_centres_in_rock", rock.mastic_centres_in_rock}};
+  }
+  if (const auto found = model_error_of(scene, prepared)) {
+    out["model_error"] = {{"rock_fraction", found->rock},
+                          {"ratio", {found->lowest_ratio, found->highest_ratio}},
+                          {"e_star", found->error ? Json(found->error->e_star) : Json()},
+                          {"phase_deg", found->error ? Json(found->error->phase_deg) : Json()},
+                          {"continuum_uncertainty", found->error ? Json(found->error->uncertainty) : Json()},
+                          {"words", words_of(*found)}};
   }
   if (scene.mastic_source && scene.mastic_source->computed) {
     const MasticSource::Computed& c = *scene.mastic_source->computed;

@@ -141,6 +141,17 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
 }
 
+// With rock in series a contact is 1/(r + 1/k) times distance over length, whatever its law alone is.
+TEST_F(WithoutReference, TheStiffestContactHasRockInSeries) {
+  Scene scene = read_scene(write_scene());
+  Preparation prepared = prepare(scene);
+  for (auto& law : scene.laws) law = laws::Elastic{1e9, 0.5};
+  prepared.network.rule = ContactRule::series;
+  for (Contact& c : prepared.network.contacts) c.length = 0.25 * c.distance, c.series = 3e-9;
+  const double normal = 4 / (1e-9 + 3e-9), slip = 4 / (2e-9 + 3e-9);
+  EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20), std::max(normal, slip), 1e-12 * normal);
+}
+
 // If a particle has no contacts, there is no harmonic solution with which a run can be checked. The specimens here are
 // so heavy that they are driven far above their resonance, so their results cannot be right.
 TEST_F(WithoutReference, ARunWithAToleranceFailsWhereItsResultCannotBeRight) {
