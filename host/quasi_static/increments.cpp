@@ -30,7 +30,7 @@ constexpr double impossibly_short = 1.0 / 100;
 /// Usual lengths and openings are the largest ones, each of which loses this factor with each increment after it.
 constexpr double forgotten = 0.8;
 /// In an increment controlled by opening, the stress may change by at most this part of the largest stress.
-constexpr double stress_change = 0.06;
+constexpr double stress_change = 0.03;
 
 }  // namespace
 
@@ -83,8 +83,10 @@ void Increments::accept(std::int64_t steps, const IncrementReport& found, double
   step_ += steps;
   ++report_.increments;
   report_.loose = std::max(report_.loose, found.loose);
-  if (error > 0) report_.error += error;
+  // errors are sums of stresses; they are shown relative to the largest one
+  const double before = report_.error * largest_;
   largest_ = std::max(largest_, std::abs(value));
+  if (largest_ > 0) report_.error = before / largest_ + std::max(error, 0.0);
   usual_ = std::max(static_cast<double>(steps), forgotten * usual_);
   usual_opening_ = std::max(network_.last_opening(), forgotten * usual_opening_);
   past_.push_back({static_cast<double>(step_), value});
@@ -125,6 +127,7 @@ void Increments::advance() {
     }
     const double error = error_at(static_cast<double>(step_ + steps), observed_value());
     if (error > repeated_above * part && steps > 1) {
+      network_.reject();
       ++report_.rejected;
       length_ = static_cast<double>(steps) * std::max(shorter_at_most, caution * std::cbrt(part / error));
       continue;
@@ -154,6 +157,7 @@ void Increments::advance_by_opening(std::int64_t stop) {
     report_.passes += found.passes, report_.iterations += found.iterations;
     const double change = found.converged ? std::abs(observed_value() - before) / largest_ : 0;
     if (!found.converged || change > 2 * stress_change) {
+      network_.reject();
       ++report_.rejected;
       if (halvings == 2 * most_halvings) fail(found);
       continue;

@@ -137,6 +137,10 @@ QuasiStatic::QuasiStatic(QuasiStatic&&) noexcept = default;
 
 IncrementReport QuasiStatic::solve(const WallIncrement& increment) { return parts_->solve(increment); }
 void QuasiStatic::accept() { parts_->accept(); }
+void QuasiStatic::reject() {
+  parts_->solved = false;
+  parts_->show(parts_->wall, parts_->reaction);
+}
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_force() const { return parts_->shown_force; }
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_displacement() const { return parts_->shown_wall; }
 double QuasiStatic::growing_area() const { return parts_->newton.contacts().growing_part(); }

@@ -74,6 +74,8 @@ class QuasiStatic {
   IncrementReport solve(const WallIncrement& increment);
   /// Makes the last solution the accepted state. It must have converged.
   void accept();
+  /// Forgets the last solution.
+  void reject();
 
   /// Return measurements of the solution, or of the accepted state if there is no solution since then. Forces are those
   /// of the particles on the walls [N], by wall_index().
