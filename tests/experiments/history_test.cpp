@@ -112,7 +112,7 @@ const std::string in_time = fmt::format("duration = {}\nsamples = 40\n", end);
 /// The strain rates, the drive of a stepper and the closed form in this file describe the same strain.
 TEST_F(History, EveryDescriptionIsOneStrain) {
   for (const Case& c : cases()) {
-    const auto& spec = std::get<StrainHistory>(read_scene(column(c.keys + in_time, "")).experiment);
+    const auto spec = std::get<StrainHistory>(read_scene(column(c.keys + in_time, "")).experiment);
     std::visit(
         [&](const auto& drive) {
           const double dt = drive.step(1.7e-6, end), unit = 4e-3;
@@ -139,7 +139,7 @@ TEST_F(History, EveryDescriptionIsOneStrain) {
 TEST_F(History, TheStressIsTheConvolution) {
   const PronySeries series{E_inf, {{E_1, time_1}}};
   for (const Case& c : cases()) {
-    const auto& spec = std::get<StrainHistory>(read_scene(column(c.keys + in_time, "")).experiment);
+    const auto spec = std::get<StrainHistory>(read_scene(column(c.keys + in_time, "")).experiment);
     HistoryResponse response(std::visit([](const auto& drive) { return drive.pieces(end); }, spec.drive));
     const double scale = largest_stress(c);
     for (const double t : {3.1e-4, 1e-3, 1.7e-3, 2.9e-3, end})
