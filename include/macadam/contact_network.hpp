@@ -82,7 +82,7 @@ struct CellStiffness {
   /// λ'·(1 + ν)²/(E·V) [1/m³], with the Poisson's ratio ν and the modulus E of the cell's phase, the volume V of the
   /// cell, and λ' = λ reduced by the free facets of the cell. It is a number of the geometry and of ν.
   double weight = 0;
-  PairType law = PairType::mm;  ///< the pair whose law is that of the cell's phase: mm or inner
+  PairType law = PairType::mm;  ///< the pair that has the law of the cell's phase: mm or inner
 };
 
 /// The contacts of a specimen, in order of (a, b) like the facets of the tessellation.
