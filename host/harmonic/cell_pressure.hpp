@@ -40,8 +40,8 @@ void add_pressure_shift(const Contact& contact, const Vector& pressures, std::ar
 /// multiplied by height over cross-section. `pressures` is the result of cell_pressures() for this solution.
 ///
 /// uᵀ·K·u = Σ F·u + Σ P²/q over contacts and cells, with F·v summed over the contacts equal to Σ P²/q, where v is the
-/// additional displacement. If the mastic's stiffness grows, F grows by the mastic's part of the compliance of a contact,
-/// and q of a mastic cell falls.
+/// additional displacement. If the mastic's stiffness grows, F grows by the mastic's part of the compliance of a
+/// contact, and q of a mastic cell falls.
 Complex pressure_of_mastic(const ContactNetwork& network, const PairStiffness& stiffness, const Vector& motion,
                            const Vector& pressures);
 

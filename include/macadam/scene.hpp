@@ -22,8 +22,8 @@
 
 namespace macadam {
 
-/// Densities by phase [kg/m³], 0 if the scene gives none, the temperature, and the constants that the rules "series" and
-/// "volumetric" need besides the laws of the pairs.
+/// Densities by phase [kg/m³], 0 if the scene gives none, the temperature, and the constants that the rules "series"
+/// and "volumetric" need besides the laws of the pairs.
 struct Materials {
   double aggregate = 0, mastic = 0;
   std::optional<double> temperature = {};              ///< of the whole specimen [°C]; empty: not given

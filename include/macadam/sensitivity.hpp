@@ -24,8 +24,9 @@ struct ModulusParts {
   /// The part of `normal` and of `shear` by which E* follows the rock in series with the laws (Contact::series): a
   /// change of the rock's modulus by one per cent changes E* by a hundredth of it. Zero without such rock.
   std::array<std::complex<double>, pair_types> normal_rock{}, shear_rock{};
-  /// With the rule "volumetric": what the pressures of cells add to the derivative of E* with respect to the logarithm
-  /// of the mastic's stiffness; the same is subtracted from the derivative for the rock. Not a part of the sum E*.
+  /// With the rule "volumetric": contribution of the pressures of cells to the derivative of E* with respect to the
+  /// logarithm of the mastic's stiffness. The derivative for the rock has the opposite contribution. It is not a part
+  /// of the sum E*.
   std::complex<double> pressure_of_mastic = 0;
   std::complex<double> inertia = 0;  ///< (s² + s·β)·density scaling · uᵀ·M·u
 

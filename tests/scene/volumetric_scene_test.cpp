@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// volumetric_scene_test.cpp  Tests scenes with rule "volumetric": keys, laws of pairs, what the rule refuses and why,
-// and the result of a run.
+// volumetric_scene_test.cpp  Tests scenes with rule "volumetric": keys, laws of pairs, refused combinations with their
+// reasons, and the result of a run.
 #include <fstream>
 
 #include "host/scene/new_scene.hpp"
