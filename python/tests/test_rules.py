@@ -42,4 +42,4 @@ def test_a_specimen_of_mastic_has_its_constants(mastic):
 
 def test_time_steps_refuse_the_rule(mastic):
     with pytest.raises(mc.InputError, match=r'"volumetric" with method "explicit"'):
-        mc.run(mastic, method="explicit")
+        mc.run(mastic, **{"solver.method": "explicit"})

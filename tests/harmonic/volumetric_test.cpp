@@ -229,6 +229,44 @@ TEST(Volumetric, WithoutPoissonRatiosItIsTheRuleSeries) {
   EXPECT_NEAR(std::abs(modulus_of(scene.solve(7).top) / expected - 1.0), 0, 1e-11);
 }
 
+/// Returns Hashin and Shtrikman's bound on E of a matrix with the volume fraction c of inclusions.
+double hashin_shtrikman(double e_matrix, double nu_matrix, double e, double nu, double c) {
+  const double k = e_matrix / 3 / (1 - 2 * nu_matrix), g = e_matrix / 2 / (1 + nu_matrix);
+  const double dk = e / 3 / (1 - 2 * nu) - k, dg = e / 2 / (1 + nu) - g;
+  const double bulk = k + c / (1 / dk + 3 * (1 - c) / (3 * k + 4 * g));
+  const double shear = g + c / (1 / dg + 6 * (1 - c) * (k + 2 * g) / (5 * g * (3 * k + 4 * g)));
+  return 9 * bulk * shear / (3 * bulk + shear);
+}
+
+// The rule has the volume of rock neither of the spheres, from which its lengths follow, nor of the cells, from which
+// its facets follow. So the lower bound is taken with the spheres' volume and the upper bound with the cells'.
+TEST(Volumetric, TwoPhasesAreWithinTheBoundsOfHashinAndShtrikman) {
+  const unsigned seed = test_seed();
+  std::mt19937 random(seed);
+  for (const double share : {0.3, 0.5, 0.7}) {
+    Specimen specimen = all_mastic(random_specimen(seed));
+    const auto rocks = static_cast<std::size_t>(share * static_cast<double>(specimen.size()));
+    std::vector<std::size_t> order(specimen.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::shuffle(order.begin(), order.end(), random);
+    double spheres = 0;
+    for (std::size_t k = 0; k < rocks; ++k) {
+      const std::size_t i = order[k];
+      specimen.phase[i] = Phase::aggregate, specimen.body[i] = static_cast<std::int32_t>(k);
+      spheres += 4 * std::numbers::pi / 3 * std::pow(specimen.radius[i], 3);
+    }
+    for (const double contrast : {2.0, 100.0, 1e4}) {
+      const double rock = 60e9, mastic = rock / contrast;
+      const VolumetricScene scene(specimen, laws::Elastic{mastic, 1}, {rock, 0.35, 0.28});
+      double cells = 0;
+      for (std::size_t k = 0; k < rocks; ++k) cells += scene.cells.cell_volume[order[k]];
+      const double box = specimen.box.volume(), found = scene.solve(1, LinearMethod::direct, 1e-10).top.e_star_pa;
+      EXPECT_GT(found, hashin_shtrikman(mastic, 0.35, rock, 0.28, spheres / box)) << share << ' ' << contrast;
+      EXPECT_LT(found, hashin_shtrikman(rock, 0.28, mastic, 0.35, 1 - cells / box)) << share << ' ' << contrast;
+    }
+  }
+}
+
 // Central differences of 1e-4 have an error of 1e-8 of the derivative, and rounding adds 1e-12/1e-4 of E*.
 TEST(Volumetric, DerivativesByPhaseAgreeWithDifferences) {
   const VolumetricScene scene = two_phases(5);
