@@ -67,17 +67,6 @@ void require_combination(const Scene& scene) {
     if (!temperatures_of(scene.experiment).empty())
       refuse("temperatures in [loading]", "a list", "a single temperature as temperature in [materials]");
   }
-  if (scene.network.rule == ContactRule::series) {
-    if (scene.solver.method == SolverMethod::harmonic && frequencies_of(scene.experiment).empty()) {
-      throw InputError(scene.file.string(), 0, "rule in [network]",
-                       fmt::format("\"series\" with kind \"{}\" and method \"harmonic\"", kind_of(scene.experiment)),
-                       "method \"explicit\", because the response without time steps is not available for this rule");
-    }
-    if (scene.output.sensitivities) {
-      throw InputError(scene.file.string(), 0, "sensitivities in [output]", "true with rule \"series\"",
-                       "false, because derivatives are not available for this rule");
-    }
-  }
   if (scene.output.fields.any() && !has_fields(scene)) {
     throw InputError(scene.file.string(), 0, "fields in [output]",
                      std::string("fields with method \"harmonic\" of kind \"") + kind_of(scene.experiment) + "\"",
