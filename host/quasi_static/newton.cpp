@@ -184,7 +184,8 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tang
   int stuck = 0;
   // The condition for the wall is as accurate as the residual, relative to its own scale
   const auto merit = [&] {
-    return trial.size / std::max(scale, trial.scale) + (wall_unknown ? missed(increment, trial) : 0.0);
+    const double size = std::max(scale, trial.scale);
+    return (size > 0 ? trial.size / size : 0.0) + (wall_unknown ? missed(increment, trial) : 0.0);
   };
   double now = merit();
   while (true) {
