@@ -58,7 +58,8 @@ Vec3d momentum(const test::TestScene& scene, const ParticleState& state, double&
 }
 
 /// Kicks a free assembly so that contacts crack, close and slide at random. Damage and friction only take energy, and
-/// forces are in pairs. `ratio`: modulus of the contacts between aggregates over that of the mastic.
+/// forces are in pairs. `ratio`: modulus of the contacts between aggregates, divided by the modulus of the contacts
+/// between mastic particles.
 void chatter_rows(Rows& rows, const Setting& setting, double ratio, std::int64_t steps) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;
@@ -75,7 +76,7 @@ void chatter_rows(Rows& rows, const Setting& setting, double ratio, std::int64_t
   StepperOptions options = by_points(0);
   options.dt = 0.8 * critical_step(scene.network, scene.laws, scene.inertia, options).dt;
   const auto stepper = make(setting, scene, options);
-  // Strains of some 1e-3: the speed of the stiffest waves times this number
+  // Velocities of 1e-3 times the speed of waves in the softest contacts give strains of some 1e-3
   shake(*stepper, scene, 1e-3 * std::sqrt(soft / 2000));
   EnergyLedger ledger(scene.network, scene.laws, scene.inertia, 1, options.dt, false);
   double size = 0;
@@ -93,9 +94,9 @@ void chatter_rows(Rows& rows, const Setting& setting, double ratio, std::int64_t
   const std::string name = fmt::format("27 free particles, moduli in the ratio 1:{:g}", ratio);
   rows.push_back({name, setting.name(), "points that have cracked", 1, 1e9, "otherwise nothing is tested",
                   static_cast<double>(cracked_points)});
-  rows.push_back({name, setting.name(), "energy of springs and motion at the end, of the start", 0, 1,
+  rows.push_back({name, setting.name(), "energy of springs and motion, end / start", 0, 1,
                   "cracks and friction only take energy", energy() / start});
-  rows.push_back({name, setting.name(), "drift of the momentum, of the sum of its sizes", 0,
+  rows.push_back({name, setting.name(), "drift of the momentum / sum of the momenta of the particles", 0,
                   10 * setting.rounding() * std::sqrt(static_cast<double>(steps)),
                   "forces are in pairs; rounding adds up like a random walk", drift});
 }
@@ -173,7 +174,7 @@ void reversal_rows(Rows& rows, const Setting& setting, int cycles, std::int64_t 
   const std::string name = fmt::format("bar of four cubes, {} cycles of opening and closing", cycles);
   rows.push_back({name, setting.name(), "energy of the middle contact after two cycles / (G_f·A)", 1e-3, 1,
                   "the crack has opened but is not separated", first / bar.facet_energy});
-  rows.push_back({name, setting.name(), "growth of this energy in the other cycles, of itself", -1e-6, 1e-2,
+  rows.push_back({name, setting.name(), "this energy after all cycles / after two cycles − 1", -1e-6, 1e-2,
                   "damage never falls, and grows only beyond the largest opening, to which vibrations add little; the "
                   "stored part follows the opening at the sample",
                   last / first - 1});

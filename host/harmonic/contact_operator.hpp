@@ -84,8 +84,8 @@ class ContactOperator {
   /// Returns the loads on both ends of a contact with relative displacements `u`.
   static Load contact_load(const Contact& contact, const PairStiffness& stiffness, const std::array<Complex, 6>& u);
 
-  /// Does what wall_loads() does, in a network whose cells resist changes of volume: the cells at the wall press on
-  /// their neighbours.
+  /// Returns the result of wall_loads() for a network whose cells resist changes of volume. In such a network the cells
+  /// at the wall press on their neighbours.
   Loads wall_loads_of_cells(const PairStiffness& stiffness) const;
 
   const ContactNetwork& network_;

@@ -161,7 +161,7 @@ void merge_small_classes(SpecimenSpec& spec, double solid) {
     if (to == spec.aggregate.size()) {
       to = k;
       while (to > 0 && *spec.aggregate[to - 1].volume_fraction == 0) --to;
-      if (to == 0) continue;  // there is no other class
+      if (to == 0) continue;  // this class is the only one
       --to;
     }
     *spec.aggregate[to].volume_fraction += *small.volume_fraction;

@@ -53,7 +53,7 @@ DeviceList read_devices(const Value& value, int most) {
   return out;
 }
 
-/// Refuses the keys of time steps with increments. \throws InputError
+/// Refuses the keys that apply only to time steps, in a scene that is solved by increments. \throws InputError
 void refuse_steps(const Section& section) {
   for (const char* key :
        {"density_scaling", "safety", "time_step", "damping_kind", "damping", "form", "inertia", "linear", "device"}) {
@@ -103,8 +103,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
                                          {"harmonic", SolverMethod::harmonic},
                                          {"quasi_static", SolverMethod::quasi_static}}),
         "step the test in time, solve it in the frequency domain, or follow it by increments without inertia",
-        "cyclic: \"explicit\"; other tests: \"harmonic\", or with cracks \"quasi_static\" unless a key for inertia "
-        "or damping is given"},
+        "cyclic: \"explicit\"; other tests: \"harmonic\", or with cracks \"quasi_static\", or \"explicit\" if a key "
+        "for inertia or damping is given"},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error),
         "largest error: of |E*| (relative) and of phi [rad], for which the program chooses and reports the settings "
         "that are not given; method \"quasi_static\": of the stress, for which it chooses the increments",

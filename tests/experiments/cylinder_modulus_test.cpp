@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cylinder_modulus_test.cpp  Tests moduli of cylinders: of homogeneous ones, which are known, and of generated ones
-// against boxes.
+// cylinder_modulus_test.cpp  Tests moduli of cylinders: homogeneous cylinders, whose modulus is known, and generated
+// cylinders, which are compared with boxes.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -36,9 +36,9 @@ struct CylinderModulus : test::SceneFile {
   }
 };
 
-// With equal stiffness in all directions and ν = 0, uniform strain is a solution whatever the section is, so the
-// modulus is that of the material. The iterative solver leaves a residual of 1e-12 of the load, and the modulus is an
-// energy, so its error is below the residual times the square root of the condition number (about 1e2).
+// With equal stiffness in all directions and ν = 0, uniform strain is a solution for every shape of the section, so the
+// specimen has the modulus of the material. The iterative solver leaves a residual of 1e-12 of the load, and the
+// modulus is an energy, so its error is below the residual times the square root of the condition number (about 1e2).
 TEST_F(CylinderModulus, IsThatOfAHomogeneousMaterial) {
   const std::string phases =
       "[materials.aggregate]\ndensity = 2000\nlaw = \"elastic\"\nE = 2e10\npoisson_ratio = 0\n"

@@ -141,7 +141,8 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
 }
 
-// With rock in series a contact is 1/(r + 1/k) times distance over length, whatever its law alone is.
+// With rock of compliance r in series, a contact with the law's stiffness k has the stiffness 1/(r + 1/k), times
+// distance over length.
 TEST_F(WithoutReference, TheStiffestContactHasRockInSeries) {
   Scene scene = read_scene(write_scene());
   Preparation prepared = prepare(scene);

@@ -332,7 +332,8 @@ TEST(Fit, AnElasticSpringIsAChainWithoutUnits) {
   EXPECT_NEAR(law.E_m, 1e10, 1e2);
 }
 
-// The points are those of a chain, so only the difference that the function allows is left.
+// The points of the curve are computed from a chain, so the fitted chain differs only by the difference that the
+// function allows.
 TEST(Fit, AChainStandsForACurve) {
   laws::GeneralisedKelvin law;
   law.E_m = 6e9, law.C_m = 1.3e9, law.E = {2e8, 5e9}, law.C = {5e9, 1e8};

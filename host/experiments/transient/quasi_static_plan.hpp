@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file quasi_static_plan.hpp  Plans a test of a load that is followed by increments without inertia.
+/// \file quasi_static_plan.hpp  Plans tests whose load is applied in increments without inertia.
 #pragma once
 
 #include "host/experiments/transient/load_plan.hpp"

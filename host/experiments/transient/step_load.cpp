@@ -33,8 +33,8 @@ namespace {
 /// If a run has more steps than this or is predicted to take more seconds than this, the user is warned.
 constexpr std::int64_t many_steps = 100'000'000;
 constexpr double many_seconds = 3600;
-/// Number of times at which a strength test reads the stress, and a test with cracks the work of the walls, evenly
-/// spaced over its steps.
+/// Number of steps, evenly spaced over a run, at which a strength test reads the stress, and at which a test with
+/// cracks adds up the work of the walls.
 constexpr std::int64_t peak_samples = 10'000;
 
 /// Returns the mean density of the specimen's box, including the density scaling [kg/m³].
@@ -197,7 +197,8 @@ class SteppedLoad : public PlannedExperiment {
   bool owns_checkpoint() const override { return owns_checkpoint_; }
 
  private:
-  /// Gives the particles the velocities of a uniform strain rate, whose upper end is the velocity of the top wall.
+  /// Gives the particles the velocities of a uniform strain rate: zero at the bottom wall, and the velocity of the top
+  /// wall at the top.
   void set_in_motion() {
     const std::vector<Vec3d>& centre = prepared_.specimen.centre;
     std::vector<Vec3d> velocity(centre.size()), spin(centre.size());
@@ -256,9 +257,8 @@ class SteppedLoad : public PlannedExperiment {
   }
 
   /// Counts the contact points that are broken at a sample, sums the energies, and returns the events since the last
-  /// sample. Under tension
-  /// the test ends when no path of intact contacts joins the walls. In compression broken points still bear load, so
-  /// the test goes on.
+  /// sample. Under tension the test ends when no path of intact contacts joins the walls. In compression broken points
+  /// still bear load, so the test goes on.
   std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
     if (!cracks_.active()) return {};
     ContactState state = read_contact_state(scene_, *stepper_, prepared_.network);

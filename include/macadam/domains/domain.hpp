@@ -56,7 +56,7 @@ struct Domain {
   std::vector<domains::Plane> side_planes() const {
     return ask([&](const auto& s) { return s.side_planes(size); });
   }
-  /// Returns the area of a wall in the tessellation [m²], by wall_index(); 0 if there is no such wall.
+  /// Returns the area of a wall in the tessellation [m²], by wall_index(); 0 for an index without a wall.
   double wall_area(int k) const {
     return ask([&](const auto& s) { return s.wall_area(size, k); });
   }

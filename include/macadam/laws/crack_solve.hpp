@@ -15,7 +15,7 @@ struct CrackOpenings {
   S largest;  ///< y, the largest effective opening so far [m]; 0: intact
 };
 
-/// Stresses at the end of a step [Pa], and two stresses that the energies need.
+/// Stresses at the end of a step [Pa], and two more stresses from which energies are computed.
 template <class S>
 struct CrackStresses {
   S normal, shear[2];

@@ -19,7 +19,7 @@ class ModulusFiles {
   /// \throws InputError if another command is writing into the folder, RunError if writing fails.
   ModulusFiles(const std::filesystem::path& folder, const ModulusPlan& plan, const ScanPhases& phases,
                const std::string& scene);
-  /// Appends a row to voxels.csv. \throws RunError.
+  /// Appends one row to voxels.csv. \throws RunError.
   void add(const ModulusSolution& solution);
   /// Replaces modulus.csv and summary.json. `status`: running, interrupted, done or failed: …. \throws RunError.
   void write(const std::vector<PointModulus>& results, const std::string& status);
