@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // cracks.cpp  Steps specimens whose contacts crack under conditions in which an unstable scheme would gain energy:
-// faces that chatter, walls that reverse, fracture energies just above the least one, and large ratios of stiffness.
+// faces that chatter, walls that reverse, fracture energies just above the smallest allowed one, and large ratios of
+// stiffness.
 #include <algorithm>
 #include <cmath>
 
@@ -14,8 +15,8 @@ namespace {
 
 constexpr double alpha = 0.3;
 
-/// Returns an elastic law that cracks at a strain of 1e-4, with `times` the least fracture energy of contacts of length
-/// `d`.
+/// Returns an elastic law that cracks at a strain of 1e-4. Its fracture energy is `times` the smallest one that is
+/// allowed for contacts of length `d`.
 laws::Cracked<laws::Elastic> cracked(double modulus, double d, double times) {
   laws::Crack crack{1e-4 * modulus, 1, 1.5e-4 * modulus, 1, 0.5, 0.5};
   const double least = crack.least_fracture_energy(modulus, alpha, d);
@@ -29,7 +30,7 @@ double longest(const ContactNetwork& network) {
   return out;
 }
 
-/// Returns the settings that laws with cracks accept: their states are double.
+/// Returns the settings whose states have double precision, which laws with cracks require.
 std::vector<Setting> settings_of_cracks(Effort effort) {
   std::vector<Setting> out;
   for (const Setting& setting : settings()) {
@@ -57,9 +58,9 @@ Vec3d momentum(const test::TestScene& scene, const ParticleState& state, double&
   return out;
 }
 
-/// Kicks a free assembly so that contacts crack, close and slide at random. Damage and friction only take energy, and
-/// forces are in pairs. `ratio`: modulus of the contacts between aggregates, divided by the modulus of the contacts
-/// between mastic particles.
+/// Kicks a free assembly so that contacts crack, close and slide at random. Damage and friction only take energy, so
+/// the energy must not grow. Forces come in opposite pairs, so the momentum must not change. `ratio`: modulus of the
+/// contacts between aggregates, divided by the modulus of the contacts between mastic particles.
 void chatter_rows(Rows& rows, const Setting& setting, double ratio, std::int64_t steps) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;

@@ -186,7 +186,7 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   const bool file = scene.specimen.file.has_value(), mastic = phases.mastic.has_value(),
              rock = phases.rock_modulus.has_value();
   require(scene.specimen.mastic.has_value() || (file && !rock), mastic, "mastic",
-          "law = \"generalised_kelvin\" or \"elastic\", and poisson_ratio, or with from");
+          "law = \"generalised_kelvin\" or \"elastic\" and poisson_ratio, or with the key from");
   require(!scene.specimen.aggregate.empty(), rock, "aggregate", "law = \"elastic\" and E");
   scene.mastic_source = phases.source;
   const auto set = [&](PairType pair, const Law& law, const laws::Shift& shift) {

@@ -106,8 +106,9 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         "cyclic: \"explicit\"; other tests: \"harmonic\", or with cracks \"quasi_static\", or \"explicit\" if a key "
         "for inertia or damping is given"},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error),
-        "largest error: of |E*| (relative) and of phi [rad], for which the program chooses and reports the settings "
-        "that are not given; method \"quasi_static\": of the stress, for which it chooses the increments",
+        "largest relative error of |E*| and largest error of phi [rad]; the program chooses and reports the settings "
+        "that are not given so that the errors are smaller. Method \"quasi_static\": largest error of the stress, "
+        "relative to the largest stress; the program chooses the increments accordingly",
         "none; method \"quasi_static\": 0.001"},
        {"density_scaling",
         Need::optional,
@@ -172,7 +173,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
   }
   if (spec.method == SolverMethod::quasi_static && stepping_of(experiment) != experiments::Stepping::if_asked) {
     section.refuse("method", fmt::format("\"quasi_static\" with kind = \"{}\" in [loading]", kind_of(experiment)),
-                   "\"explicit\" or \"harmonic\"; a cyclic load by increments is kind = \"history\" with a sine");
+                   "\"explicit\" or \"harmonic\"; for a cyclic load by increments, use kind = \"history\" with drive = "
+                   "\"cyclic\"");
   }
   if (spec.method == SolverMethod::quasi_static) refuse_steps(section);
   if (spec.inertia && spec.method == SolverMethod::explicit_) {

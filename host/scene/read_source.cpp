@@ -40,7 +40,8 @@ auto read_inside(const Value& value, F&& f) {
   value.refuse("a file that is refused: " + fault, "a scene or law that is valid by itself");
 }
 
-/// Takes the law of the mastic from a scene, at its reference temperature, until the scene's specimen is solved.
+/// Takes the law of the mastic in another scene, at its reference temperature, as the provisional law until the
+/// specimen of that scene is solved.
 std::optional<double> take_scene(const Value& value, const ReadingFile& reading, PhaseLaws& phases) {
   auto inner = read_inside(value, [&] { return std::make_shared<Scene>(read_inner_scene(reading)); });
   constexpr auto mm = static_cast<std::size_t>(PairType::mm);

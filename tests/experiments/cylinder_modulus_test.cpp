@@ -92,8 +92,8 @@ TEST_F(CylinderModulus, EveryTestOfOneSectionRuns) {
 }
 
 // Cylinders and boxes of equal volume from the same mix have the same modulus within the scatter of seeds. The moduli
-// of four seeds have a standard deviation of 0.7 % (boxes) and 1.3 % (cylinders), so the difference of the means has
-// one of 0.8 %; the tolerance is four times this.
+// of four seeds have a standard deviation of 0.7 % (boxes) and 1.3 % (cylinders), so the difference of the means has a
+// standard deviation of 0.8 %; the tolerance is four times this value.
 TEST(GeneratedCylinders, HaveTheModulusOfBoxes) {
   const double edge = 0.012, height = 0.013;
   const Domain cylinder = cylinder_domain(2 * edge / std::sqrt(std::numbers::pi), height), box{{edge, edge, height}};

@@ -275,8 +275,9 @@ struct Instant {
   double friction;  ///< work [J/m²]
 };
 
-// Cycles of opening, closing and reopening, and sliding with friction. The values belong to continuous time; 40,000
-// steps per leg are within 1e-6 of the strength, and 1e-5 where a crack shuts or slides again.
+// Cycles of opening, closing and reopening, and sliding with friction. The expected values are computed in continuous
+// time. With 40,000 steps per leg the stresses differ by 1e-6 of the strength, or by 1e-5 after a crack has shut or has
+// begun to slide again.
 TEST(Crack, ClosingReopeningAndFrictionHaveTheirValues) {
   const auto run = [](Point point, const std::vector<Leg>& legs, const std::vector<std::array<double, 3>>& right) {
     for (std::size_t i = 0; i < legs.size(); ++i) {

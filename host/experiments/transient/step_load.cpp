@@ -372,10 +372,9 @@ class SteppedLoad : public PlannedExperiment {
     const quasi_static::CourseReport& report = quasi_static_->report();
     if (report.unstable) {
       warnings.push_back(fmt::format(
-          "from t = {:.6g} s and a strain of {:.6g} on ({:.4g} MPa) no equilibrium was found at a larger displacement "
-          "of "
-          "the wall; {} increments were controlled by the opening of cracks, so that the strain may decrease there. A "
-          "test that prescribes the strain drops suddenly at this strain",
+          "after t = {:.6g} s (strain {:.6g}, {:.4g} MPa) no equilibrium was found at a larger displacement of the "
+          "wall; {} increments were controlled by the opening of cracks, so that the strain may decrease in them. In a "
+          "test that prescribes the strain, the stress drops suddenly at this strain",
           report.unstable->time_s, report.unstable->strain, report.unstable->stress_pa / 1e6, report.by_opening));
     }
     if (report.loose > 0) {
@@ -416,7 +415,8 @@ std::unique_ptr<PlannedExperiment> plan_load_steps(const TransientExperiment& te
     if (at.checksum != test.checksum) {
       throw InputError(
           resumed->file.string(), 0, "file in [loading]", fmt::format("a load with the checksum {:08x}", at.checksum),
-          fmt::format("{:08x}, because a run continues only with the load with which it began", test.checksum));
+          fmt::format("the checksum {:08x}, because a run continues only with the load with which it began",
+                      test.checksum));
     }
   } else {
     at.checksum = test.checksum;

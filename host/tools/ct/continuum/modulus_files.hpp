@@ -12,7 +12,7 @@
 
 namespace macadam::continuum {
 
-/// The folder of the results, locked until the end. All files hold what is known so far, at any time.
+/// The folder of the results, locked during the life of this object. At any time its files contain all results so far.
 class ModulusFiles {
  public:
   /// Makes the folder, and files without results. `scene`: file of the scene. The arguments must outlive this object.

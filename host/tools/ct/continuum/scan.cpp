@@ -65,7 +65,7 @@ std::vector<unsigned char> voxels(const std::string& file, std::ifstream& in, bo
   return out;
 }
 
-/// Cuts a scan to the box around the voxels that are not outside.
+/// Cuts a scan to the box around the voxels of the specimen.
 void cut_to_specimen(Scan& scan, const std::string& file) {
   const Size n = scan.size;
   int low[3] = {n.x, n.y, n.z}, high[3] = {-1, -1, -1};
