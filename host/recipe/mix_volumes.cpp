@@ -74,8 +74,8 @@ double absorbed_of(const MixDesign& design, const Portion& all, double binder) {
   return absorbed;
 }
 
-/// Returns the air voids as a fraction of the bulk volume: the given value or, if none is given, the value that follows
-/// from the measured bulk density.
+/// Returns the air voids as a fraction of the bulk volume: the given value or, without a given value, the value that
+/// follows from the measured bulk density.
 double air_voids_of(const MixDesign& design, double maximum_density) {
   if (design.air_voids) return *design.air_voids;
   const double bulk = *design.bulk_density, voids = 1 - bulk / maximum_density;  // EN 12697-8

@@ -148,9 +148,9 @@ std::vector<std::string> compute_mastic_law(Scene& scene, const Watcher& watcher
 /// scene, but no other checkpoints. The first checkpoint of a run replaces any checkpoint that is already in the
 /// folder. Backend reference writes no checkpoints.
 ///
-/// With `resume`, the run continues from the checkpoint. Its results have the same bits as those of a run that was
-/// never interrupted. If the newest checkpoint is missing or damaged, there is a warning, and the run continues from
-/// the previous one.
+/// With `resume`, the run continues from the checkpoint. Its results have the same bits as the results of a run that
+/// was never interrupted. If the newest checkpoint is missing or damaged, there is a warning, and the run continues
+/// from the previous one.
 ///
 /// \throws InputError also for a checkpoint that is missing, damaged, or of another scene, version, backend or
 /// precision, and if another command is writing into the folder; InterruptedError; RunError (DivergenceError names

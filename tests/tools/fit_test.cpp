@@ -245,7 +245,7 @@ TEST(Fit, AChainStandsForAnAnalogueWithinTheStatedError) {
   std::vector<int> units;
   for (const auto& [model, error] : {std::pair{mixture, 0.03}, {mixture, 0.003}, {fluid, 0.01}, {huet, 0.01}}) {
     const KelvinConversion conversion = to_kelvin(model, 1e-3, 1e3, error);
-    double largest = 0;  // evaluated at ten times as many frequencies as the conversion checks
+    double largest = 0;  // evaluated at ten times the number of frequencies that the conversion checks
     for (const double f : frequencies(1e-3, 1e3, 6001)) {
       const std::complex<double> exact = model.stiffness(s_of(f));
       largest = std::max(largest, std::abs(conversion.law.stiffness(s_of(f)) - exact) / std::abs(exact));
