@@ -12,8 +12,9 @@
 namespace macadam::laws {
 
 /// The law `Inner` in series with a crack: x = X[f] + w. Each component keeps f, two numbers of the crack, and the
-/// units of `Inner`. The numbers of the crack are the opening or slip w, and in the three components y, the work of
-/// friction per area, and the energy per area that damage has dissipated.
+/// units of `Inner`. The first number of the crack is the opening or slip w of the component. The second number is y in
+/// the normal component; in the two shear components it is the work of friction per area and the energy per area that
+/// damage has dissipated.
 template <class Inner>
 struct Cracked : Inner {
   using Chain = Inner;
@@ -29,8 +30,8 @@ struct Cracked : Inner {
   int units() const { return Inner::units() + crack_numbers; }
   void block(double, int) const = delete;  // a block of steps is only exact for linear laws
 
-  /// Returns how a contact point separated, from its numbers (Step::advance_point): in tension if its opening exceeds
-  /// its slip.
+  /// Returns how a contact point separated, from its numbers (Step::advance_point): in tension if its opening is at
+  /// least β_w times its slip.
   Break break_of(const double* state) const {
     const Place at{state, 1 + units()};
     if (!(at(0, 2) > 0 && at(0, 2) >= crack.separation())) return Break::none;
