@@ -175,7 +175,8 @@ void reversal_rows(Rows& rows, const Setting& setting, int cycles, std::int64_t 
   const std::string name = fmt::format("bar of four cubes, {} cycles of opening and closing", cycles);
   rows.push_back({name, setting.name(), "energy of the middle contact after two cycles / (G_f·A)", 1e-3, 1,
                   "the crack has opened but is not separated", first / bar.facet_energy});
-  rows.push_back({name, setting.name(), "this energy after all cycles / after two cycles − 1", -1e-6, 1e-2,
+  rows.push_back({name, setting.name(), "energy of the middle contact, after all cycles / after two cycles − 1", -1e-6,
+                  1e-2,
                   "damage never falls, and grows only beyond the largest opening, to which vibrations add little; the "
                   "stored part follows the opening at the sample",
                   last / first - 1});
