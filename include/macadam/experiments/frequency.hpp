@@ -34,7 +34,7 @@ struct Frequency {
 /// Result of a solution in the frequency domain.
 struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
-  ModulusParts parts;   ///< parts of E*; |E*| and φ are those of the sum of the parts
+  ModulusParts parts;   ///< parts of E*; |E*| and φ follow from the sum of the parts
   Stiffness bottom;     ///< from the reaction of the bottom wall
   /// Complex Poisson's ratio (lateral contraction over axial extension); empty if the sides are held.
   std::optional<std::complex<double>> poisson_ratio;

@@ -15,7 +15,7 @@ struct CrackOpenings {
   S largest;  ///< y, the largest effective opening so far [m]; 0: intact
 };
 
-/// Stresses at the end of a step [Pa], and two stresses that the energies need.
+/// Stresses at the end of a step [Pa], and two more stresses from which energies are computed.
 template <class S>
 struct CrackStresses {
   S normal, shear[2];
@@ -139,7 +139,7 @@ struct CrackSolve {
     return out;
   }
 
-  /// Returns g(y) and its rate. `t`, `rate`: softening curve at y.
+  /// Returns g(y) and D. `t`, `rate`: the softening curve t(y) and its derivative at y.
   template <class S>
   MACADAM_HD Excess<S> excess_of(const Closed<S>& closed, const S& y, const S& t, const S& rate,
                                  const Sliding<S>& sliding) const {
