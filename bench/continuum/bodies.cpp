@@ -11,10 +11,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bench/continuum/phase_fractions.hpp"
+#include "bench/continuum/sampling.hpp"
 #include "macadam/shape.hpp"
 
-namespace continuum {
+namespace macadam::continuum {
 namespace {
 
 /// Rows of a CSV file, read by the names of their columns.
@@ -205,4 +205,4 @@ std::vector<Body> read_aggregates(const std::string& file, const std::string& li
   return out;
 }
 
-}  // namespace continuum
+}  // namespace macadam::continuum

@@ -8,16 +8,19 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 
-#include "bench/continuum/compression.hpp"
-#include "bench/continuum/extrapolation.hpp"
-#include "bench/continuum/mixing.hpp"
+#include "bench/continuum/sampling.hpp"
+#include "host/tools/ct/continuum/compression.hpp"
+#include "host/tools/ct/continuum/extrapolation.hpp"
+#include "host/tools/ct/continuum/mixing.hpp"
+#include "host/tools/ct/continuum/scan.hpp"
 
 namespace {
 
+namespace continuum = macadam::continuum;
 using continuum::Material;
 using continuum::Mixing;
 

@@ -173,8 +173,9 @@ void reversal_rows(Rows& rows, const Setting& setting, int cycles, std::int64_t 
   const std::string name = fmt::format("bar of four cubes, {} cycles of opening and closing", cycles);
   rows.push_back({name, setting.name(), "energy of the middle contact after two cycles / (G_f·A)", 1e-3, 1,
                   "the crack has opened but is not separated", first / bar.facet_energy});
-  rows.push_back({name, setting.name(), "growth of this energy in the other cycles, of itself", -1e-9, 1e-2,
-                  "damage never falls, and grows only beyond the largest opening; vibrations add little",
+  rows.push_back({name, setting.name(), "growth of this energy in the other cycles, of itself", -1e-6, 1e-2,
+                  "damage never falls, and grows only beyond the largest opening, to which vibrations add little; the "
+                  "stored part follows the opening at the sample",
                   last / first - 1});
 }
 

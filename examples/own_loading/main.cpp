@@ -67,7 +67,7 @@ int main() {
 
   double highest = 0;
   sample(*stepper, 50, 4 * period / 50, [&](const Observation& now) {
-    const double stress = -now.top_force() / (specimen.box.size.x * specimen.box.size.y);
+    const double stress = -now.top_force() / section_area(specimen);
     highest = std::max(highest, stress);
     if (now.step % period == 0)
       std::printf("t = %.3e s: top %+.2e m, stress %+.3e Pa\n", now.time, now.top_displacement(), stress);

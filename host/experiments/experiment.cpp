@@ -4,6 +4,7 @@
 #include "host/experiments/experiment.hpp"
 
 #include "host/run/cracks.hpp"
+#include "host/run/damaged_contacts.hpp"
 #include "host/scene/sections.hpp"
 #include "macadam/error.hpp"
 
@@ -38,7 +39,7 @@ std::vector<Experiment> all_experiments() {
 }
 
 std::vector<std::string> result_files() {
-  std::vector<std::string> out = {"contacts.csv", "summary.json", cracks_file};
+  std::vector<std::string> out = {"contacts.csv", "summary.json", cracks_file, damage_file};
   for_each_kind([&](const Experiment& experiment) {
     for (const std::string& name : files_of(experiment)) out.push_back(name);
   });

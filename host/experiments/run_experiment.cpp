@@ -3,12 +3,16 @@
 // in the list of all experiments (macadam/experiments/all.hpp).
 #include "host/experiments/experiment.hpp"
 
+#include <stdexcept>
+
 #include "macadam/error.hpp"
 
 namespace macadam {
 
 Planned plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                         std::optional<Resumed> resumed, Backend backend) {
+  if (scene.mastic_source && !scene.mastic_source->computed)
+    throw std::logic_error("the law of the mastic is provisional: compute_mastic_law() has not been called");
   Planned out;
   out.result.backend = backend;
   try {

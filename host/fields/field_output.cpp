@@ -145,7 +145,7 @@ void FieldOutput::write(const HarmonicResult& solved, const LawTable& laws, std:
   const FieldSpec& spec = scene_.output.fields;
   std::string name = fmt::format("{}Hz", solved.frequency_hz);
   if (temperature) name += fmt::format("_{}C", *temperature);
-  const double amplitude = strain_amplitude(scene_) * prepared_.specimen.box.size.z;
+  const double amplitude = strain_amplitude(scene_) * gauge_length(prepared_.specimen);
   if (spec.particles) {
     write_fields(stem(particles, name), spec.format, particle_mesh(prepared_.specimen, prepared_.aggregates),
                  particle_arrays(solved.motion, amplitude));

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "host/fields/field_lists.hpp"
+#include "host/harmonic/cell_pressure.hpp"
 #include "host/harmonic/contact_operator.hpp"
 #include "host/harmonic/law_stiffness.hpp"
 #include "macadam/fields.hpp"
@@ -67,13 +68,18 @@ std::vector<FieldArray> contact_arrays(const ContactNetwork& network,
   const Complex s(0, 2 * std::numbers::pi * frequency_hz);
   const harmonic::PairStiffness stiffness = harmonic::pair_stiffness(laws, s);
   const std::size_t contacts = network.contacts.size();
-  std::vector<std::array<Complex, 6>> relative(contacts);
+  // `acting` is `relative` with the additional displacement that pressures of cells cause (rule "volumetric")
+  std::vector<std::array<Complex, 6>> relative(contacts), acting(contacts);
   std::vector<kernels::FacetLoad<Complex>> load(contacts);
+  const harmonic::Vector pressures = harmonic::cell_pressures(network, stiffness, motion, 1.0);
 #pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < contacts; ++c) {
     relative[c] = harmonic::relative_motion(network.contacts[c], motion, 1.0);
+    acting[c] = relative[c];
+    harmonic::add_pressure_shift(network.contacts[c], pressures, acting[c]);
     for (Complex& x : relative[c]) x *= amplitude;
-    load[c] = harmonic::facet_load(network.contacts[c], stiffness, relative[c]);
+    for (Complex& x : acting[c]) x *= amplitude;
+    load[c] = harmonic::facet_load(network.contacts[c], stiffness, acting[c]);
   }
   std::vector<FieldArray> out;
   const auto scalar = [&](const char* name, const char* unit, auto&& of) {
@@ -100,7 +106,8 @@ std::vector<FieldArray> contact_arrays(const ContactNetwork& network,
   for (std::size_t l = 0; l < most; ++l) {
     const auto stretch = [&](std::size_t c, int k) -> Complex {
       if (l >= of_pair(c).size()) return 0;
-      return contact_stiffness(network.contacts[c], stiffness)[k / 3] * of_pair(c)[l] * six(c, k);
+      return contact_stiffness(network.contacts[c], stiffness)[k / 3] * of_pair(c)[l] *
+             acting[c][static_cast<std::size_t>(k)];
     };
     add_parts("stretch_" + std::to_string(l + 1), relative_unit, contacts, 6, stretch, out);
   }

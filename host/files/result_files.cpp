@@ -144,7 +144,7 @@ void FilesTogether::give_names() {
 void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network) {
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);
-  const bool series = network.rule == ContactRule::series;
+  const bool series = has_laws_of_phases(network.rule);
   fmt::format_to(to, "a,b,pair,area,distance,nx,ny,nz,points{}\n", series ? ",length,series" : "");
   for (const Contact& c : network.contacts) {
     fmt::format_to(to, "{},{},{},{},{},{},{},{},{}", c.a, c.b, to_string(c.pair), c.area, c.distance, c.n.x, c.n.y,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/harmonic/cell_pressure.hpp"
 #include "host/harmonic/particle_contacts.hpp"
 #include "kernels/harmonic/particle_block.hpp"
 
@@ -49,10 +50,12 @@ class Check {
  public:
   Check(const ContactNetwork& network, const Inertia& inertia, const std::vector<const LinearTask*>& tasks,
         double rounding)
-      : network_(network), inertia_(inertia), rounding_(rounding) {
+      : network_(network), inertia_(inertia), rounding_(rounding), last_(tasks.size() - 1) {
     for (int f = 0; f < at_once; ++f) {  // with fewer than four tasks, the last task also fills the remaining lanes
       const LinearTask& task = *tasks[std::min(static_cast<std::size_t>(f), tasks.size() - 1)];
       motion_[f] = task.motion.data();
+      if (!network.cells.empty() && (f == 0 || static_cast<std::size_t>(f) < tasks.size()))
+        pressures_[f] = cell_pressures(network, task.stiffness, task.motion, 1.0);
       for (std::size_t pair = 0; pair < pair_types; ++pair) {
         k_[pair].set(f, task.stiffness.k[pair]);
         alpha_[pair] = task.stiffness.alpha[pair];
@@ -237,7 +240,10 @@ class Check {
     if (g.in_series) normal = in_series(k, series), shear = in_series(k, alpha * series);
     L u[6], density[6];
     kernels::relative_rates(frame, own, other, u);
-    for (std::size_t c = 0; c < 6; ++c) density[c] = c < 3 ? normal(u[c]) : shear(u[c]);
+    L acting[6];
+    std::copy(std::begin(u), std::end(u), acting);
+    if (!network_.cells.empty()) add_pressure(g, acting);
+    for (std::size_t c = 0; c < 6; ++c) density[c] = c < 3 ? normal(acting[c]) : shear(acting[c]);
     const kernels::FacetLoad<L> load = kernels::condensed_load(density, alpha, m);
     const auto on = kernels::to_centres(frame, load);
     out.sum.linear += on.force_a, out.sum.angular += on.moment_a;
@@ -255,6 +261,21 @@ class Check {
         add_products(g.pair[i], of_contact([&](int f) { return f == i ? share(g.far[f]) : 0.0; }));
     }
     if (rounding_ > 0) add_largest(g, normal, own, other, out);
+  }
+
+  /// Adds to the relative displacements of a group the additional displacements that the pressures of cells cause.
+  void add_pressure(const Group& g, L (&u)[6]) const {
+    std::array<Complex, 3> shift[at_once];
+    for (int f = 0; f < at_once; ++f) {
+      const std::size_t of = single ? 0 : std::min(static_cast<std::size_t>(f), last_);
+      const int contact = single ? f : 0;
+      shift[f] = pressure_shift(*g.contact[contact], pressures_[of]);
+      // seen from the second end, n and t are reversed, and so is the sign of the relative displacement
+      if (g.sign[contact] < 0) shift[f][1] = -shift[f][1];
+    }
+    u[0] += complex_lanes([&](int f) { return shift[f][0]; });
+    u[3] += complex_lanes([&](int f) { return shift[f][1]; });
+    u[4] += complex_lanes([&](int f) { return shift[f][2]; });
   }
 
   /// Returns the fraction of a contact's product that is added when the contact is visited from one particle: 1/2 for a
@@ -294,6 +315,8 @@ class Check {
   const Inertia& inertia_;
   double rounding_;
   const Complex* motion_[at_once];
+  std::array<Vector, at_once> pressures_;  ///< of cells, for each solution; empty without cells that resist
+  std::size_t last_ = 0;                   ///< index of the last solution
   Factor<at_once> k_[pair_types], mass_factor_{};
   double alpha_[pair_types];
   bool inert_ = true;  ///< whether no solution has inertia

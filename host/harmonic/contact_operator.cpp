@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/harmonic/cell_pressure.hpp"
 #include "host/harmonic/law_stiffness.hpp"
 #include "kernels/harmonic/contact_end.hpp"
 #include "kernels/base/parallel.hpp"
@@ -134,6 +135,7 @@ ContactOperator::ContactOperator(const ContactNetwork& network, std::size_t part
 
 Loads ContactOperator::wall_loads(const PairStiffness& stiffness) const {
   const Complex rest[6] = {};
+  if (!network_.cells.empty()) return wall_loads_of_cells(stiffness);
   Loads out;
   for (const std::uint32_t number : on_top_) {
     const Contact& c = network_.contacts[number];
@@ -144,16 +146,38 @@ Loads ContactOperator::wall_loads(const PairStiffness& stiffness) const {
   return out;
 }
 
+Loads ContactOperator::wall_loads_of_cells(const PairStiffness& stiffness) const {
+  const Vector at_rest(6 * particles_);
+  const Vector pressures = cell_pressures(network_, stiffness, at_rest, 1.0);
+  Loads out;
+  for (std::size_t i = 0; i < particles_; ++i) {
+    ParticleLoad own{static_cast<std::int32_t>(i), {}};
+    for (const std::uint32_t number : network_.row(i)) {
+      const Contact& c = network_.contacts[number];
+      std::array<Complex, 6> u = relative_motion(c, at_rest, 1.0);
+      add_pressure_shift(c, pressures, u);
+      const Load load = contact_load(c, stiffness, u);
+      const bool is_a = static_cast<std::size_t>(c.a) == i;
+      for (std::size_t k = 0; k < 6; ++k) own.load[k] += is_a ? load.a[k] : load.b[k];
+    }
+    if (std::any_of(own.load.begin(), own.load.end(), [](const Complex& z) { return z != 0.0; })) out.push_back(own);
+  }
+  return out;
+}
+
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
                                  const Vector& motion, Vector& out) const {
   out.resize(6 * particles_);
+  const Vector pressures = cell_pressures(network_, stiffness, motion, 0.0);
 // dynamic, because large particles have hundreds of contacts each and have consecutive numbers
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t i = 0; i < particles_; ++i) {
     Complex sum[6] = {};
     for (const std::uint32_t number : network_.row(i)) {
       const Contact& c = network_.contacts[number];
-      const Load load = contact_load(c, stiffness, relative_motion(c, motion, 0.0));
+      std::array<Complex, 6> u = relative_motion(c, motion, 0.0);
+      add_pressure_shift(c, pressures, u);
+      const Load load = contact_load(c, stiffness, u);
       const bool is_a = static_cast<std::size_t>(c.a) == i;
       for (std::size_t k = 0; k < 6; ++k) sum[k] -= is_a ? load.a[k] : load.b[k];
     }
@@ -165,9 +189,12 @@ void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor,
 
 Complex ContactOperator::bottom_force(const PairStiffness& stiffness, const Vector& motion) const {
   Complex out = 0;
+  const Vector pressures = cell_pressures(network_, stiffness, motion, 1.0);
   for (const std::uint32_t c : on_bottom_) {
     const Contact& contact = network_.contacts[c];
-    out += contact_load(contact, stiffness, relative_motion(contact, motion, 0.0)).a[2];
+    std::array<Complex, 6> u = relative_motion(contact, motion, 0.0);
+    add_pressure_shift(contact, pressures, u);
+    out += contact_load(contact, stiffness, u).a[2];
   }
   return out;
 }

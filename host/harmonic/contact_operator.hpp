@@ -54,8 +54,8 @@ std::array<Complex, 2> contact_stiffness(const Contact& contact, const PairStiff
 /// wall moves by `wall` along z.
 std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& motion, Complex wall);
 
-/// Returns the load of a contact at given relative displacements: force on its first end and moment about x0, both
-/// along (n, s, t).
+/// Returns the load of a contact's springs at given relative displacements: force on its first end and moment about x0,
+/// both along (n, s, t).
 kernels::FacetLoad<Complex> facet_load(const Contact& contact, const PairStiffness& stiffness,
                                        const std::array<Complex, 6>& u);
 
@@ -83,6 +83,10 @@ class ContactOperator {
   };
   /// Returns the loads on both ends of a contact with relative displacements `u`.
   static Load contact_load(const Contact& contact, const PairStiffness& stiffness, const std::array<Complex, 6>& u);
+
+  /// Does what wall_loads() does, in a network whose cells resist changes of volume: the cells at the wall press on
+  /// their neighbours.
+  Loads wall_loads_of_cells(const PairStiffness& stiffness) const;
 
   const ContactNetwork& network_;
   std::size_t particles_;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 
+#include "host/harmonic/cell_pressure.hpp"
 #include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
 #include "host/harmonic/harmonic_code.hpp"
@@ -46,6 +47,11 @@ void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
                        std::to_string(network.count[pair]) + " contacts but no law");
     }
   }
+  for (const CellStiffness& cell : network.cells) {
+    if (cell.weight != 0 && !laws[static_cast<std::size_t>(cell.law)])
+      throw InputError(std::string("pair ") + to_string(cell.law) +
+                       " has no law, but cells that resist a change of volume have the modulus of this law");
+  }
 }
 
 /// Returns |E*| and φ.
@@ -79,7 +85,13 @@ class Harmonic::Implementation {
         contacts_(network, specimen.size()) {
     require_laws_of(network, laws);
     typical_ = pair_stiffness(laws, Complex(options.typical_growth, 2 * std::numbers::pi * typical_frequency));
-    options_.backend = select_backend(options.backend, nullptr, options.devices);
+    if (!network.cells.empty()) {
+      if (options.backend == Backend::cuda)
+        throw InputError("harmonic", 0, "backend with a network of the rule \"volumetric\"", "cuda",
+                         "cpu, because the solver on GPUs does not compute the pressures of cells");
+      options_.backend = Backend::cpu;
+    }
+    options_.backend = select_backend(options_.backend, nullptr, options.devices);
     free_ = find_free_motions(specimen, network, typical_, inertia);
     if (options.linear == LinearMethod::direct) {
       direct();
@@ -272,6 +284,8 @@ class Harmonic::Implementation {
       for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.force(x));
       out.held_force /= top;
     }
+    out.pressures = cell_pressures(network_, task.stiffness, x, 1.0);
+    out.parts.pressure_of_mastic = to_modulus * pressure_of_mastic(network_, task.stiffness, x, out.pressures);
     out.motion = std::move(w.task.motion);
     return out;
   }

@@ -65,6 +65,9 @@ ReducedModel::ReducedModel(const Specimen& specimen, const ContactNetwork& netwo
       inertia_(std::move(inertia)),
       rock_(network, classing),
       in_rock_(rock_.classes().size()) {
+  if (!network.cells.empty())
+    throw InputError("reduced model", 0, "rule of the network", "\"volumetric\"",
+                     "\"centres\" or \"series\", because the model does not contain the pressures of cells");
   for (const Contact& c : network.contacts) has_rock_.push_back(c.series > 0);
 }
 

@@ -20,7 +20,7 @@ using OwnMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< columns: moti
 /// Returns the motion of a particle under the six rigid motions about the middle of the box, one per column. Turns are
 /// multiplied by the height of the box, so that all six coefficients are lengths.
 Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
-  const double height = specimen.box.size.z;
+  const double height = gauge_length(specimen);
   const Vec3d r = specimen.centre[static_cast<std::size_t>(particle)] - 0.5 * specimen.box.size;
   Matrix6 out = Matrix6::Identity();
   // a turn about axis k displaces the particle by e_k × r

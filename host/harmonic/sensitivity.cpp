@@ -64,6 +64,7 @@ std::vector<Sensitivity> phase_sensitivities(const ModulusParts& parts, const La
     (of_mastic ? mastic : rock) += whole - in_series;
     rock += in_series;
   }
+  mastic += parts.pressure_of_mastic, rock -= parts.pressure_of_mastic;
   std::vector<Sensitivity> out;
   if (law_of_mastic && mastic != 0.0) {
     with_stiffness<void>(PairType::mm, *law_of_mastic, [&](const auto& law) {

@@ -28,6 +28,9 @@ void check_input(const Specimen& specimen, const Tessellation& tessellation, con
   if (tessellation.cell_volume.size() != specimen.cells())
     throw InputError("network", 0, "cells of the tessellation", std::to_string(tessellation.cell_volume.size()),
                      std::to_string(specimen.cells()) + ", one for each particle and void of the specimen");
+  if (spec.lateral_walls && !specimen.box.is_box())
+    throw InputError("network", 0, "lateral_walls", std::string("true for a ") + specimen.box.name(),
+                     "false, because only a box has flat sides");
   check_limits(spec, "");
   for (int k = 0; k < particle_pair_types; ++k)
     check_limits(spec.of_pair[k], std::string(" of ") + to_string(static_cast<PairType>(k)));
@@ -72,11 +75,10 @@ double distance_to_wall(const Specimen& specimen, const Facet& f) {
   const Vec3d &p = specimen.centre[f.a], &box = specimen.box.size;
   const double h = std::array<double, 6>{p.x, box.x - p.x, p.y, box.y - p.y, p.z, box.z - p.z}[-1 - f.b];
   if (!(h > 1e-9 * specimen.radius[f.a])) {
-    constexpr std::array<const char*, 6> name{"-x", "+x", "-y", "+y", "-z", "+z"};
     throw InputError(
         specimen.source, specimen.line_of(f.a),
         fmt::format("distance between the centre of particle {} and the {} wall that the particle touches", f.a,
-                    name[-1 - f.b]),
+                    specimen.box.wall_name(-1 - f.b)),
         fmt::format("{} m", h),
         fmt::format("more than {} m, which is 1e-9 times the radius of the particle", 1e-9 * specimen.radius[f.a]));
   }

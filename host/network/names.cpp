@@ -41,6 +41,8 @@ const char* to_string(ContactRule rule) {
       return "centres";
     case ContactRule::series:
       return "series";
+    case ContactRule::volumetric:
+      return "volumetric";
   }
   return "unknown";
 }

@@ -3,6 +3,7 @@
 // 12697-8 (model, section 22).
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -142,6 +143,38 @@ MixVolumes volumes_of(const MixDesign& design) {
   return out;
 }
 
+namespace {
+
+/// Moves the volume of every class that has less volume in the box than its smallest grain, a sphere, to the next finer
+/// class or, for the finest one, to the next coarser class. The class stays in the list with the volume 0. `solid`:
+/// fraction of the box to which the volume fractions refer.
+void merge_small_classes(SpecimenSpec& spec, double solid) {
+  const auto name = [&](std::size_t k) {
+    return fmt::format("{:.6g}-{:.6g} mm", 1e3 * spec.aggregate[k].sieve_min, 1e3 * spec.aggregate[k].sieve_max);
+  };
+  for (std::size_t k = 0; k < spec.aggregate.size(); ++k) {
+    AggregateClass& small = spec.aggregate[k];
+    const double smallest = std::numbers::pi / 6 * std::pow(small.sieve_min, 3);
+    const double grains = *small.volume_fraction * solid * spec.box.volume() / smallest;
+    if (!(grains > 0 && grains < 1 - 1e-12)) continue;
+    std::size_t to = k + 1;
+    if (to == spec.aggregate.size()) {
+      to = k;
+      while (to > 0 && *spec.aggregate[to - 1].volume_fraction == 0) --to;
+      if (to == 0) continue;  // there is no other class
+      --to;
+    }
+    *spec.aggregate[to].volume_fraction += *small.volume_fraction;
+    small.volume_fraction = 0;
+    spec.merged.push_back(fmt::format(
+        "the class {} has {:.2g} of the volume of its smallest grain in this box, so its material is merged "
+        "with the class {}; a larger box has grains of this class",
+        name(k), grains, name(to)));
+  }
+}
+
+}  // namespace
+
 void follow(const MixDesign& design, SpecimenSpec& spec) {
   const MixVolumes volumes = volumes_of(design);
   const auto alone = [&](bool wrong, const std::string& found, const std::string& expected) {
@@ -169,6 +202,7 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
     out.volume_fraction = c.volume / (1 - volumes.air_voids);
     out.line = c.line;
   }
+  merge_small_classes(spec, 1 - volumes.air_voids);
 }
 
 }  // namespace macadam

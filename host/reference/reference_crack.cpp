@@ -17,7 +17,8 @@ using Eigen::Vector2d;
 using laws::Crack;
 using laws::Softening;
 
-void require(bool good, const std::string& pair, const char* what, double found, const char* expected) {
+/// \throws InputError naming the pair and the parameter of the crack, if `good` is false.
+void require_crack(bool good, const std::string& pair, const char* what, double found, const char* expected) {
   if (!good) throw InputError("crack of pair " + pair, 0, what, fmt::format("{}", found), expected);
 }
 
@@ -235,7 +236,7 @@ double cohesive_work(const Crack& crack, double y) {
 
 ReferenceLaw with_crack(const ReferenceLaw& chain, const Crack& crack, const std::string& pair) {
   const auto positive = [&](const char* what, double value) {
-    require(std::isfinite(value) && value > 0, pair, what, value, "a positive number");
+    require_crack(std::isfinite(value) && value > 0, pair, what, value, "a positive number");
   };
   positive("tensile_strength", crack.tensile_strength);
   positive("shear_strength", crack.shear_strength);
@@ -243,10 +244,10 @@ ReferenceLaw with_crack(const ReferenceLaw& chain, const Crack& crack, const std
     positive("fracture_energy", crack.fracture_energy);
     positive("shear_fracture_energy", crack.shear_fracture_energy);
   }
-  require(std::isfinite(crack.residual_friction) && crack.residual_friction >= 0, pair, "residual_friction",
-          crack.residual_friction, "a coefficient of at least 0");
-  require(std::isfinite(crack.friction) && crack.friction >= crack.residual_friction, pair, "friction", crack.friction,
-          "a coefficient of at least residual_friction");
+  require_crack(std::isfinite(crack.residual_friction) && crack.residual_friction >= 0, pair, "residual_friction",
+                crack.residual_friction, "a coefficient of at least 0");
+  require_crack(std::isfinite(crack.friction) && crack.friction >= crack.residual_friction, pair, "friction",
+                crack.friction, "a coefficient of at least residual_friction");
   ReferenceLaw out = chain;
   out.kept = 2 + static_cast<int>(chain.units.size());
   out.point = [chain, crack](double area, double length, double dt, const std::array<double, 3>& dx,

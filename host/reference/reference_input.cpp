@@ -40,6 +40,9 @@ void require_count(const char* what, std::size_t found, std::size_t expected) {
 }
 
 void require_network(const ContactNetwork& network, std::size_t particles) {
+  if (!network.cells.empty())
+    throw InputError(source, 0, "rule", "\"volumetric\"",
+                     "\"centres\" or \"series\", because contact points do not know the pressures of cells");
   const auto n = static_cast<std::int64_t>(particles);
   const std::size_t points = std::min({network.point_s.size(), network.point_t.size(), network.point_area.size()});
   for (std::size_t c = 0; c < network.contacts.size(); ++c) {

@@ -34,9 +34,7 @@ std::string of_breakable(const Cracks& cracks) {
 
 }  // namespace
 
-bool counts_cracks(const Scene& scene) {
-  return is_stepped(scene.solver.method) && can_break(facts_of(scene.laws));
-}
+bool counts_cracks(const Scene& scene) { return is_stepped(scene.solver.method) && can_break(facts_of(scene.laws)); }
 
 ContactState read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network) {
   if (scene.solver.backend != Backend::reference) return stepper.contacts(network);
@@ -109,7 +107,10 @@ void CrackWatch::sum(const std::vector<laws::PointCrack>& cracks) {
       now.friction_energy_j += cracks[point].friction * area;
     }
   }
-  for (const PairCracks& pair : found_.by_pair) now.cracked += pair.cracked;
+  for (std::size_t i = 0; i < pair_types; ++i) {
+    now.cracked += found_.by_pair[i].cracked;
+    now.cracked_area_m2[i] = found_.by_pair[i].cracked_area_m2;
+  }
   found_.sums = now;
 }
 

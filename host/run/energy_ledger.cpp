@@ -13,8 +13,8 @@
 namespace macadam {
 namespace {
 
-/// Numbers of a LedgerState before its chains: work, dissipation, time, and two vectors per wall.
-constexpr std::size_t head_numbers = 3 + 6 * wall_count;
+/// Numbers of a LedgerState before its chains: work, dissipation, time, kinetic energy, and two vectors per wall.
+constexpr std::size_t head_numbers = 4 + 6 * wall_count;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns how many numbers of a component lie between f and the states of its units.
@@ -29,7 +29,7 @@ constexpr std::size_t numbers_before_units() {
 }  // namespace
 
 std::vector<double> LedgerState::numbers() const {
-  std::vector<double> out{work_j, viscous_j, time_s};
+  std::vector<double> out{work_j, viscous_j, time_s, kinetic_j};
   for (const auto* list : {&wall_displacement, &wall_force}) {
     for (const Vec3d& v : *list) out.insert(out.end(), {v.x, v.y, v.z});
   }
@@ -43,8 +43,8 @@ LedgerState LedgerState::from(const std::vector<double>& numbers) {
                                  numbers.size(), head_numbers));
   }
   LedgerState out;
-  out.work_j = numbers[0], out.viscous_j = numbers[1], out.time_s = numbers[2];
-  std::size_t at = 3;
+  out.work_j = numbers[0], out.viscous_j = numbers[1], out.time_s = numbers[2], out.kinetic_j = numbers[3];
+  std::size_t at = 4;
   for (auto* list : {&out.wall_displacement, &out.wall_force}) {
     for (Vec3d& v : *list) v = {numbers[at], numbers[at + 1], numbers[at + 2]}, at += 3;
   }
@@ -120,7 +120,7 @@ experiments::Energies EnergyLedger::sample(const Observation& now, const Contact
   out.work_j = state_.work_j;
   out.crack_j = cracks.crack_energy_j;
   out.friction_j = cracks.friction_energy_j;
-  out.kinetic_j = kinetic(particles);
+  out.kinetic_j = kinetic(particles) - state_.kinetic_j;
   if (contacts.chain.empty()) {
     out.elastic_j = out.viscous_j = unknown;
   } else {

@@ -21,6 +21,7 @@ namespace macadam {
 struct LedgerState {
   double work_j = 0, viscous_j = 0;                                 ///< until now
   double time_s = 0;                                                ///< of the last sample
+  double kinetic_j = 0;                                             ///< at t = 0
   std::array<Vec3d, wall_count> wall_displacement{}, wall_force{};  ///< at the last observation
   std::vector<double> chain;  ///< ContactState::chain at the last sample; empty: at rest
 
@@ -31,13 +32,15 @@ struct LedgerState {
   /// @}
 };
 
-/// Sums energies of a specimen that is at rest at t = 0.
+/// Sums energies of a specimen that has no deformation at t = 0, and is at rest unless start() is called.
 class EnergyLedger {
  public:
   /// Network, laws and inertia must outlive this object.
   EnergyLedger(const ContactNetwork& network, const LawTable& laws, const Inertia& inertia, double density_scaling,
                double dt, bool damped, LedgerState before = {});
 
+  /// Takes the motion at t = 0, whose energy is not counted.
+  void start(const ParticleState& particles) { state_.kinetic_j = kinetic(particles); }
   /// Adds the work of the walls since the last observation. May be called more often than sample(), and twice for the
   /// same step.
   void observe(const Observation& now);

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -29,19 +31,41 @@ double stiffness_at(const Law& any, double omega) {
       any);
 }
 
-namespace {
-
-/// Returns the smallest and the largest |k*(ω)| of the laws of those pair types that occur in the network.
-std::pair<double, double> stiffness_range(const Scene& scene, const Preparation& prepared, double omega) {
+std::pair<double, double> stiffness_range(const Scene& scene, const ContactNetwork& network, double omega, bool shear) {
   double least = std::numeric_limits<double>::infinity(), largest = 0;
+  const auto add = [&](double stiffness) {
+    least = std::min(least, stiffness);
+    largest = std::max(largest, stiffness);
+  };
+  std::array<std::complex<double>, pair_types> k{};
+  std::array<double, pair_types> alpha{};
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
-    if (prepared.network.count[pair] == 0) continue;
-    const double k = stiffness_at(*scene.laws[pair], omega);
-    least = std::min(least, k);
-    largest = std::max(largest, k);
+    if (network.count[pair] == 0) continue;
+    std::visit(
+        [&]<class L>(const L& law) {
+          alpha[pair] = law.alpha;
+          if constexpr (has_stiffness<L>)
+            k[pair] = law.stiffness(std::complex<double>(0, omega));
+          else
+            k[pair] = law.instantaneous();
+        },
+        *scene.laws[pair]);
+    if (network.rule != ContactRule::centres) continue;
+    add(std::abs(k[pair]));
+    if (shear) largest = std::max(largest, alpha[pair] * std::abs(k[pair]));
+  }
+  if (network.rule == ContactRule::centres) return {least, largest};
+  for (const Contact& c : network.contacts) {
+    const auto pair = static_cast<std::size_t>(c.pair);
+    const double per_length = c.distance / c.length;
+    add(per_length * std::abs(k[pair] / (1.0 + c.series * k[pair])));
+    const std::complex<double> slip = alpha[pair] * k[pair];
+    if (shear) largest = std::max(largest, per_length * std::abs(slip / (1.0 + c.series * slip)));
   }
   return {least, largest};
 }
+
+namespace {
 
 /// Largest relative rounding error of a float.
 constexpr double roundoff = 0x1p-24;
@@ -54,18 +78,18 @@ double angle_lost(const RoundingScale& s) { return roundoff * static_cast<double
 
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency) {
   const double omega = 2 * std::numbers::pi * frequency;
-  const double height = prepared.specimen.box.size.z;
+  const double height = gauge_length(prepared.specimen);
   const double density = std::max(scene.materials.aggregate, scene.materials.mastic);
   // E is taken as a third of the softest stiffness, so 3·E in the denominator is the softest stiffness
-  return omega * omega * height * height * density / stiffness_range(scene, prepared, omega).first;
+  return omega * omega * height * height * density / stiffness_range(scene, prepared.network, omega).first;
 }
 
 RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,
                              double density_scaling) {
   double distances = 0;
   for (const Contact& c : prepared.network.contacts) distances += c.distance;
-  const auto [softest, stiffest] = stiffness_range(scene, prepared, 2 * std::numbers::pi * frequency);
-  return {steps, prepared.specimen.box.size.z * static_cast<double>(prepared.network.contacts.size()) / distances,
+  const auto [softest, stiffest] = stiffness_range(scene, prepared.network, 2 * std::numbers::pi * frequency);
+  return {steps, gauge_length(prepared.specimen) * static_cast<double>(prepared.network.contacts.size()) / distances,
           stiffest / softest, density_scaling * inertia_estimate(scene, prepared, frequency)};
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "macadam/simulation.hpp"
 
@@ -19,6 +20,13 @@ double largest(const ErrorEstimate& error);
 
 /// Returns |k*(ω)| of a law [Pa]; for a law without complex stiffness, the largest stiffness that it ever has.
 double stiffness_at(const Law& law, double omega);
+
+/// Returns the smallest and the largest stiffness of the contacts at a frequency [Pa]: force over area and strain along
+/// the line of centres, by normal or, with `shear`, also by shear motion. Without rock in series it is |k*(ω)| of the
+/// laws, times the ratio of shear to normal stiffness for shear. The length of each contact and its rock in series are
+/// taken into account.
+std::pair<double, double> stiffness_range(const Scene& scene, const ContactNetwork& network, double omega,
+                                          bool shear = false);
 
 /// Estimates the relative effect of inertia on |E*| per unit of density scaling. A bar of height H driven at one end
 /// has E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is not known beforehand. A third of the softest contact's

@@ -43,6 +43,9 @@ struct TextsOf<laws::BrittleBond> {
        {"tensile_strength", "tensile stress above which a contact point breaks permanently"},
        {"shear_strength", "shear stress above which a contact point breaks permanently; inf: never"}}};
 };
+/// A law with a crack has the values of its chain.
+template <class Chain>
+struct TextsOf<laws::Cracked<Chain>> : TextsOf<Chain> {};
 /// @}
 
 /// Returns the explanation of a value of a law; empty if the law's list does not have its key.

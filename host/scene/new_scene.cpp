@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "host/scene/known_keys.hpp"
+#include "macadam/error.hpp"
 
 namespace macadam::scene {
 namespace {
@@ -90,11 +91,12 @@ std::string written(const std::vector<KnownKey>& keys, const Part& part) {
   return out;
 }
 
-const std::vector<std::string> of_generator = {"file", "aggregate_file"};
+/// Keys that are not offered beside the box of a generated specimen.
+const std::vector<std::string> not_with_box = {"domain", "diameter", "height", "file", "aggregate_file"};
 const std::vector<Given> box = {{"box", R"(["20 mm", "20 mm", "30 mm"])"}, {"seed", "1"}};
 
 std::vector<Part> specimen_by_volume(bool shapes) {
-  std::vector<Part> out{{"[specimen]", box, "", true, of_generator}};
+  std::vector<Part> out{{"[specimen]", box, "", true, not_with_box}};
   if (shapes)
     out.push_back({"[specimen.shapes]",
                    {{"library", R"("aggregates")"}, {"radius", R"(["0.75 mm", "1 mm"])"}, {"porosity", "0.12"}},
@@ -116,7 +118,7 @@ std::vector<Part> specimen_by_volume(bool shapes) {
 }
 
 std::vector<Part> specimen_by_mass() {
-  return {{"[specimen]", {{"box", R"(["30 mm", "30 mm", "40 mm"])"}, {"seed", "1"}}, "", true, of_generator},
+  return {{"[specimen]", {{"box", R"(["30 mm", "30 mm", "40 mm"])"}, {"seed", "1"}}, "", true, not_with_box},
           {"[specimen.recipe]",
            {{"gradation",
              R"([["19 mm", "100 %"], ["12.5 mm", "83.7 %"], ["9.5 mm", "71.2 %"], ["4.75 mm", "47.8 %"],
@@ -143,7 +145,8 @@ std::vector<Part> specimen_of(NewKind kind) {
 
 Given chain(const char* key, const char* value) { return {key, value}; }
 
-std::vector<Part> contacts_of(NewKind kind) {
+/// Returns the contact laws. `cracks`: whether contacts between particles have cracks.
+std::vector<Part> contacts_of(NewKind kind, bool cracks) {
   const std::string kelvin = R"("generalised_kelvin")", elastic = R"("elastic")";
   std::vector<Part> out{
       {"[[contacts]]",
@@ -174,6 +177,16 @@ std::vector<Part> contacts_of(NewKind kind) {
   };
   add("A-A", "1.151e11", "0.05", "");
   if (kind == NewKind::shapes || kind == NewKind::file) add("inner", "1.116e11", "0.05", "Spheres of one aggregate.");
+  if (cracks) {
+    out.front().remark +=
+        " A contact cracks at its tensile_strength and takes its fracture_energy in J/m2; docs/cracks.md explains how "
+        "to "
+        "find the values for your own mixture.";
+    const char* values[] = {R"({ tensile_strength = "1 MPa", fracture_energy = 50.0, friction = 0.5 })",
+                            R"({ tensile_strength = "0.8 MPa", fracture_energy = 40.0, friction = 0.5 })",
+                            R"({ tensile_strength = "2 MPa", fracture_energy = 60.0, friction = 0.6 })"};
+    for (std::size_t pair = 0; pair < std::size(values); ++pair) out[pair].given.push_back({"crack", values[pair]});
+  }
   add("A-W", "1.151e11", "0.0", "Walls without shear stiffness, along which the specimen slides freely.");
   add("M-W", "3.511e10", "0.0", "");
   return out;
@@ -204,14 +217,15 @@ std::vector<Part> materials_with_laws(bool densities) {
   return {{"[materials]", {}}, aggregate, mastic};
 }
 
-Part loading_of(const std::string& test) {
+Part loading_of(const std::string& test, bool cracks) {
   Part out{"[loading]", {{"kind", '"' + test + '"'}}};
   const auto give = [&](const char* key, const char* value) { out.given.push_back({key, value}); };
   if (test == "cyclic") give("frequencies", "[2.0, 5.0, 10.0, 20.0]"), give("strain_amplitude", "1e-4");
   if (test == "sweep") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
-  if (test == "monotonic") give("rate", "1e-4"), give("strain", "1e-3"), give("points", "100");
+  if (test == "monotonic" && cracks) give("rate", "1.0"), give("strain", "5e-3"), give("points", "100");
+  if (test == "monotonic" && !cracks) give("rate", "1e-4"), give("strain", "1e-3"), give("points", "100");
   if (test == "history") {
     give("drive", R"("haversine")"), give("strain", "-1e-4"), give("pulse", R"("0.1 s")"), give("rest", R"("0.9 s")");
     give("duration", R"("5 s")");
@@ -232,11 +246,20 @@ std::vector<std::string> tests_of_new_scenes() {
   return {};
 }
 
-std::string new_scene(NewKind kind, const std::string& test, ContactRule rule) {
+std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, bool cracks) {
+  if (cracks && has_laws_of_phases(rule))
+    throw InputError(
+        fmt::format("--cracks: found this option with --rule {}, expected --rule centres", to_string(rule)));
+  if (cracks && test != "monotonic") {
+    throw InputError(
+        fmt::format("--cracks: found this option with --test {}, expected --test monotonic, which measures "
+                    "a strength",
+                    test));
+  }
   std::vector<Part> parts = specimen_of(kind);
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
-  const bool series = rule == ContactRule::series;
-  if (series)
+  const bool of_phases = has_laws_of_phases(rule);
+  if (of_phases)
     append(materials_with_laws(kind != NewKind::recipe));
   else if (kind == NewKind::recipe)
     append({{"[materials]", {}}});
@@ -244,11 +267,13 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule) {
     append({{"[materials]", {}},
             {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
-  if (!series) append(contacts_of(kind));
-  append({{"[network]", series ? std::vector<Given>{{"rule", R"("series")"}} : std::vector<Given>{}},
-          loading_of(test),
+  if (!of_phases) append(contacts_of(kind, cracks));
+  append({{"[network]",
+           of_phases ? std::vector<Given>{{"rule", std::string("\"") + to_string(rule) + '"'}} : std::vector<Given>{}},
+          loading_of(test, cracks),
           {"[solver]",
-           {{"method", R"("harmonic")"}},
+           cracks ? std::vector<Given>{{"method", R"("explicit")"}, {"density_scaling", "10"}}
+                  : std::vector<Given>{{"method", R"("harmonic")"}},
            "A line that begins with # is a key that is not set: remove the # and give it a value.",
            true,
            {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",

@@ -4,6 +4,7 @@
 
 #include "host/scene/crack_keys.hpp"
 #include "host/scene/law_keys.hpp"
+#include "host/scene/law_range.hpp"
 #include "host/scene/sections.hpp"
 #include "host/scene/shift_keys.hpp"
 
@@ -62,14 +63,15 @@ std::vector<Key> keys_of(FacetLimits& limits) {
        "smallest area of a facet that is a contact, as a fraction of the mean facet area", "every facet is a contact"}};
 }
 
-LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network,
-                       TemperatureTables& tables) {
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, LawRanges& ranges, Deltas& deltas,
+                       NetworkSpec& network, TemperatureTables& tables) {
   const std::vector<std::string> pairs = pair_names();
   LawTable table;
   for (const Section& section : sections) {
     std::size_t pair = 0;
     double delta = 1;
     ShiftKeys shift;
+    RangeKeys range;
     FacetLimits limits;
     std::optional<laws::Crack> crack;
     Law read_law = law_named_in(section);
@@ -93,8 +95,10 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
           const bool flows = laws::flows(law);
           if (flows)
             for (Key& key : shift.keys()) keys.push_back(std::move(key));
+          for (Key& key : range.keys()) keys.push_back(std::move(key));
           section.read(keys);
           if (flows) shifts[pair] = shift.shift(section);
+          ranges[pair] = range.range(section);
           check(law, section);
           laws::each_value(law, [delta](const std::string&, double& value, ValueKind kind, ValueNeed) {
             if (kind != ValueKind::strength) value *= delta;
@@ -114,18 +118,19 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
   return table;
 }
 
-void read_limits_of_pairs(const std::vector<Section>& sections, NetworkSpec& network) {
+void read_limits_of_pairs(const std::vector<Section>& sections, ContactRule rule, NetworkSpec& network) {
+  const std::string name = to_string(rule);
   const std::vector<std::string> pairs = pair_names();
   std::vector<bool> seen(pairs.size());
   for (const Section& section : sections) {
     for (const char* key : {"law", "alpha", "delta"}) {
       if (section.has(key))
-        section.refuse(key, "this key of a pair with rule = \"series\" in [network]",
+        section.refuse(key, "this key of a pair with rule = \"" + name + "\" in [network]",
                        "only pair, gap_max and area_min: with this rule the laws of all pairs follow from the laws in "
                        "[materials.mastic] and [materials.aggregate]");
     }
     if (section.has("crack")) {
-      section.refuse("crack", "this key with rule = \"series\" in [network]",
+      section.refuse("crack", "this key with rule = \"" + name + "\" in [network]",
                      "rule = \"centres\", because contacts with rock in series cannot crack");
     }
     std::size_t pair = 0;

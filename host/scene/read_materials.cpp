@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_materials.cpp  Reads `[materials]`: densities, the temperature and, for the rule "series", the laws of
-/// mastic and rock. Derives the laws of all pairs from them.
+/// \file read_materials.cpp  Reads `[materials]`: densities, the temperature and, for the rules "series" and
+/// "volumetric", the laws of mastic and rock. Derives the laws of all pairs from them.
 #include <fmt/format.h>
 
 #include "host/scene/law_keys.hpp"
+#include "host/scene/law_range.hpp"
 #include "host/scene/sections.hpp"
 #include "host/scene/shift_keys.hpp"
 
@@ -36,20 +37,21 @@ Key density_key(double& target, Need need) {
 }
 
 Key poisson_key(std::optional<double>& target, const char* usual) {
-  return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson), "Poisson's ratio, for rule \"series\"",
-          usual};
+  return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson),
+          "Poisson's ratio, for rules \"series\" and \"volumetric\"", usual};
 }
 
 const char* const without_law = "the laws of [[contacts]]";
 
 /// Refuses the law of a phase in a scene whose rule has no use for it.
 void require_rule(const Section& section, ContactRule rule) {
-  if (rule == ContactRule::series) return;
-  for (const char* key : {"law", "E", "poisson_ratio"}) {
+  if (has_laws_of_phases(rule)) return;
+  for (const char* key : {"law", "from", "E", "poisson_ratio"}) {
     if (section.has(key))
-      section.refuse(key, "this key with rule = \"centres\" in [network]",
-                     "rule = \"series\" in [network], or no law of a phase, because with \"centres\" each pair has its "
-                     "own law in [[contacts]]");
+      section.refuse(
+          key, "this key with rule = \"centres\" in [network]",
+          "rule = \"series\" or \"volumetric\" in [network], or no law of a phase, because with \"centres\" each "
+          "pair has its own law in [[contacts]]");
   }
 }
 
@@ -66,54 +68,78 @@ void read_aggregate(const Section& section, Need need, ContactRule rule, Materia
                 {"law",
                  Need::optional,
                  {law, {"text", nullptr, "\"elastic\""}},
-                 "law of the rock, for rule \"series\"",
+                 "law of the rock, for rules \"series\" and \"volumetric\"",
                  without_law},
                 {"E",
                  Need::optional,
                  {modulus_of_rock, {"number", &modulus, in_pascals.words}},
                  "modulus of the rock",
                  "none; required with law"},
-                poisson_key(materials.aggregate_poisson_ratio, "none")});
+                poisson_key(materials.aggregate_poisson_ratio, "none; required for rule \"volumetric\"")});
   require_rule(section, rule);
   if (section.has("law") != section.has("E")) {
     section.refuse("E", section.has("E") ? "this key without law" : "nothing",
                    section.has("E") ? "law = \"elastic\" as well" : "a modulus, because law is \"elastic\"");
   }
+  if (rule == ContactRule::volumetric && phases.rock_modulus && !materials.aggregate_poisson_ratio)
+    section.refuse("poisson_ratio", "nothing", "a Poisson's ratio, because rule is \"volumetric\" in [network]");
 }
 
-void read_mastic(const Section& section, Need need, ContactRule rule, Materials& materials, PhaseLaws& phases) {
+void require_poisson_ratio(const Section& section, const Materials& materials, const char* why) {
+  if (!materials.mastic_poisson_ratio) section.refuse("poisson_ratio", "nothing", why);
+}
+
+void read_mastic(const Section& section, Need need, ContactRule rule, const ReadingFile& reading, Materials& materials,
+                 PhaseLaws& phases) {
   std::vector<std::string> names;
   std::vector<Law> empty;
   list_linear_laws(names, empty);
+  std::optional<double> from_file;
   std::vector<Key> keys{density_key(materials.mastic, need),
                         {"law",
                          Need::optional,
                          {[](const Value&) {}, {"one of"}},
-                         "law of the mastic, for rule \"series\"; it determines the other keys",
+                         "law of the mastic, for rules \"series\" and \"volumetric\"; it determines the other keys",
                          without_law},
-                        poisson_key(materials.mastic_poisson_ratio, "none; required with law")};
+                        {"from",
+                         Need::optional,
+                         {[&](const Value& value) {
+                            require_rule(section, rule);
+                            from_file = read_source(value, reading, phases);
+                          },
+                          {"text"}},
+                         "in place of law, the file that gives the law of the mastic: another scene, whose specimen is "
+                         "the mastic; law.toml of macadam fit; or kelvin.csv of a run",
+                         "none"},
+                        poisson_key(materials.mastic_poisson_ratio, "that of the file in from; required with law")};
   const auto name = section.find("law");
   if (!name) {
     section.read(keys);
-    return require_rule(section, rule);
+    require_rule(section, rule);
+    if (!section.has("from")) return;
+    if (!materials.mastic_poisson_ratio) materials.mastic_poisson_ratio = from_file;
+    return require_poisson_ratio(section, materials, "a Poisson's ratio, because the file in from does not give it");
   }
   Law of_mastic = empty[name->choice(names)];
   ShiftKeys shift;
+  RangeKeys range;
   std::visit(
       [&](auto& law) {
         for (Key& key : keys_of(law)) keys.push_back(std::move(key));
         const bool flows = laws::flows(law);
         if (flows)
           for (Key& key : shift.keys()) keys.push_back(std::move(key));
+        for (Key& key : range.keys()) keys.push_back(std::move(key));
         section.read(keys);
         require_rule(section, rule);
+        if (section.has("from")) section.refuse("from", "this key together with law", "only one of the two");
+        phases.range = range.range(section);
         if (flows) phases.shift = shift.shift(section);
         check(law, section);
         law.alpha = 1;
       },
       of_mastic);
-  if (!materials.mastic_poisson_ratio)
-    section.refuse("poisson_ratio", "nothing", "a Poisson's ratio, because a law of the mastic is given");
+  require_poisson_ratio(section, materials, "a Poisson's ratio, because a law of the mastic is given");
   phases.mastic = std::move(of_mastic);
 }
 
@@ -125,13 +151,20 @@ Law with_alpha(Law law, double alpha) {
 
 }  // namespace
 
-Materials read_materials(const Section& section, Need need, ContactRule rule, PhaseLaws& phases) {
+Materials read_mastic_alone(const Section& section, const ReadingFile& reading, PhaseLaws& phases) {
+  Materials out;
+  read_mastic(section, Need::optional, ContactRule::series, reading, out, phases);
+  return out;
+}
+
+Materials read_materials(const Section& section, Need need, ContactRule rule, const ReadingFile& reading,
+                         PhaseLaws& phases) {
   Materials materials;
   section.read({{"aggregate", Need::optional,
                  section_by([&](const Value& v) { read_aggregate(v.section(), need, rule, materials, phases); }),
                  "material of the aggregates", "none"},
                 {"mastic", Need::optional,
-                 section_by([&](const Value& v) { read_mastic(v.section(), need, rule, materials, phases); }),
+                 section_by([&](const Value& v) { read_mastic(v.section(), need, rule, reading, materials, phases); }),
                  "material of the mastic", "none"},
                 {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
                  "temperature of the whole specimen; laws that have a shift change with it",
@@ -144,16 +177,20 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   if (scene.network.rule == ContactRule::centres) return;
   const auto require = [&](bool needed, bool given, const char* phase, const char* example) {
     if (needed && !given)
-      root.refuse("materials", std::string("no law of the ") + phase + ", which rule = \"series\" in [network] needs",
+      root.refuse("materials",
+                  std::string("no law of the ") + phase + ", which rule = \"" + to_string(scene.network.rule) +
+                      "\" in [network] needs",
                   std::string("[materials.") + phase + "] with " + example);
   };
   const bool file = scene.specimen.file.has_value(), mastic = phases.mastic.has_value(),
              rock = phases.rock_modulus.has_value();
   require(scene.specimen.mastic.has_value() || (file && !rock), mastic, "mastic",
-          "law = \"generalised_kelvin\" or \"elastic\", and poisson_ratio");
+          "law = \"generalised_kelvin\" or \"elastic\", and poisson_ratio, or with from");
   require(!scene.specimen.aggregate.empty(), rock, "aggregate", "law = \"elastic\" and E");
+  scene.mastic_source = phases.source;
   const auto set = [&](PairType pair, const Law& law, const laws::Shift& shift) {
     scene.laws[static_cast<std::size_t>(pair)] = law;
+    if (pair != PairType::inner && pair != PairType::aw) scene.ranges[static_cast<std::size_t>(pair)] = phases.range;
     scene.shifts[static_cast<std::size_t>(pair)] = shift;
   };
   if (mastic) {

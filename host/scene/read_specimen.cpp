@@ -15,16 +15,9 @@
 namespace macadam::scene {
 namespace {
 
-Reader box_into(Box& box) {
-  const auto read = [&box](const Value& value) {
-    const std::vector<double> edges = value.numbers(length, positive);
-    if (edges.size() != 3) value.refuse(fmt::format("{} entries", edges.size()), "three, [x, y, z]");
-    box.size = {edges[0], edges[1], edges[2]};
-    if (!(box.volume() > 0 && std::isfinite(box.volume()))) {
-      value.refuse(fmt::format("a volume of {} m3", box.volume()), "a volume within the range of double precision");
-    }
-  };
-  return {read, {"list of three numbers", &length, positive.words}};
+/// Returns the name of the smallest dimension of a domain for messages.
+const char* smallest_dimension(const Domain& domain) {
+  return domain.is_box() ? "the smallest edge of the box" : "the smaller of diameter and height";
 }
 
 /// Refuses a section that has both keys, or neither.
@@ -35,16 +28,16 @@ void require_one_of(const Section& section, const std::string& a, const std::str
   }
 }
 
-/// Refuses a diameter [m] that is not smaller than every edge of the box.
-void require_fit_in_box(const Section& section, const std::string& key, double diameter, const Box& box) {
+/// Refuses a diameter [m] that is not smaller than every dimension of the domain.
+void require_fit_in_box(const Section& section, const std::string& key, double diameter, const Domain& box) {
   const double edge = std::min({box.size.x, box.size.y, box.size.z});
   if (diameter >= edge) {
     section.refuse(key, fmt::format("diameters up to {} m", diameter),
-                   fmt::format("less than the smallest edge of the box, {} m", edge));
+                   fmt::format("less than {}, {} m", smallest_dimension(box), edge));
   }
 }
 
-AggregateClass read_aggregate(const Section& section, const Box& box) {
+AggregateClass read_aggregate(const Section& section, const Domain& box) {
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a fraction above 0 and at most 1"};
   AggregateClass out;
   out.line = section.line();
@@ -59,7 +52,7 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
   return out;
 }
 
-MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
+MasticSpec read_mastic(const Section& section, const Domain& box, bool by_mass) {
   constexpr Rule porosity{[](double v) { return v > -1 && v < 1; },
                           "a porosity between -1 and 1 (negative: the spheres overlap)"};
   MasticSpec out;
@@ -80,7 +73,7 @@ MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
   return out;
 }
 
-VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
+VoidSpec read_voids(const Section& section, const Domain& box, bool by_mass) {
   constexpr Rule share{[](double v) { return v >= 0 && v < 1; }, "a fraction from 0 to below 1"};
   VoidSpec out;
   out.line = section.line();
@@ -169,7 +162,7 @@ void follow_recipe(const Section& section, const MixDesign& recipe, SpecimenSpec
     if (c.sieve_max >= edge)
       throw InputError(spec.source, c.line, "[specimen.recipe] gradation",
                        fmt::format("aggregate of {:.6g} to {:.6g} mm", 1e3 * c.sieve_min, 1e3 * c.sieve_max),
-                       fmt::format("sizes below the smallest edge of the box, {:.6g} mm", 1e3 * edge));
+                       fmt::format("sizes below {}, {:.6g} mm", smallest_dimension(spec.box), 1e3 * edge));
   }
 }
 
@@ -207,43 +200,46 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
   const auto read_the_mastic = [&](const Value& v) {
     spec.mastic = read_mastic(v.section(), spec.box, section.has("recipe"));
   };
-  section.read(
-      {{"box", Need::required, box_into(spec.box), "edge lengths x, y, z; one corner is the origin, z is vertical"},
-       {"file",
-        Need::optional,
-        {read_file, {"text"}},
-        "CSV file of an existing specimen, with the columns id,x,y,z,radius,phase,body; the path is relative to the "
-        "scene's folder",
-        "the specimen is generated"},
-       {"aggregate_file",
-        Need::optional,
-        {read_aggregate_file, {"text"}},
-        "for a specimen from a file with rule \"series\": CSV file of the true surfaces of the aggregates, with the "
-        "columns body,shape,size,x,y,z and qw,qx,qy,qz",
-        "surfaces of the spheres"},
-       {"seed", Need::optional, into(spec.seed, 0),
-        "seed of the generator: another seed gives another specimen of the same mixture"},
-       {"size_law", Need::optional,
-        into<SizeLaw>(spec.size_law, {{"log_uniform", SizeLaw::log_uniform},
-                                      {"uniform", SizeLaw::uniform},
-                                      {"volume_uniform", SizeLaw::volume_uniform}}),
-        "distribution of the diameters between two sieves"},
-       {"spacing", Need::optional, into(spec.spacing, length, non_negative),
-        "smallest distance between an aggregate and the aggregates inserted before it"},
-       {"fix_aggregates", Need::optional, into(spec.fix_aggregates),
-        "whether aggregates are fixed while the mastic relaxes"},
-       {"attempts", Need::optional, into(spec.attempts, 1),
-        "number of positions tried for one aggregate before the generator gives up"},
-       {"aggregate", Need::optional, sections_by(read_classes), "a class of aggregates, between two sieves", "none"},
-       {"shapes", Need::optional, section_by([&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }),
-        "aggregates of real shape, filled with spheres", "an aggregate is a sphere"},
-       {"recipe", Need::optional, section_by([&](const Value& v) { recipe = read_recipe(v.section()); }),
-        "a mix design by mass, in place of [[specimen.aggregate]] and of the mastic's content", "none"},
-       {"mastic", Need::optional, section_by(read_the_mastic), "the mastic: spheres that fill the remaining volume",
-        "none"},
-       {"voids", Need::optional,
-        section_by([&](const Value& v) { spec.voids = read_voids(v.section(), spec.box, section.has("recipe")); }),
-        "air voids with cells of their own", "none"}});
+  double diameter = 0, height = 0;
+  std::vector<Key> keys = keys_of_domain(section, diameter, height, spec.box);
+  const std::vector<Key> others{
+      {"file",
+       Need::optional,
+       {read_file, {"text"}},
+       "CSV file of an existing specimen, with the columns id,x,y,z,radius,phase,body; the path is relative to the "
+       "scene's folder",
+       "the specimen is generated"},
+      {"aggregate_file",
+       Need::optional,
+       {read_aggregate_file, {"text"}},
+       "for a specimen from a file with rule \"series\" or \"volumetric\": CSV file of the true surfaces of the "
+       "aggregates, with the columns body,shape,size,x,y,z and qw,qx,qy,qz",
+       "surfaces of the spheres"},
+      {"seed", Need::optional, into(spec.seed, 0),
+       "seed of the generator: another seed gives another specimen of the same mixture"},
+      {"size_law", Need::optional,
+       into<SizeLaw>(spec.size_law, {{"log_uniform", SizeLaw::log_uniform},
+                                     {"uniform", SizeLaw::uniform},
+                                     {"volume_uniform", SizeLaw::volume_uniform}}),
+       "distribution of the diameters between two sieves"},
+      {"spacing", Need::optional, into(spec.spacing, length, non_negative),
+       "smallest distance between an aggregate and the aggregates inserted before it"},
+      {"fix_aggregates", Need::optional, into(spec.fix_aggregates),
+       "whether aggregates are fixed while the mastic relaxes"},
+      {"attempts", Need::optional, into(spec.attempts, 1),
+       "number of positions tried for one aggregate before the generator gives up"},
+      {"aggregate", Need::optional, sections_by(read_classes), "a class of aggregates, between two sieves", "none"},
+      {"shapes", Need::optional, section_by([&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }),
+       "aggregates of real shape, filled with spheres", "an aggregate is a sphere"},
+      {"recipe", Need::optional, section_by([&](const Value& v) { recipe = read_recipe(v.section()); }),
+       "a mix design by mass, in place of [[specimen.aggregate]] and of the mastic's content", "none"},
+      {"mastic", Need::optional, section_by(read_the_mastic), "the mastic: spheres that fill the remaining volume",
+       "none"},
+      {"voids", Need::optional,
+       section_by([&](const Value& v) { spec.voids = read_voids(v.section(), spec.box, section.has("recipe")); }),
+       "air voids with cells of their own", "none"}};
+  keys.insert(keys.end(), others.begin(), others.end());
+  section.read(keys);
   if (spec.file) {
     for (const char* key : {"recipe", "aggregate", "shapes", "mastic", "voids", "seed", "size_law", "spacing",
                             "fix_aggregates", "attempts"}) {

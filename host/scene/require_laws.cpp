@@ -63,7 +63,7 @@ void require_laws(const Scene& scene, const Specimen& specimen, const ContactNet
       const std::string name = to_string(static_cast<PairType>(i));
       throw InputError(scene.file.string(), 0, "pair " + name,
                        fmt::format("no law for its {} contacts", network.count[i]),
-                       scene.network.rule == ContactRule::series
+                       has_laws_of_phases(scene.network.rule)
                            ? "the laws of both phases in [materials.mastic] and [materials.aggregate]"
                            : "[[contacts]] with pair = \"" + name + "\"");
     }

@@ -59,7 +59,7 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
 }
 
 void read_network(const Section& section, NetworkSpec& spec) {
-  std::vector<Key> keys = keys_of(spec);
+  std::vector<Key> keys = keys_of(static_cast<FacetLimits&>(spec));
   keys.push_back({"quadrature", Need::optional,
                   into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped},
                                                      {"exact", Quadrature::exact},
@@ -67,10 +67,19 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   "area moments of a contact: from its points, from its polygon, or from one point at the centroid"});
   keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
                   "whether the four sides are walls too; |E*| is then a confined modulus"});
-  keys.push_back({"rule", Need::optional,
-                  into<ContactRule>(spec.rule, {{"centres", ContactRule::centres}, {"series", ContactRule::series}}),
-                  "stiffness of a contact: from the law of its pair and the distance of the centres, or from the laws "
-                  "of mastic and rock in series along the line between the centres"});
+  keys.push_back(
+      {"rule", Need::optional,
+       into<ContactRule>(spec.rule, {{"centres", ContactRule::centres},
+                                     {"series", ContactRule::series},
+                                     {"volumetric", ContactRule::volumetric}}),
+       "stiffness of a contact: from the law of its pair and the distance of the centres; from the laws of "
+       "mastic and rock in series along the line between the centres; or in series, with the Poisson's ratios "
+       "of mastic and rock"});
+  keys.push_back({"void_cells", Need::optional,
+                  into<VoidCells>(spec.void_cells, {{"volume", VoidCells::volume}, {"spheres", VoidCells::spheres}}),
+                  "volume of the cell of a void: the volume of its sphere, or the larger volume that follows from its "
+                  "radius",
+                  "\"spheres\" with rule \"centres\", else \"volume\""});
   section.read(keys);
 }
 
@@ -105,6 +114,10 @@ void check_together(const Scene& scene, const Section& root) {
   if (scene.network.quadrature == Quadrature::exact && scene.solver.form == ContactForm::points) {
     root.find("network")->section().refuse("quadrature", "\"exact\" with form = \"points\" in [solver]",
                                            "\"lumped\", or form = \"condensed\"");
+  }
+  if (scene.network.lateral_walls && !scene.specimen.box.is_box()) {
+    root.find("network")->section().refuse("lateral_walls", "true with domain = \"cylinder\" in [specimen]",
+                                           "false, because the curved side of a cylinder is free");
   }
   if (scene.output.fields.any() && !has_fields(scene)) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
@@ -178,26 +191,26 @@ toml::table without_lines(const toml::table& table) {
 }
 
 /// Reads all sections. `densities`: whether the scene must give the densities of its materials.
-Scene read_root(const std::filesystem::path& file, const Section& root, Need densities) {
+Scene read_root(const ReadingFile& reading, const Section& root, Need densities) {
   Scene out;
-  out.file = file;
-  const std::filesystem::path folder = file.parent_path();
+  out.file = reading.file;
+  const std::filesystem::path folder = reading.file.parent_path();
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   std::optional<SolverSpec> solver;
   PhaseLaws phases;
   TemperatureTables tables;
   const ContactRule rule = rule_of(root);
-  const bool series = rule == ContactRule::series;
+  const bool of_phases = has_laws_of_phases(rule);
   root.read({{"specimen", Need::required, section_by(read_the_specimen),
               "the specimen, which is read from a file or generated"},
              {"materials", densities, section_by([&](const Value& v) {
-                out.materials = read_materials(v.section(), densities, rule, phases);
+                out.materials = read_materials(v.section(), densities, rule, reading, phases);
                 tables.temperature = out.materials.temperature;
               }),
               "densities, and the temperature", "computed from [specimen.recipe] if that is given"},
-             {"contacts", series ? Need::optional : Need::required, sections_by([&](const Value& v) {
-                if (series) return read_limits_of_pairs(v.sections(), out.network);
-                out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network, tables);
+             {"contacts", of_phases ? Need::optional : Need::required, sections_by([&](const Value& v) {
+                if (of_phases) return read_limits_of_pairs(v.sections(), rule, out.network);
+                out.laws = read_contacts(v.sections(), out.shifts, out.ranges, out.deltas, out.network, tables);
               }),
               "contact law of a pair of materials; one section per pair"},
              {"network", Need::optional, section_by([&](const Value& v) { read_network(v.section(), out.network); }),
@@ -210,6 +223,8 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
              {"output", Need::optional, section_by([&](const Value& v) { read_output(v.section(), out.output); }),
               "files that are written besides the results", "the defaults of its keys"}});
   out.solver = solver.value_or(usual_solver(out.experiment));
+  // only the CPU computes the pressures of cells
+  if (rule == ContactRule::volumetric && out.solver.backend == Backend::automatic) out.solver.backend = Backend::cpu;
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   set_laws_of_phases(out, phases, root);
   choose_method(out.solver, out.experiment, out.laws);
@@ -218,14 +233,20 @@ Scene read_root(const std::filesystem::path& file, const Section& root, Need den
   return out;
 }
 
-Scene read_tables(const std::filesystem::path& file, std::string text, const toml::table& table) {
+Scene read_tables(const ReadingFile& reading, std::string text, const toml::table& table) {
   const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
-  Scene out = read_root(file, Section(file.string(), 0, "", "", table), densities);
+  Scene out = read_root(reading, Section(reading.file.string(), 0, "", "", table), densities);
   out.text = std::move(text);
   return out;
 }
 
 }  // namespace
+
+Scene read_inner_scene(const ReadingFile& reading) {
+  std::string text;
+  const toml::table table = read_toml(reading.file, "scene", text);
+  return read_tables(reading, std::move(text), table);
+}
 
 std::vector<KnownKey> known_keys() {
   const toml::table nothing;
@@ -238,16 +259,12 @@ std::vector<KnownKey> known_keys() {
 
 }  // namespace scene
 
-Scene read_scene(const std::filesystem::path& file) {
-  std::string text;
-  const toml::table table = scene::read_toml(file, "scene", text);
-  return scene::read_tables(file, std::move(text), table);
-}
+Scene read_scene(const std::filesystem::path& file) { return scene::read_inner_scene({file}); }
 
 Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines) {
   const toml::table table = scene::parse_toml(text, file, "scene");
-  if (lines) return scene::read_tables(file, text, table);
-  return scene::read_tables(file, text, scene::without_lines(table));
+  if (lines) return scene::read_tables({file}, text, table);
+  return scene::read_tables({file}, text, scene::without_lines(table));
 }
 
 std::string read_scene_text(const std::filesystem::path& file) {

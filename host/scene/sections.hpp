@@ -20,6 +20,11 @@ toml::table parse_toml(const std::string& text, const std::filesystem::path& fil
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
                            std::optional<MixDesign>& recipe);
 
+/// Returns the keys of `[specimen]` that give the domain, to be read before all keys that depend on it. `diameter` and
+/// `height` keep the dimensions of a cylinder while the keys are read. \throws InputError for an unknown kind of
+/// domain, or for dimensions of another kind
+std::vector<Key> keys_of_domain(const Section& section, double& diameter, double& height, Domain& domain);
+
 /// Reads `[specimen.recipe]`.
 /// \throws InputError
 MixDesign read_recipe(const Section& section);
@@ -42,29 +47,51 @@ Reader range_into(double& low, double& high);
 std::vector<Key> keys_of(FacetLimits& limits);
 
 /// Reads every `[[contacts]]` and returns the laws at their reference temperatures. Stores in `shifts` the temperature
-/// shifts of the laws, in `deltas` the factors `delta` with which the laws were multiplied, and in `network` the limits
-/// on the facets of each pair. Strengths and fracture energies that are tables are evaluated at the temperature in
-/// `tables`. \throws InputError
-LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network,
-                       TemperatureTables& tables);
+/// shifts of the laws, in `ranges` the ranges in which they hold, in `deltas` the factors `delta` with which the laws
+/// were multiplied, and in `network` the limits on the facets of each pair. Strengths and fracture energies that are
+/// tables are evaluated at the temperature in `tables`. \throws InputError
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, LawRanges& ranges, Deltas& deltas,
+                       NetworkSpec& network, TemperatureTables& tables);
 
-/// Reads every `[[contacts]]` of a scene with the rule "series": the limits on the facets of each pair, and no laws.
-/// \throws InputError
-void read_limits_of_pairs(const std::vector<Section>& sections, NetworkSpec& network);
+/// Reads every `[[contacts]]` of a scene with the rule "series" or "volumetric": the limits on the facets of each pair,
+/// and no laws. \throws InputError
+void read_limits_of_pairs(const std::vector<Section>& sections, ContactRule rule, NetworkSpec& network);
 
-/// Laws of the phases, for the rule "series".
+/// Laws of the phases, for the rules "series" and "volumetric".
 struct PhaseLaws {
-  std::optional<Law> mastic;  ///< at its reference temperature
-  laws::Shift shift;          ///< of the mastic
+  std::optional<Law> mastic;           ///< at its reference temperature
+  laws::Shift shift;                   ///< of the mastic
+  laws::LawRange range;                ///< of the mastic
+  std::optional<MasticSource> source;  ///< the scene whose specimen is the mastic; `mastic` is then provisional
   std::optional<double> rock_modulus;
 };
 
-/// Reads `[materials]`. `need` tells whether densities are required; they may be left out if they follow from a recipe.
-/// Stores the laws of the phases in `phases`.
-/// With the rule "centres" such laws are refused. \throws InputError
-Materials read_materials(const Section& section, Need need, ContactRule rule, PhaseLaws& phases);
+/// A scene that is being read, and the scene whose `from` names it (nullptr: none does).
+struct ReadingFile {
+  std::filesystem::path file;
+  const ReadingFile* outer = nullptr;
+};
 
-/// Sets the laws and shifts of all pairs of a scene with the rule "series"; otherwise changes nothing. `root` is the
+/// Reads a scene that another one names. \throws InputError
+Scene read_inner_scene(const ReadingFile& reading);
+
+/// Reads the file that `from` in [materials.mastic] names: another scene, the law.toml of `macadam fit` or
+/// `macadam mixture`, or the kelvin.csv of a run. Stores law, shift and range in `phases`. The law is provisional if
+/// the file is a scene. Returns Poisson's ratio of the mastic, if the file has one. Paths are relative to the folder of
+/// the scene that is being read. \throws InputError that names both files, also if scenes lead back to themselves.
+std::optional<double> read_source(const Value& value, const ReadingFile& reading, PhaseLaws& phases);
+
+/// Reads `[materials]`. `need` tells whether densities are required; they may be left out if they follow from a recipe.
+/// Stores the laws of the phases in `phases`. `reading` is the scene's file.
+/// With the rule "centres" such laws are refused. \throws InputError
+Materials read_materials(const Section& section, Need need, ContactRule rule, const ReadingFile& reading,
+                         PhaseLaws& phases);
+
+/// Reads a section [materials.mastic] as read_materials() does with rule "series"; the density may be left out.
+/// \throws InputError
+Materials read_mastic_alone(const Section& section, const ReadingFile& reading, PhaseLaws& phases);
+
+/// Sets the laws and shifts of all pairs of a scene with laws of phases; otherwise changes nothing. `root` is the
 /// whole scene. \throws InputError for a phase without a law
 void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& root);
 

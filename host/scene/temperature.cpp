@@ -33,6 +33,15 @@ LawTable laws_at(const Scene& scene, double temperature, LawTable laws) {
   return laws;
 }
 
+LawTable reference_laws(const Scene& scene) {
+  LawTable out = scene.laws;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (out[pair] && shifts(scene.shifts[pair]))
+      out[pair] = laws::shifted(*out[pair], std::pow(10.0, -present(scene, scene.shifts[pair])));
+  }
+  return out;
+}
+
 std::optional<double> common_log10_shift(const Scene& scene, double temperature) {
   std::optional<double> out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -53,7 +62,7 @@ void apply_temperature(Scene& scene, const Section& root, const TemperatureTable
       section.refuse(
           key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
           std::string("shift = \"wlf\", \"arrhenius\" or \"table\" in ") +
-              (scene.network.rule == ContactRule::series ? "[materials.mastic]" : "at least one section [[contacts]]"));
+              (has_laws_of_phases(scene.network.rule) ? "[materials.mastic]" : "at least one section [[contacts]]"));
     }
     LawTable at = laws_at(scene, temperature);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {

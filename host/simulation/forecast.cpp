@@ -26,7 +26,7 @@ StepCost step_cost(const Scene& scene, const Forecast& f) {
     const LawFacts facts = facts_of(law);
     return facts.memoryless && f.geometry == Geometry::fixed ? no_chain : facts.units;
   };
-  const auto units = mean_of_usual(scene, [&](const Law& law) { return std::visit(of_law, law); });
+  const auto units = mean_of_usual(scene, [&](const Law& law, PairType) { return std::visit(of_law, law); });
   return step_cost(f.backend == Backend::cuda, f.form, f.precision, f.geometry, units.value_or(0));
 }
 
@@ -119,6 +119,8 @@ Forecast forecast(const Scene& scene) {
   out.backend = select_backend(requested_backend(scene.solver), &out.reason, scene.solver.devices);
   out.threads = scene.solver.threads > 0 ? scene.solver.threads : report_backends().threads;
   out.census = count_specimen(scene.specimen);
+  for (const auto& more : {law_range_warnings(scene), scene.specimen.merged})
+    out.census.warnings.insert(out.census.warnings.end(), more.begin(), more.end());
   const double n = static_cast<double>(out.census.particles());
   const bool single_spheres = !scene.specimen.shapes && !scene.specimen.aggregate.empty() && scene.specimen.mastic;
   const double inside = single_spheres ? cost.contacts_of_single_spheres : cost.contacts;

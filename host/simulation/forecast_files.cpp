@@ -8,6 +8,7 @@
 #include "host/experiments/experiment.hpp"
 #include "host/experiments/transient/transient_experiment.hpp"
 #include "host/run/cracks.hpp"
+#include "host/run/damaged_contacts.hpp"
 #include "host/simulation/forecast_parts.hpp"
 
 namespace macadam {
@@ -15,8 +16,8 @@ namespace {
 
 /// Measured bytes per line of a table, or per entry.
 constexpr double particle_line = 97, aggregate_line = 75, contact_line = 175, gradation_line = 90, sample_line = 62,
-                 load_line = 110, crack_line = 190, sweep_line = 150, material_file = 2500, summary_base = 5500,
-                 summary_point = 260, summary_frequency = 1200;
+                 load_line = 110, crack_line = 190, damage_line = 260, sweep_line = 150, material_file = 2500,
+                 summary_base = 5500, summary_point = 260, summary_frequency = 1200;
 /// Bytes per line of the columns `length` and `series` of contacts.csv: two numbers of at most 17 digits.
 constexpr double series_columns = 45;
 
@@ -51,8 +52,9 @@ class FileForecast {
     if (name == "aggregates.csv") return 300 + aggregate_line * static_cast<double>(f_.census.aggregates);
     if (name == "gradation.csv") return 10 * gradation_line;
     if (name == "contacts.csv")
-      return (contact_line + (scene_.network.rule == ContactRule::series ? series_columns : 0)) * f_.contacts;
+      return (contact_line + (has_laws_of_phases(scene_.network.rule) ? series_columns : 0)) * f_.contacts;
     if (name == cracks_file) return crack_line * broken_points();
+    if (name == damage_file) return damage_line * damaged_contacts();
     if (name == "response.csv") {
       double samples = 0;
       for (const StepForecast& s : f_.steps) samples += s.cycles * scene_.cyclic().samples_per_cycle + 1;
@@ -63,15 +65,23 @@ class FileForecast {
     return !kind.empty() && name == load_words(kind).file ? 200 + load_line * points : material_file;
   }
 
+  /// Returns the part of the contacts whose law has the property.
+  double part_of_contacts(bool LawFacts::*property) const {
+    const auto part = mean_of_usual(scene_, [property](const Law& law, PairType) {
+      return std::visit([property](const auto& l) { return facts_of(l).*property ? 1.0 : 0.0; }, law);
+    });
+    return part.value_or(0);
+  }
+
+  /// Returns the number of contacts that are expected to begin to crack: at the peak of a strength test, two thirds.
+  double damaged_contacts() const { return 2.0 / 3 * part_of_contacts(&LawFacts::cracks) * f_.contacts; }
+
   /// Returns the number of broken contact points that the run is expected to list. The true number depends on the load;
   /// the result is its order of magnitude for a specimen that breaks in two.
   double broken_points() const {
     constexpr double points_per_contact = 5.9, broken_part = 0.11;  // measured: specimen t8, torn in two
-    const auto part = mean_of_usual(scene_, [](const Law& law) {
-      return std::visit([](const auto& l) { return facts_of(l).breaks ? 1.0 : 0.0; }, law);
-    });
     const double tests = static_cast<double>(std::max<std::size_t>(1, frequencies_of(scene_.experiment).size()));
-    return tests * broken_part * points_per_contact * part.value_or(0) * f_.contacts;
+    return tests * broken_part * points_per_contact * part_of_contacts(&LawFacts::breaks) * f_.contacts;
   }
 
   /// Returns the largest number of Kelvin units of any contact; a file of contacts has one array for each unit. Returns
@@ -90,17 +100,21 @@ class FileForecast {
     const bool made = !scene_.specimen.file && f_.census.aggregates > 0;
     const double particles = static_cast<double>(f_.census.particles()), per_unit = f_.stepped ? 24 : 48;
     const double stress = scene_.solver.backend == Backend::reference ? 0 : 24;
+    const bool cracks = can_crack(facts_of(scene_.laws)) && f_.stepped;
     const FieldSize of_particles{48.0 + (made ? 4 : 0), 24.0 + (made ? 2 : 0), f_.stepped ? 72 + stress : 72,
                                  particles};
     const FieldSize of_contacts{60 + 12 * particles / std::max(1.0, f_.contacts),
                                 34 + 12 * particles / std::max(1.0, f_.contacts),
-                                (f_.stepped ? 56 : 108) + per_unit * units(), f_.contacts};
+                                (f_.stepped ? 56 : 108) + per_unit * units() + (cracks ? 16 : 0), f_.contacts};
+    // polygons with five corners, and four arrays
+    const FieldSize of_cracks{120, 95, 16, part_of_contacts(&LawFacts::cracks) * f_.contacts};
     const FieldSize of_cells{210, 105, 0, f_.contacts + 9 * std::pow(particles, 2.0 / 3)};
     const bool vtp = spec.format == FieldFormat::vtp;
     if (spec.cells) add(std::string("fields/cells") + (vtp ? ".vtp" : ".vtkhdf"), static_file(of_cells));
     const auto both = [&](const std::string& of, double frames) {
       if (spec.particles) add_series("fields/particles_" + of, of_particles, frames);
       if (spec.contacts) add_series("fields/contacts_" + of, of_contacts, frames);
+      if (spec.contacts && cracks) add_series("fields/cracks_" + of, of_cracks, frames);
     };
     if (!f_.stepped) return add_steady(both);
     for (const StepForecast& s : f_.steps) {

@@ -10,15 +10,24 @@
 
 namespace macadam {
 
-/// Returns the mean of f(law) over the pair types that have most of the contacts. These are the pairs with mastic, if
-/// the scene has any.
+/// Returns the scale of the stiffness of contacts of a pair [Pa], force over area and strain along the line of centres,
+/// for a law with the stiffness `k`. With rule "series" part of the line of centres is rock: half of it between mastic
+/// and aggregate, as between spheres of equal size, and nine tenths of it between two aggregates.
+inline double with_rock(const Scene& scene, PairType pair, double k) {
+  if (scene.network.rule == ContactRule::centres || !scene.materials.rock_modulus) return k;
+  const double rock = pair == PairType::ma ? 0.5 : pair == PairType::aa ? 0.9 : 0;
+  return 1 / ((1 - rock) / k + rock / *scene.materials.rock_modulus);
+}
+
+/// Returns the mean of f(law, pair) over the pair types that have most of the contacts. These are the pairs with
+/// mastic, if the scene has any.
 template <class F>
 std::optional<double> mean_of_usual(const Scene& scene, F&& f) {
   double sum = 0;
   int count = 0;
   for (const PairType pair : {PairType::mm, PairType::ma, PairType::inner, PairType::aa}) {
     if (count > 0 && pair > PairType::ma) break;
-    if (const auto& law = scene.laws[static_cast<std::size_t>(pair)]) sum += f(*law), ++count;
+    if (const auto& law = scene.laws[static_cast<std::size_t>(pair)]) sum += f(*law, pair), ++count;
   }
   return count > 0 ? std::optional(sum / count) : std::nullopt;
 }

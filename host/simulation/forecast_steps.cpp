@@ -31,7 +31,8 @@ double instantaneous(const Law& law) {
 /// over the pair types that have most of the contacts.
 double modulus_at(const Scene& scene, double hz) {
   const double omega = 2 * std::numbers::pi * hz;
-  const auto logarithm = mean_of_usual(scene, [&](const Law& law) { return std::log(stiffness_at(law, omega)); });
+  const auto logarithm = mean_of_usual(
+      scene, [&](const Law& law, PairType pair) { return std::log(with_rock(scene, pair, stiffness_at(law, omega))); });
   return logarithm ? std::exp(*logarithm) : 1e9;
 }
 
@@ -42,7 +43,8 @@ double critical_step(const Scene& scene, const Census& census) {
   const auto step = [&](double part, double radius, double density, std::initializer_list<PairType> pairs) {
     double stiffest = 0;
     for (const PairType pair : pairs)
-      if (const Law* law = law_of(scene, pair)) stiffest = std::max(stiffest, instantaneous(*law));
+      if (const Law* law = law_of(scene, pair))
+        stiffest = std::max(stiffest, with_rock(scene, pair, instantaneous(*law)));
     return stiffest > 0 && density > 0 && radius > 0 ? part * radius * std::sqrt(density / stiffest) : INFINITY;
   };
   const SpecimenSpec& s = scene.specimen;
@@ -70,7 +72,7 @@ StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
   } else {  // the error of inertia is estimated as a part of ρω²H²/|E*|; a run computes it
     constexpr double inertia_error = 0.3;
     const double density = std::max(scene.materials.mastic, scene.materials.aggregate);
-    const double turn = 2 * std::numbers::pi * out.frequency_hz * scene.specimen.box.size.z;
+    const double turn = 2 * std::numbers::pi * out.frequency_hz * gauge_length(scene.specimen.box);
     out.density_scaling =
         std::max(1.0, aimed_part * inertia_part * *solver.tolerance * modulus_at(scene, out.frequency_hz) /
                           (inertia_error * density * turn * turn));
@@ -86,8 +88,9 @@ StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
 /// Returns the instantaneous modulus that the specimen would have if all contacts had the same strain [Pa]. Contacts
 /// point in all directions, and the sum of their areas times distances is three times the volume of the box.
 double affine_modulus(const Scene& scene) {
-  const auto mean = mean_of_usual(scene, [](const Law& law) {
-    return std::visit([](const auto& l) { return l.instantaneous() * (0.6 + 0.4 * l.alpha); }, law);
+  const auto mean = mean_of_usual(scene, [&](const Law& law, PairType pair) {
+    const double alpha = std::visit([](const auto& l) { return l.alpha; }, law);
+    return with_rock(scene, pair, instantaneous(law)) * (0.6 + 0.4 * alpha);
   });
   return mean.value_or(1e9);
 }
@@ -97,9 +100,9 @@ StepForecast load_steps(const Scene& scene, double critical) {
   StepForecast out;
   out.density_scaling = density_scaling_of(scene.solver, 0);
   const double density = out.density_scaling * std::max(scene.materials.mastic, scene.materials.aggregate);
-  const double slowest = slowest_period(test, scene.specimen.box.size.z, affine_modulus(scene), density);
+  const double slowest = slowest_period(test, gauge_length(scene.specimen.box), affine_modulus(scene), density);
   const double ramp = ramp_of(test, slowest);
-  const LoadDamping damping = damping_of(test, scene.solver, ramp, slowest);
+  const LoadDamping damping = damping_of(test, scene.solver, facts_of(scene.laws), ramp, slowest);
   out.dt_s = load_step(test, scene.solver, critical, out.density_scaling, ramp, damping);
   out.steps = std::round(test.history.times.back() / out.dt_s);
   return out;

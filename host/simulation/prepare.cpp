@@ -6,7 +6,7 @@
 
 #include "host/fields/field_output.hpp"
 #include "host/network/clusters.hpp"
-#include "host/network/rock_lengths.hpp"
+#include "host/network/cell_volumes.hpp"
 #include "host/files/result_files.hpp"
 #include "host/files/result_folder.hpp"
 #include "host/base/seconds_of.hpp"
@@ -42,9 +42,11 @@ void remove_older(const std::filesystem::path& file) {
   if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
 }
 
-void make_cells(const Progress& progress, Preparation& out) {
+void make_cells(const Scene& scene, const Progress& progress, Preparation& out) {
   if (progress) progress("tessellation", 0);
-  out.seconds_tessellation = seconds_of([&] { out.tessellation = tessellate(out.specimen); });
+  const bool of_volume = scene.network.cells_of_voids() == VoidCells::volume;
+  out.seconds_tessellation = seconds_of(
+      [&] { out.tessellation = of_volume ? tessellate_with_void_volumes(out.specimen) : tessellate(out.specimen); });
 }
 
 /// Returns the volume of the true aggregates over the box; nothing if it is unknown.
@@ -63,8 +65,8 @@ std::optional<double> rock_fraction(const Specimen& specimen, std::span<const Ag
   return sum / specimen.box.volume();
 }
 
-/// Gives the contacts their lengths by the rule "series", and reports on the rock.
-void make_series(const Scene& scene, const std::vector<Surface>& surfaces, Preparation& out) {
+/// Gives the contacts their lengths by the rule "series" or "volumetric", and reports on the rock.
+void apply_rule(const Scene& scene, const std::vector<Surface>& surfaces, Preparation& out) {
   RockReport report;
   KnownAggregates read;
   if (scene.specimen.aggregate_file) read = read_aggregates_csv(*scene.specimen.aggregate_file, out.specimen);
@@ -72,8 +74,13 @@ void make_series(const Scene& scene, const std::vector<Surface>& surfaces, Prepa
   const std::vector<Aggregate>& aggregates = from_file ? read.aggregates : out.aggregates;
   const Specimen& specimen = out.specimen;
   const RockSurfaces rock(specimen, aggregates, from_file ? read.surfaces : surfaces);
-  apply_series(out.network, specimen, rock, scene.materials.rock_modulus.value_or(0),
-               scene.materials.mastic_poisson_ratio.value_or(0));
+  const Materials& materials = scene.materials;
+  const PhaseConstants constants{materials.rock_modulus.value_or(0), materials.mastic_poisson_ratio.value_or(0),
+                                 materials.aggregate_poisson_ratio.value_or(0)};
+  if (scene.network.rule == ContactRule::volumetric)
+    apply_volumetric(out.network, specimen, out.tessellation, rock, constants);
+  else
+    apply_series(out.network, specimen, rock, constants.rock_modulus, constants.mastic_poisson_ratio);
   report.mastic_centres_in_rock = mastic_centres_in_rock(specimen, rock);
   for (std::size_t cell = 0; cell < specimen.cells(); ++cell) {
     const Phase phase = specimen.phase_of(static_cast<std::int32_t>(cell));
@@ -94,7 +101,7 @@ void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, con
   out.seconds_network = seconds_of([&] {
     out.network = build_network(out.specimen, out.tessellation, scene.network);
     require_laws(scene, out.specimen, out.network);
-    if (scene.network.rule == ContactRule::series) make_series(scene, surfaces, out);
+    if (has_laws_of_phases(scene.network.rule)) apply_rule(scene, surfaces, out);
     for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
       if (cluster.spans()) {
         ++out.spanning_clusters;
@@ -138,7 +145,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
     out.tessellation = std::move(*cells);
     out.seconds_specimen -= out.seconds_tessellation;
   } else {
-    make_cells(progress, out);
+    make_cells(scene, progress, out);
   }
   make_contacts(scene, surfaces, progress, out);
   return out;
@@ -149,7 +156,7 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
   Preparation out;
   validate(specimen, specimen.source);
   out.specimen = std::move(specimen);
-  make_cells(progress, out);
+  make_cells(scene, progress, out);
   make_contacts(scene, {}, progress, out);
   return out;
 }

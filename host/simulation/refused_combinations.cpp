@@ -11,7 +11,29 @@
 
 namespace macadam {
 
+namespace {
+
+/// Refuses what the rule "volumetric" cannot compute. \throws InputError.
+void require_volumetric(const Scene& scene) {
+  const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
+    throw InputError(scene.file.string(), 0, what, found, expected);
+  };
+  if (scene.solver.method == SolverMethod::explicit_)
+    refuse("rule in [network]", "\"volumetric\" with method \"explicit\"",
+           "method \"harmonic\", or rule \"series\", because time steps do not compute the pressures of cells");
+  if (frequencies_of(scene.experiment).empty())
+    refuse("rule in [network]", fmt::format("\"volumetric\" with kind \"{}\"", kind_of(scene.experiment)),
+           "kind \"cyclic\" or \"sweep\", or rule \"series\", because the response without time steps is not "
+           "available for this rule");
+  if (scene.solver.backend == Backend::cuda)
+    refuse("backend in [solver]", "\"cuda\" with rule \"volumetric\"",
+           "\"cpu\", because the solver on GPUs does not compute the pressures of cells");
+}
+
+}  // namespace
+
 void require_combination(const Scene& scene) {
+  if (scene.network.rule == ContactRule::volumetric) require_volumetric(scene);
   if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
     throw InputError(scene.file.string(), 0, "method",
                      std::string("\"explicit\" with kind \"") + kind_of(scene.experiment) + "\"",
@@ -44,17 +66,6 @@ void require_combination(const Scene& scene) {
     if (scene.output.sensitivities) refuse("sensitivities in [output]", "true", "false");
     if (!temperatures_of(scene.experiment).empty())
       refuse("temperatures in [loading]", "a list", "a single temperature as temperature in [materials]");
-  }
-  if (scene.network.rule == ContactRule::series) {
-    if (scene.solver.method == SolverMethod::harmonic && frequencies_of(scene.experiment).empty()) {
-      throw InputError(scene.file.string(), 0, "rule in [network]",
-                       fmt::format("\"series\" with kind \"{}\" and method \"harmonic\"", kind_of(scene.experiment)),
-                       "method \"explicit\", because the response without time steps is not available for this rule");
-    }
-    if (scene.output.sensitivities) {
-      throw InputError(scene.file.string(), 0, "sensitivities in [output]", "true with rule \"series\"",
-                       "false, because derivatives are not available for this rule");
-    }
   }
   if (scene.output.fields.any() && !has_fields(scene)) {
     throw InputError(scene.file.string(), 0, "fields in [output]",

@@ -15,10 +15,12 @@
 #include "host/files/result_folder.hpp"
 #include "host/run/checkpoints.hpp"
 #include "host/simulation/refused_combinations.hpp"
+#include "host/run/model_error.hpp"
 #include "host/run/phases.hpp"
 #include "host/simulation/preparation_files.hpp"
 #include "host/simulation/run_ranks.hpp"
 #include "host/simulation/run_scene.hpp"
+#include "host/simulation/run_words.hpp"
 #include "host/run/sparing_save.hpp"
 #include "host/run/planned_experiment.hpp"
 #include "host/simulation/summary.hpp"
@@ -84,17 +86,9 @@ void require_same_rule(const Scene& scene, const ContactNetwork& network) {
   require("E in [materials.aggregate]", scene.materials.rock_modulus.value_or(0), network.rock_modulus);
   require("poisson_ratio in [materials.mastic]", scene.materials.mastic_poisson_ratio.value_or(0),
           network.mastic_poisson_ratio);
-}
-
-/// Returns what a run with the rule "series" reports about the rock of its specimen.
-std::string words_of(const RockReport& rock, const Specimen& specimen) {
-  std::string out = fmt::format("rule \"series\": cells of aggregates fill {:.2f} % of the box", 100 * rock.rock_cells);
-  out += rock.rock_nominal ? fmt::format(" and the aggregates {:.2f} %", 100 * *rock.rock_nominal)
-                           : " (the aggregates' own volume is unknown)";
-  if (!specimen.voids.empty())
-    out += fmt::format("; cells of voids fill {:.2f} % and the voids {:.2f} %", 100 * rock.void_cells,
-                       100 * rock.void_nominal);
-  return out + fmt::format("; the centres of {} mastic spheres lie in aggregates", rock.mastic_centres_in_rock);
+  if (network.rule == ContactRule::volumetric)
+    require("poisson_ratio in [materials.aggregate]", scene.materials.aggregate_poisson_ratio.value_or(0),
+            network.rock_poisson_ratio);
 }
 
 /// The backend that runs the scene. Another thread looks for it: the devices are counted and start up while the
@@ -133,7 +127,8 @@ class SceneRun {
            const Preparation* given)
       : scene_(std::move(scene)), out_(out), watcher_(watcher), resume_(resume), parts_(parts), given_(given) {}
 
-  RunResult run() {
+  /// Runs the scene. `about_scene`: warnings about the scene itself.
+  RunResult run(const std::vector<std::string>& about_scene) {
     begin();
     if (!given_) made_ = make_preparation();
     if (given_) require_same_rule(scene_, given_->network);
@@ -151,7 +146,12 @@ class SceneRun {
       list.insert(list.end(), more.begin(), more.end());
     };
     append(result.decisions, decisions);
-    if (prepared().rock) result.decisions.push_back(words_of(*prepared().rock, prepared().specimen));
+    if (const std::string words = words_of_air_voids(scene_); !words.empty()) result.decisions.push_back(words);
+    if (scene_.mastic_source) result.decisions.push_back(words_of(*scene_.mastic_source));
+    if (prepared().rock)
+      result.decisions.push_back(words_of(*prepared().rock, prepared().specimen, scene_.network.rule));
+    if (const auto error = model_error_of(scene_, prepared())) result.decisions.push_back(words_of(*error));
+    append(result.warnings, about_scene);
     append(result.warnings, warnings);
     append(result.warnings, packing);
     if (scene_.network.lateral_walls) {
@@ -291,7 +291,11 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
                     const RunParts& parts, const Preparation* given) {
   require_combination(scene);
   const ThreadLimit threads(scene.solver.threads);
-  return SceneRun(std::move(scene), out, watcher, resume, parts, given).run();
+  std::vector<std::string> warnings = compute_mastic_law(scene, watcher);
+  for (const auto& more : {law_range_warnings(scene), scene.specimen.merged})
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  if (watcher.warn) std::ranges::for_each(warnings, watcher.warn);
+  return SceneRun(std::move(scene), out, watcher, resume, parts, given).run(warnings);
 }
 
 namespace {

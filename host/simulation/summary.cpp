@@ -10,6 +10,7 @@
 #include "host/experiments/experiment.hpp"
 #include "host/files/result_files.hpp"
 #include "host/run/checkpoints.hpp"
+#include "host/run/model_error.hpp"
 #include "host/simulation/recipe_summary.hpp"
 #include "macadam/error.hpp"
 #include "macadam/version.hpp"
@@ -61,6 +62,12 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["voids"] = prepared.specimen.voids.size();
   const Vec3d& size = prepared.specimen.box.size;
   out["box_m"] = {size.x, size.y, size.z};
+  if (!prepared.specimen.box.is_box()) {
+    out["domain"] = {{"shape", prepared.specimen.box.name()},
+                     {"section_m2", section_area(prepared.specimen)},
+                     {"gauge_length_m", gauge_length(prepared.specimen)},
+                     {"volume_m3", prepared.specimen.box.volume()}};
+  }
   for (const PairType pair : {PairType::aa, PairType::ma, PairType::mm, PairType::inner, PairType::aw, PairType::mw}) {
     out["contacts"][to_string(pair)] = prepared.network.count[static_cast<std::size_t>(pair)];
   }
@@ -77,6 +84,23 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                    {"void_fraction_cells", rock.void_cells},
                    {"void_fraction_nominal", rock.void_nominal},
                    {"mastic_centres_in_rock", rock.mastic_centres_in_rock}};
+  }
+  if (const auto found = model_error_of(scene, prepared)) {
+    out["model_error"] = {{"rock_fraction", found->rock},
+                          {"ratio", {found->lowest_ratio, found->highest_ratio}},
+                          {"e_star", found->error ? Json(found->error->e_star) : Json()},
+                          {"phase_deg", found->error ? Json(found->error->phase_deg) : Json()},
+                          {"continuum_uncertainty", found->error ? Json(found->error->uncertainty) : Json()},
+                          {"words", words_of(*found)}};
+  }
+  if (scene.mastic_source && scene.mastic_source->computed) {
+    const MasticSource::Computed& c = *scene.mastic_source->computed;
+    out["mastic"] = {{"from", scene.mastic_source->file.string()},
+                     {"frequency_range_hz", {c.lowest_hz, c.highest_hz}},
+                     {"units", c.units},
+                     {"largest_difference", c.largest_difference},
+                     {"folder", c.folder.empty() ? Json() : Json(c.folder.string())},
+                     {"kept_before", c.kept_before}};
   }
   for (const CompositionRow& row : prepared.composition) {
     out["composition"].push_back({{"class", row.name},

@@ -175,7 +175,7 @@ Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const S
   return recipe;
 }
 
-void require_fit(const Origin& origin, const std::string& size_class, double largest, const Box& box) {
+void require_fit(const Origin& origin, const std::string& size_class, double largest, const Domain& box) {
   const double edge = std::min({box.size.x, box.size.y, box.size.z});
   if (largest > edge)
     refuse(origin, "aggregate class " + size_class + ": largest diameter", millimetres(largest) + " mm",

@@ -68,7 +68,7 @@ Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const S
 
 /// Checks that the largest aggregate of a class fits in the box. \throws InputError if its size `largest` [m] exceeds
 /// the shortest edge of the box.
-void require_fit(const Origin& origin, const std::string& size_class, double largest, const Box& box);
+void require_fit(const Origin& origin, const std::string& size_class, double largest, const Domain& box);
 
 /// Draws the radii of all aggregates and mastic spheres of a recipe. Volume fractions refer to the solid volume: (1 −
 /// porosity)·(box − voids), or the value that follows from the count of mastic spheres. Without mastic the solid volume

@@ -22,7 +22,7 @@ namespace {
 /// Random stream of the placement. The streams of the sizes are numbered in composition.cpp.
 constexpr std::uint64_t placement_stream = 2;
 
-double smallest_aggregate(const Composition& composition, const Box& box) {
+double smallest_aggregate(const Composition& composition, const Domain& box) {
   double smallest = std::min({box.size.x, box.size.y, box.size.z});
   for (const Population& p : composition.aggregate)
     if (!p.radius.empty()) smallest = std::min(smallest, p.radius.back());

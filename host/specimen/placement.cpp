@@ -114,19 +114,19 @@ void Placement::place_mastic(const Population& mastic) {
   if (mastic.radius.empty()) return;
   std::size_t placed = 0;
   const auto place = [&](Draws draws) {
-    add(random_point(draws, {0, 0, 0}, specimen_.box.size), mastic.radius[placed], Phase::mastic, -1);
+    add(random_point(draws, {0, 0, 0}, domain().size), mastic.radius[placed], Phase::mastic, -1);
     return ++placed < mastic.radius.size();
   };
   // `place` and `free` get the same random numbers, so both compute the same point.
-  const auto free = [&](Draws draws) { return clear_of_placed(random_point(draws, {0, 0, 0}, specimen_.box.size), 0); };
+  const auto free = [&](Draws draws) { return free_for_mastic(random_point(draws, {0, 0, 0}, domain().size)); };
   if (!random_.each_good(attempts_, 3, tries_at_once, free, place)) no_room_for_mastic();
 }
 
 Vec3d Placement::point_outside_aggregates() {
-  const auto free = [&](Draws draws) { return clear_of_placed(random_point(draws, {0, 0, 0}, specimen_.box.size), 0); };
+  const auto free = [&](Draws draws) { return free_for_mastic(random_point(draws, {0, 0, 0}, domain().size)); };
   auto found = random_.first_good(attempts_, 3, tries_at_once, free);
   if (!found) no_room_for_mastic();
-  return random_point(*found, {0, 0, 0}, specimen_.box.size);
+  return random_point(*found, {0, 0, 0}, domain().size);
 }
 
 void Placement::no_room_for_mastic() const {
@@ -134,12 +134,15 @@ void Placement::no_room_for_mastic() const {
                  " attempts; choose less aggregate");
 }
 
-/// Returns a random centre for a sphere inside the box, clear of all placed spheres; nothing if all attempts_ trials
+/// Returns a random centre for a sphere inside the domain, clear of all placed spheres; nothing if all attempts_ trials
 /// fail.
 std::optional<Vec3d> Placement::position_for(double radius, double spacing) {
-  const Vec3d low{radius, radius, radius}, high = specimen_.box.size - low;
+  const Vec3d low{radius, radius, radius}, high = domain().size - low;
   const std::int64_t plain = std::min(attempts_, plain_attempts);
-  const auto anywhere = [&](Draws draws) { return clear_of_placed(random_point(draws, low, high), radius + spacing); };
+  const auto anywhere = [&](Draws draws) {
+    const Vec3d point = random_point(draws, low, high);
+    return domain().inside_sides(point, radius) && clear_of_placed(point, radius + spacing);
+  };
   if (auto found = random_.first_good(plain, 3, tries_at_once, anywhere)) return random_point(*found, low, high);
   if (plain == attempts_) return std::nullopt;
   // Trials are made only in the cells that placed spheres do not cover completely. Successful trials then have the same
@@ -154,10 +157,14 @@ std::optional<Vec3d> Placement::position_for(double radius, double spacing) {
     const Vec3d point = in_the_open(draws);
     const bool inside = point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y &&
                         point.z >= low.z && point.z <= high.z;
-    return inside && clear_of_placed(point, radius + spacing);
+    return inside && domain().inside_sides(point, radius) && clear_of_placed(point, radius + spacing);
   };
   if (auto found = random_.first_good(attempts_ - plain, 4, tries_at_once, free)) return in_the_open(*found);
   return std::nullopt;
+}
+
+bool Placement::free_for_mastic(const Vec3d& point) const {
+  return domain().inside_sides(point, 0) && clear_of_placed(point, 0);
 }
 
 bool Placement::clear_of_placed(const Vec3d& point, double distance) const {
@@ -170,7 +177,7 @@ bool Placement::clear_of_placed(const Vec3d& point, double distance) const {
 
 /// Returns the cells that may have space for the centre of a sphere of this radius.
 std::vector<std::size_t> Placement::open_cells(double radius) const {
-  const Vec3d edge = grid_.edge(), size = specimen_.box.size;
+  const Vec3d edge = grid_.edge(), size = domain().size;
   std::vector<std::size_t> open;
   for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
     const Vec3d a = grid_.corner(cell), b = a + edge;

@@ -103,7 +103,7 @@ class Lines {
 /// Reads one file. Keeps its name and the current line for messages.
 class CsvReader {
  public:
-  CsvReader(const std::filesystem::path& file, const Box& box) : lines_(file) {
+  CsvReader(const std::filesystem::path& file, const Domain& box) : lines_(file) {
     specimen_.box = box;
     specimen_.source = file.string();
   }
@@ -197,7 +197,7 @@ class CsvReader {
 
 }  // namespace
 
-Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box) { return CsvReader(file, box).read(); }
+Specimen read_specimen_csv(const std::filesystem::path& file, const Domain& box) { return CsvReader(file, box).read(); }
 
 void write_specimen_csv(const std::filesystem::path& file, const Specimen& particles) {
   const Specimen specimen = with_voids_as_cells(particles);

@@ -33,7 +33,7 @@ constexpr double no_unit = 1e-14;
 constexpr double below = 1e-4, above = 10;
 constexpr int per_decade = 6;
 /// A vector is not used if its part outside the span of the others is shorter than this fraction of it.
-constexpr double nothing_new = 1e-9;
+constexpr double least_remainder = 1e-9;
 
 /// Returns Lᵀ with L·Lᵀ = `form`. It has one row for each direction in which `form` has stiffness.
 MatrixXd root_of(const MatrixXd& form) {
@@ -57,7 +57,7 @@ MatrixXd orthonormal(MatrixXd columns) {
       x -= before * (before.transpose() * x).eval();
     }
     const double rest = x.norm();
-    if (rest > nothing_new * whole) columns.col(kept++) = x / rest;
+    if (rest > least_remainder * whole) columns.col(kept++) = x / rest;
   }
   return columns.leftCols(kept);
 }

@@ -22,7 +22,7 @@ constexpr double no_modulus = 1e-14;
 PronySeries relaxation_in_series(Law law, double series) {
   std::visit(
       [&]<class L>(L& l) {
-        if constexpr (std::is_same_v<L, laws::GeneralisedKelvin>)
+        if constexpr (std::is_base_of_v<laws::GeneralisedKelvin, L>)
           l.E_m /= 1 + series * l.E_m;
         else
           l.E /= 1 + series * l.E;

@@ -22,7 +22,7 @@ constexpr double longest_move = 0.1;  // largest movement of a sphere per iterat
 // Skin of the neighbour lists in mean mastic radii. With a smaller skin the lists are made too often; with a larger
 // skin they are too long.
 constexpr double skin_share = 1.15;
-// Stiffness of a contact between two aggregates, or between an aggregate and a box wall, divided by the stiffness of a
+// Stiffness of a contact between two aggregates, or between an aggregate and a wall, divided by the stiffness of a
 // mastic contact. The contact is stiffer, so that aggregates overlap less than mastic.
 constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
@@ -57,7 +57,7 @@ class Relaxation {
  public:
   Relaxation(Specimen& specimen, bool fix_aggregates, const Enclosure& wall)
       : s_(specimen),
-        box_(specimen.box.size),
+        domain_(specimen.box),
         wall_(wall),
         first_mastic_(std::find(s_.phase.begin(), s_.phase.end(), Phase::mastic) - s_.phase.begin()),
         first_(fix_aggregates ? first_mastic_ : 0),
@@ -153,12 +153,9 @@ class Relaxation {
     const std::span<const std::int32_t> near = neighbours_.of(i);
     for (std::size_t from = 0; from < near.size(); from += most_at_once)
       push(i, near.subspan(from, std::min(most_at_once, near.size() - from)), force, with_energy ? &energy : nullptr);
-    const auto side = [&energy, r = r, k_wall](double& component, double position, double length) {
-      const double low = std::max(0.0, r - position), high = std::max(0.0, r - (length - position));
-      component += k_wall * (low - high);
-      energy += 0.5 * k_wall * (low * low + high * high);
-    };
-    side(force.x, c.x, box_.x), side(force.y, c.y, box_.y), side(force.z, c.z, box_.z);
+    const domains::Overlap beyond = domain_.overlap(c, r);
+    force += k_wall * beyond.push;
+    for (const double square : {beyond.squares.x, beyond.squares.y, beyond.squares.z}) energy += 0.5 * k_wall * square;
     if (wall_.depth) {
       const auto [depth, inward] = wall_.depth(c, r);
       if (const double overlap = r - depth; overlap > 0) {
@@ -250,15 +247,14 @@ class Relaxation {
     if (speed > most) v = (most / speed) * v;
     velocity_[i] = v;
     const Vec3d p = ball_[i].centre + dt * v;
-    // No centre may reach a wall, because a sphere outside the box has no cell.
-    const auto inside = [&](double x, double length) { return std::clamp(x, 1e-3 * length, 0.999 * length); };
-    ball_[i].centre = {inside(p.x, box_.x), inside(p.y, box_.y), inside(p.z, box_.z)};
+    // No centre may reach a wall, because a sphere outside the domain has no cell.
+    ball_[i].centre = domain_.pulled_inside(p);
   }
 
   static constexpr std::size_t most_at_once = 64;  // pairs that push() handles in one call
 
   Specimen& s_;
-  Vec3d box_;  ///< edges [m]
+  Domain domain_;
   const Enclosure& wall_;
   std::size_t first_mastic_, first_;  ///< index of the first mastic sphere, and of the first sphere that moves
   double unit_;                       ///< mean radius of the mastic [m]

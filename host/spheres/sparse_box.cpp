@@ -14,9 +14,9 @@ std::string sparse_box(const Specimen& specimen) {
   for (const double r : specimen.radius) filled += 4 * std::numbers::pi / 3 * r * r * r / specimen.box.volume();
   if (filled >= least) return {};
   return fmt::format(
-      "spheres fill {:.2g} % of the box of {:g} x {:g} x {:g} m, expected {:g} % or more; check that the lengths of "
-      "the spheres and of the box are in metres",
-      100 * filled, specimen.box.size.x, specimen.box.size.y, specimen.box.size.z, 100 * least);
+      "spheres fill {:.2g} % of the {}, expected {:g} % or more; check that the lengths of the spheres and of the {} "
+      "are in metres",
+      100 * filled, specimen.box.dimensions(), 100 * least, specimen.box.name());
 }
 
 }  // namespace macadam

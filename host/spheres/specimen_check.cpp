@@ -51,6 +51,8 @@ std::string point(const Vec3d& v) { return "(" + shown(v.x) + ", " + shown(v.y) 
 std::optional<SpecimenFault> fault_of_arrays(const Specimen& s) {
   for (double edge : {s.box.size.x, s.box.size.y, s.box.size.z})
     if (!(std::isfinite(edge) && edge > 0)) return SpecimenFault{-1, "box", point(s.box.size), "positive edges"};
+  if (const char* expected = s.box.expected_size())
+    return SpecimenFault{-1, std::string("bounding box of the ") + s.box.name(), point(s.box.size), expected};
   const std::size_t n = s.size();
   if (n == 0) return SpecimenFault{-1, "particles", "0", "at least 1"};
   if (s.cells() > static_cast<std::size_t>(most_particles))
@@ -72,6 +74,9 @@ std::optional<SpecimenFault> fault_of_sphere(const Specimen& s, std::size_t i, b
   // The conditions are written such that NaN fails too.
   if (!(c.x >= 0 && c.x <= l.x && c.y >= 0 && c.y <= l.y && c.z >= 0 && c.z <= l.z))
     return fault("centre", point(c), "a point in the box from (0, 0, 0) to " + point(l));
+  if (!s.box.contains(c))
+    return fault("centre", point(c),
+                 "a point in the " + s.box.dimensions() + ", whose axis is x = y = " + shown(0.5 * l.x) + " m");
   if (!(std::isfinite(s.radius[i]) && s.radius[i] > 0))
     return fault("radius", shown(s.radius[i]), "a finite positive number");
   if (is_void) return std::nullopt;

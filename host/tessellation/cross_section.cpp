@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cross_section.cpp  Computes the polygon in which the section plane cuts each cell: the plane's rectangle in the box,
+// cross_section.cpp  Computes the polygon in which the section plane cuts each cell: the section of the domain,
 // clipped by the planes of equal power with the neighbouring cells.
 #include "macadam/cross_section.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 
 /// Returns the box's wall on the plus side of the plane's axis, moved to the plane's position. \throws InputError if
 /// the axis is not x, y or z, or if the plane is outside of the box.
-WallPlane plane_in_box(const SectionPlane& plane, const Box& box) {
+WallPlane plane_in_box(const SectionPlane& plane, const Domain& box) {
   if (plane.axis < 'x' || plane.axis > 'z')
     throw InputError("section", 0, "axis", fmt::format("'{}'", plane.axis), "x, y or z");
   WallPlane out(2 * (plane.axis - 'x') + 1, box.size);
@@ -54,12 +54,13 @@ struct Side {
 /// Cuts one cell after the other and uses the same buffers for all.
 class Cutter {
  public:
-  Cutter(const Vec3d& box, const WallPlane& plane) : box_(box), plane_(plane), rounding_(rounding_bound(box)) {}
+  Cutter(const Domain& domain, const WallPlane& plane)
+      : walls_(domain), plane_(plane), rounding_(rounding_bound(domain.size)) {}
 
   /// Returns the polygon in which the section plane cuts the cell between these sides. The polygon is empty if the
   /// plane and the cell have no area in common. Sorts the sides.
   const Polygon& cut(std::vector<Side>& sides) {
-    plane_.rectangle(box_, polygon_);
+    walls_.section(plane_, rounding_, polygon_, scratch_);
     // Sides at a large angle to the section plane are applied first. A side that is parallel to the section plane
     // except for rounding is applied last, when the polygon is already as small as the facet on this side. Over such a
     // small polygon the heights that result from the side's tilt are within the tolerance.
@@ -96,7 +97,7 @@ class Cutter {
                                             [&](const Vec3d& p) { return std::abs(side.height(p)) <= tolerance; });
   }
 
-  Vec3d box_;
+  DomainWalls walls_;
   WallPlane plane_;
   double rounding_;
   Polygon polygon_, scratch_;
@@ -129,7 +130,7 @@ std::vector<std::pair<std::int32_t, const Facet*>> facets_at(const WallPlane& pl
 
 }  // namespace
 
-SectionPlane read_section_plane(const std::string& text, const Box& box) {
+SectionPlane read_section_plane(const std::string& text, const Domain& box) {
   const std::string_view expected = "an axis and a length, such as x=0.025 or \"x=25 mm\"";
   if (text.size() < 3 || text[1] != '=')
     throw InputError("section", 0, "plane", '"' + text + '"', std::string(expected));
@@ -148,7 +149,7 @@ CrossSection cut(const Specimen& particles, const Tessellation& tessellation, co
   const auto facets = facets_at(at, specimen, tessellation);
   CrossSection out;
   out.plane = plane;
-  Cutter cutter(specimen.box.size, at);
+  Cutter cutter(specimen.box, at);
   std::vector<Side> sides;
   for (auto f = facets.begin(); f != facets.end();) {
     const std::int32_t cell = f->first;

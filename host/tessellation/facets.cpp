@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file facets.cpp  Makes facets from the dual of the triangulation: polygons, clipped by the walls of the box.
+/// \file facets.cpp  Makes facets from the dual of the triangulation: polygons, clipped by the walls of the domain.
 #include "host/tessellation/facets.hpp"
 
 #include <fmt/format.h>
@@ -37,13 +37,13 @@ struct Neighbour {
 /// buffers.
 class FacetMaker {
  public:
-  FacetMaker(const Specimen& specimen, const PowerDiagram& diagram, const std::vector<std::uint8_t>& beyond,
-             FacetBlock& out)
+  FacetMaker(const Specimen& specimen, const PowerDiagram& diagram, const DomainWalls& walls,
+             const std::vector<std::uint8_t>& beyond, FacetBlock& out)
       : specimen_(specimen),
         diagram_(diagram),
+        walls_(walls),
         beyond_(beyond),
-        box_(specimen.box.size),
-        rounding_(rounding_bound(box_)),
+        rounding_(rounding_bound(walls.size())),
         out_(out) {}
 
   /// Makes the facets of particle a with the walls and with particles of higher number, in this order. `begin` … `end`
@@ -66,8 +66,13 @@ class FacetMaker {
                       neighbours_.end());
     for (const Neighbour& b : neighbours_)
       if (b.particle > a) require_apart(a, b.particle);
-    for (int k = wall_count - 1; k >= 0; --k)
-      if (walls >> k & 1) wall_facet(a, k);
+    for (int k = wall_count - 1; k >= 0; --k) {
+      if (!(walls >> k & 1)) continue;
+      if (walls_.is_flat(k))
+        wall_facet(a, k);
+      else
+        side_facets(a, begin, end);
+    }
     for (const Neighbour& b : neighbours_)
       if (b.particle > a) particle_facet(a, b);
   }
@@ -122,7 +127,11 @@ class FacetMaker {
     const unsigned walls = circulate(a, b);
     for (int k = 0; k < wall_count; ++k) {
       if (!(walls >> k & 1)) continue;
-      const WallPlane wall(k, box_);
+      if (!walls_.is_flat(k)) {
+        walls_.clip_by_sides(rounding_, polygon_, scratch_, [](const Vec3d&) {});
+        continue;
+      }
+      const WallPlane wall(k, walls_.size());
       clip(
           polygon_, scratch_, rounding_, [&](const Vec3d& p) { return wall.height(p); },
           [&](Vec3d& p) { p.*wall.coordinate = wall.position; });
@@ -132,22 +141,39 @@ class FacetMaker {
     if (!add(a, b.particle, plane.normal, plane.distance)) ++out_.null_facets;
   }
 
-  /// Makes the facet of a particle on wall k: the wall's rectangle, clipped by the planes of equal power with all
-  /// neighbours.
+  /// Makes the facet of a particle on the flat wall k.
   void wall_facet(std::int32_t a, int k) {
-    const WallPlane wall(k, box_);
-    wall.rectangle(box_, polygon_);
-    double nearest = norm(box_);
+    const WallPlane wall(k, walls_.size());
+    walls_.whole_wall(k, polygon_);
+    facet_on_wall(a, -1 - k, wall.normal(), [&](Vec3d& p) { p.*wall.coordinate = wall.position; });
+  }
+
+  /// Makes the facets of a particle on the planes of the curved sides. `begin` … `end` are the tetrahedra that contain
+  /// the particle. The cell reaches a plane only if one of their dual points lies beyond the plane.
+  void side_facets(std::int32_t a, const std::int32_t* begin, const std::int32_t* end) {
+    for (std::size_t j = 0; j < walls_.sides().size(); ++j) {
+      const domains::Plane& side = walls_.sides()[j];
+      if (std::none_of(begin, end, [&](std::int32_t t) { return side.height(diagram_.dual[t]) >= -rounding_; }))
+        continue;
+      walls_.whole_side(j, polygon_);
+      facet_on_wall(a, wall_x_lo, side.normal, [](const Vec3d&) {});
+    }
+  }
+
+  /// Makes the facet of a particle on a plane of a wall: polygon_, which is the whole plane, clipped by the planes of
+  /// equal power with all neighbours. `land` moves a new vertex onto the plane.
+  template <class Land>
+  void facet_on_wall(std::int32_t a, std::int32_t wall, const Vec3d& normal, const Land& land) {
+    double nearest = norm(walls_.size());
     for (const Neighbour& b : neighbours_) {
       const Bisector plane(specimen_, a, b.particle);
       nearest = std::min(nearest, plane.distance);
       clip(
           polygon_, scratch_, rounding_,
-          [&](const Vec3d& p) { return dot(p - specimen_.centre[a], plane.normal) - plane.arm; },
-          [&](Vec3d& p) { p.*wall.coordinate = wall.position; });
+          [&](const Vec3d& p) { return dot(p - specimen_.centre[a], plane.normal) - plane.arm; }, land);
       if (polygon_.empty()) return;
     }
-    add(a, -1 - k, wall.normal(), nearest);
+    add(a, wall, normal, nearest);
   }
 
   /// Simplifies polygon_ and stores it as one facet. Returns false if it has no area. Lengths below 1e-10 of `scale`,
@@ -173,22 +199,25 @@ class FacetMaker {
 
   const Specimen& specimen_;
   const PowerDiagram& diagram_;
+  const DomainWalls& walls_;
   const std::vector<std::uint8_t>& beyond_;
-  Vec3d box_;
   double rounding_;
   FacetBlock& out_;
   Polygon polygon_, scratch_;
   std::vector<Neighbour> neighbours_;
 };
 
-/// Returns, for each dual point, the walls (as bits 0…5) that the point touches or lies beyond, up to rounding.
-std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d& box) {
-  const double rounding = rounding_bound(box);
+/// Returns, for each dual point, the walls (as bits 0…5) that the point touches or lies beyond, up to rounding. Bit 0
+/// is also set for points near the curved sides.
+std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const DomainWalls& walls) {
+  const double rounding = rounding_bound(walls.size());
   std::vector<std::uint8_t> beyond(diagram.dual.size(), 0);
 #pragma omp parallel for schedule(static)
-  for (std::size_t t = 0; t < beyond.size(); ++t)
+  for (std::size_t t = 0; t < beyond.size(); ++t) {
     for (int k = 0; k < wall_count; ++k)
-      if (WallPlane(k, box).height(diagram.dual[t]) >= -rounding) beyond[t] |= 1U << k;
+      if (walls.is_flat(k) && WallPlane(k, walls.size()).height(diagram.dual[t]) >= -rounding) beyond[t] |= 1U << k;
+    if (walls.may_be_beyond_sides(diagram.dual[t])) beyond[t] |= 1U;
+  }
   return beyond;
 }
 
@@ -220,13 +249,14 @@ struct Incidence {
 void make_facets(const Specimen& specimen, const PowerDiagram& diagram, Tessellation& out) {
   const std::size_t n = specimen.size();
   const Incidence incidence(diagram, n);
-  const std::vector<std::uint8_t> beyond = beyond_walls(diagram, specimen.box.size);
+  const DomainWalls walls(specimen.box);
+  const std::vector<std::uint8_t> beyond = beyond_walls(diagram, walls);
   // Blocks of particles are independent and are joined in order, so the result does not depend on the number of
   // threads.
   constexpr std::size_t block_size = 256;
   std::vector<FacetBlock> blocks((n + block_size - 1) / block_size);
   for_each_in_parallel(blocks.size(), [&](std::size_t k) {
-    FacetMaker maker(specimen, diagram, beyond, blocks[k]);
+    FacetMaker maker(specimen, diagram, walls, beyond, blocks[k]);
     const std::int32_t* list = incidence.list.data();
     for (std::size_t a = k * block_size; a < std::min(n, (k + 1) * block_size); ++a)
       maker.particle(static_cast<std::int32_t>(a), list + incidence.begin[a], list + incidence.begin[a + 1]);

@@ -6,14 +6,14 @@
 #include <numeric>
 
 #include "host/tessellation/facets.hpp"
+#include "host/tessellation/void_cells.hpp"
 #include "macadam/tessellation.hpp"
 
 namespace macadam {
 
 TessellationInvariants measure_invariants(const Specimen& particles, const Tessellation& tessellation) {
-  const Specimen specimen = with_voids_as_cells(particles);
+  const Specimen specimen = with_voids_as_cells(with_void_weights(particles, tessellation.void_weight));
   TessellationInvariants out;
-  const Vec3d& box = specimen.box.size;
   std::vector<Vec3d> closing(specimen.size());
   std::vector<double> surface(specimen.size(), 0);
   std::array<double, wall_count> wall_area{};
@@ -22,13 +22,12 @@ TessellationInvariants measure_invariants(const Specimen& particles, const Tesse
     surface[f.a] += f.area;
     const Vec3d& pa = specimen.centre[f.a];
     if (f.b < 0) {
-      const WallPlane wall(-1 - f.b, box);
       wall_area[-1 - f.b] += f.area;
       // The scale is the distance between the particle and its mirror image, which is twice the distance from the wall.
       // It is at least the radius, because the centre may lie on the wall.
-      const double scale = std::max(2 * std::abs(wall.height(pa)), specimen.radius[f.a]);
+      const double scale = std::max(2 * std::abs(height_above_wall(specimen.box, f, pa)), specimen.radius[f.a]);
       for (const Vec3d& v : tessellation.polygon(f))
-        out.flatness = std::max(out.flatness, std::abs(wall.height(v)) / scale);
+        out.flatness = std::max(out.flatness, std::abs(height_above_wall(specimen.box, f, v)) / scale);
       continue;
     }
     closing[f.b] -= f.area * f.normal;
@@ -44,9 +43,8 @@ TessellationInvariants measure_invariants(const Specimen& particles, const Tesse
   for (std::size_t i = 0; i < specimen.size(); ++i)
     if (surface[i] > 0) out.closure = std::max(out.closure, norm(closing[i]) / surface[i]);
   for (int k = 0; k < wall_count; ++k) {
-    const WallPlane wall(k, box);
-    const double area = box.*wall.u * (box.*wall.v);
-    out.walls = std::max(out.walls, std::abs(wall_area[k] - area) / area);
+    const double area = specimen.box.wall_area(k);
+    if (area > 0) out.walls = std::max(out.walls, std::abs(wall_area[k] - area) / area);
   }
   const auto& volume = tessellation.cell_volume;
   // The sum uses long double: in double precision, a sum of n equal volumes could have a relative error of up to n·ε/2.

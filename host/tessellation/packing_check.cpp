@@ -106,7 +106,7 @@ std::int32_t farthest_side(const Specimen& all, const Tessellation& tessellation
 }
 
 std::string name_of(const Specimen& specimen, std::int32_t cell) {
-  if (cell < 0) return fmt::format("the {} wall", wall_names[wall_index(cell)]);
+  if (cell < 0) return fmt::format("the {} wall", specimen.box.wall_name(-1 - cell));
   const auto number = static_cast<std::size_t>(cell);
   return number < specimen.size() ? fmt::format("particle {}", number)
                                   : fmt::format("void {}", number - specimen.size());
@@ -118,18 +118,16 @@ std::vector<std::string> packing_warnings(const Specimen& specimen, const Tessel
   if (std::string sparse = sparse_box(specimen); !sparse.empty()) return {std::move(sparse)};
   const Specimen all = with_voids_as_cells(specimen);
   const double fill = filled_fraction(all, tessellation);
-  const Vec3d& box = specimen.box.size;
-  const std::string filled =
-      fmt::format("spheres fill {:.3g} % of the box of {:g} x {:g} x {:g} m", 100 * fill, box.x, box.y, box.z);
+  const std::string filled = fmt::format("spheres fill {:.3g} % of the {}", 100 * fill, specimen.box.dimensions());
   std::vector<std::string> out;
   if (const Reach reach = farthest_reach(all, tessellation); reach.cell >= 0) {
     const std::string cell = name_of(specimen, reach.cell);
     out.push_back(fmt::format(
-        "the packing does not fill its box: the program treats the gap between {} and {} as solid material "
+        "the packing does not fill its {}: the program treats the gap between {} and {} as solid material "
         "that carries load. The cell of {} reaches {:.3g} m from the surface of its sphere, {:.3g} times the "
         "largest radius of this sphere and its neighbours (expected at most {:g} times); {}",
-        cell, name_of(specimen, farthest_side(all, tessellation, reach)), cell, reach.distance, reach.radii, most_radii,
-        filled));
+        specimen.box.name(), cell, name_of(specimen, farthest_side(all, tessellation, reach)), cell, reach.distance,
+        reach.radii, most_radii, filled));
   }
   if (fill > most_fill)
     out.push_back(

@@ -35,7 +35,7 @@ std::vector<double> measure_cells(const Specimen& specimen, Tessellation& out) {
   for (const Facet& f : out.facets) {
     surface[f.a] += f.area;
     if (f.b < 0) {
-      out.cell_volume[f.a] -= f.area * WallPlane(-1 - f.b, specimen.box.size).height(specimen.centre[f.a]) / 3;
+      out.cell_volume[f.a] -= f.area * height_above_wall(specimen.box, f, specimen.centre[f.a]) / 3;
       continue;
     }
     const Bisector plane(specimen, f.a, f.b);

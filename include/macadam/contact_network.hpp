@@ -29,9 +29,16 @@ const char* to_string(Quadrature);
 
 /// The way in which a contact gets its stiffness (docs/model/contacts.md, section 25). `centres`: each pair of
 /// materials has a law, which acts over the distance of the centres; `series`: each phase has a law, and mastic and
-/// rock act in series over the parts of the line of centres that lie in them.
-enum class ContactRule : std::uint8_t { centres, series };
+/// rock act in series over the parts of the line of centres that lie in them; `volumetric`: as `series`, with the shear
+/// moduli of the phases, and the cell of each particle resists a change of its volume (section 26).
+enum class ContactRule : std::uint8_t { centres, series, volumetric };
 const char* to_string(ContactRule);
+/// Returns whether a scene with this rule has one law for each phase, from which the laws of the pairs follow.
+constexpr bool has_laws_of_phases(ContactRule rule) { return rule != ContactRule::centres; }
+
+/// Volumes of the cells of voids. `spheres`: the weights are the squared radii, so cells are larger than their spheres
+/// (tessellate()); `volume`: each cell has the volume of its sphere (tessellate_with_void_volumes()).
+enum class VoidCells : std::uint8_t { spheres, volume };
 
 /// Limits within which a facet between two particles becomes a contact. Without limits, every facet becomes a contact.
 struct FacetLimits {
@@ -46,7 +53,14 @@ struct NetworkSpec : FacetLimits {
   Quadrature quadrature = Quadrature::lumped;
   bool bottom_top_walls = true;             ///< facets on −z and +z are contacts
   bool lateral_walls = false;               ///< facets on ±x and ±y are contacts
-  ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; apply_series() changes the contacts
+  ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; prepare() applies it to the contacts
+  std::optional<VoidCells> void_cells =
+      {};  ///< build_network() ignores it; empty: `spheres` for the rule "centres", else `volume`
+
+  /// Returns the volumes of the cells of voids that this network is made with.
+  VoidCells cells_of_voids() const {
+    return void_cells.value_or(rule == ContactRule::centres ? VoidCells::spheres : VoidCells::volume);
+  }
 };
 
 /// Area moments of a facet: Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t², in local coordinates about x0:
@@ -73,6 +87,15 @@ struct Contact {
   std::uint32_t point_begin = 0, point_end = 0;
 };
 
+/// Resistance of a particle's cell to a change of its volume, with the rule "volumetric" (docs/model/contacts.md,
+/// section 26).
+struct CellStiffness {
+  /// λ'·(1 + ν)²/(E·V) [1/m³], with the Poisson's ratio ν and the modulus E of the cell's phase, the volume V of the
+  /// cell, and λ' = λ reduced by the free facets of the cell. It is a number of the geometry and of ν.
+  double weight = 0;
+  PairType law = PairType::mm;  ///< the pair that has the law of the cell's phase: mm or inner
+};
+
 /// The contacts of a specimen, in order of (a, b) like the facets of the tessellation.
 struct ContactNetwork {
   std::vector<Contact> contacts;
@@ -86,9 +109,11 @@ struct ContactNetwork {
   double dropped_share = 0;
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;  ///< of the moment ss + tt, over all contacts: Σ|lumped − exact| / Σ exact
-  ContactRule rule = ContactRule::centres;  ///< `series` once the lengths of the contacts are set by this rule
-  double rock_modulus = 0;                  ///< with rule "series": E of the rock in Contact::series [Pa]
-  double mastic_poisson_ratio = 0;          ///< with rule "series": ν in Contact::length of A-A contacts
+  ContactRule rule = ContactRule::centres;  ///< the rule by which the lengths of the contacts were set
+  double rock_modulus = 0;                  ///< with laws of phases: E of the rock in Contact::series [Pa]
+  double mastic_poisson_ratio = 0;          ///< with laws of phases: ν in Contact::length
+  double rock_poisson_ratio = 0;            ///< with rule "volumetric": ν of the rock
+  std::vector<CellStiffness> cells;         ///< with rule "volumetric": one per particle; otherwise empty
 
   /// Returns the numbers of a particle's contacts, in rising order.
   std::span<const std::uint32_t> row(std::size_t particle) const {
@@ -105,8 +130,8 @@ void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 /// \throws InputError if a particle has no cell (names its number) or if no contact remains.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});
 
-/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. With the rule
-/// "series" the columns `length,series` follow. \throws RunError.
+/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. With the
+/// rules "series" and "volumetric" the columns `length,series` follow. \throws RunError.
 void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network);
 
 }  // namespace macadam

@@ -21,8 +21,8 @@ struct SectionPlane {
 
 /// Reads "x=0.025" (metres) or "x=25 mm".
 ///
-/// \throws InputError for another axis, for a text that is not a length, or for a plane outside the box.
-SectionPlane read_section_plane(const std::string& text, const Box& box);
+/// \throws InputError for another axis, for a text that is not a length, or for a plane outside the bounding box.
+SectionPlane read_section_plane(const std::string& text, const Domain& domain);
 
 /// The part of a plane that lies in one cell.
 struct SectionCell {
@@ -31,7 +31,7 @@ struct SectionCell {
   std::uint32_t vertex_begin = 0, vertex_end = 0;  ///< range in CrossSection::vertices
 };
 
-/// Convex polygons that fill the cross-section of the box without gaps or overlaps.
+/// Convex polygons that fill the cross-section of the domain without gaps or overlaps.
 struct CrossSection {
   SectionPlane plane;
   std::vector<SectionCell> cells;  ///< in order of particles; only cells whose section has an area
@@ -44,11 +44,11 @@ struct CrossSection {
   }
 };
 
-/// Cuts the box by a plane. The section of a particle's cell is the rectangle of the box, clipped by the planes of
+/// Cuts the domain by a plane. The section of a particle's cell is the section of the domain, clipped by the planes of
 /// equal power (weights R²) between the particle and its neighbours in the tessellation. If the plane contains a facet,
 /// the section of the cell above the plane is used.
 ///
-/// \throws InputError for a plane outside the box.
+/// \throws InputError for a plane outside the bounding box.
 CrossSection cut(const Specimen& specimen, const Tessellation& tessellation, const SectionPlane& plane);
 
 /// Returns the file name that `macadam specimen` gives a section, such as section_x_0.025.csv.

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "macadam/laws/generalised_kelvin.hpp"
+#include "macadam/laws/law_range.hpp"
 #include "macadam/laws/shift.hpp"
 
 namespace macadam {
@@ -166,12 +167,26 @@ struct Fit {
   std::complex<double> stiffness(double) const = delete;         // deleted, so that ω cannot be passed instead of iω
   /// Returns the smallest and the largest f·a_T of the data [Hz].
   std::pair<double, double> reduced_range() const;
+  /// Returns the range of the data: reduced frequencies and, if the data have them, temperatures.
+  laws::LawRange range() const;
 };
 
 /// Fits a model to measurements. If the data have no standard deviations, the covariance is multiplied by the misfit
 /// over the degrees of freedom. \throws InputError for options or data that cannot be fitted; RunError if no starting
 /// point of the least squares has a finite misfit.
 Fit fit_modulus(const ModulusData& data, const FitOptions& options = {});
+
+/// A chain that stands for a curve of moduli.
+struct CurveChain {
+  laws::GeneralisedKelvin law;
+  double largest_difference = 0;  ///< largest |E*_chain/E* − 1| at the points of the curve
+};
+
+/// Returns a chain of at most GeneralisedKelvin::max_units units that stands for a computed curve of moduli and phases
+/// without temperatures: the chain that replaces a 2S2P1D model of the curve or, if it differs by more than 2 % from
+/// the curve, the better of it and a chain that is fitted to the points. \throws InputError for data that cannot be
+/// fitted; RunError if neither way gives a chain.
+CurveChain chain_of_curve(const ModulusData& curve);
 
 /// A point of the fitted curve at the reference temperature, with pointwise confidence limits.
 struct BandPoint {

@@ -72,6 +72,9 @@ struct HarmonicResult {
   double seconds = 0;
   /// Complex displacement and rotation of each particle (ux uy uz θx θy θz) per unit displacement of the top wall.
   std::vector<std::complex<double>> motion;
+  /// With the rule "volumetric": pressure of each cell over 2μ, per unit displacement of the top wall [1/m]; otherwise
+  /// empty. Pressures are positive in tension.
+  std::vector<std::complex<double>> pressures;
 };
 
 /// Solves one scene at any number of frequencies; the preconditioner is made once. Specimen and network must outlive
@@ -105,10 +108,10 @@ class Harmonic {
 
 /// Returns the complex Poisson's ratio of a specimen with free sides: minus the mean of the two lateral strains over
 /// the axial strain. A lateral strain is the change of the mean distance of two opposite sides over their distance; the
-/// mean is over the area of the cells' facets at the sides. `motion` is HarmonicResult::motion. Returns nothing if no
-/// cell touches one of the four sides.
+/// mean is over the area of the cells' facets at the sides. With the rule "volumetric" a free facet also moves by its
+/// opening. Returns nothing if no cell touches one of the four sides.
 std::optional<std::complex<double>> poisson_ratio(const Specimen& specimen, const Tessellation& cells,
-                                                  const std::vector<std::complex<double>>& motion);
+                                                  const HarmonicResult& state);
 
 /// Returns the state from which a run by time steps is periodic at once, under a cyclic loading without a ramp.
 /// `motion`: HarmonicResult::motion, solved with the inertia and damping of the run. The states of a chain follow from

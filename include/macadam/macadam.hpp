@@ -17,6 +17,7 @@
 #include "macadam/backend.hpp"
 #include "macadam/shape.hpp"
 #include "macadam/ct.hpp"
+#include "macadam/domains/domain.hpp"
 #include "macadam/specimen.hpp"
 #include "macadam/recipe.hpp"
 #include "macadam/tessellation.hpp"

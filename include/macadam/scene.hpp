@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "macadam/experiments/all.hpp"
 #include "macadam/fields.hpp"
 #include "macadam/laws/all.hpp"
+#include "macadam/laws/law_range.hpp"
 #include "macadam/laws/shift.hpp"
 #include "macadam/linear_method.hpp"
 #include "macadam/recipe.hpp"
@@ -22,13 +24,13 @@
 
 namespace macadam {
 
-/// Densities by phase [kg/m³], 0 if the scene gives none, the temperature, and what rule "series" needs besides the
-/// laws of the pairs, which follow from the laws of the phases.
+/// Densities by phase [kg/m³], 0 if the scene gives none, the temperature, and the constants that the rules "series"
+/// and "volumetric" need besides the laws of the pairs.
 struct Materials {
   double aggregate = 0, mastic = 0;
   std::optional<double> temperature = {};              ///< of the whole specimen [°C]; empty: not given
   std::optional<double> rock_modulus = {};             ///< E of the aggregates [Pa]; empty: not given
-  std::optional<double> aggregate_poisson_ratio = {};  ///< empty: not given; rule "series" does not use it
+  std::optional<double> aggregate_poisson_ratio = {};  ///< empty: not given; only rule "volumetric" uses it
   std::optional<double> mastic_poisson_ratio = {};     ///< empty: not given
   double density(Phase phase) const {
     return phase == Phase::aggregate ? aggregate : phase == Phase::mastic ? mastic : 0;
@@ -42,6 +44,29 @@ static_assert(all_one.back() == 1);
 
 /// The shift law of each pair, which gives the effect of temperature.
 using ShiftLaws = std::array<laws::Shift, pair_types>;
+
+/// The range in which the law of each pair holds.
+using LawRanges = std::array<laws::LawRange, pair_types>;
+
+struct Scene;
+
+/// Where the law of the mastic comes from, if `from` in [materials.mastic] names another scene: the specimen of that
+/// scene is the mastic. compute_mastic_law() (simulation.hpp) solves it; until then the laws of the pairs with mastic
+/// are provisional, and only their shift and their kind (elastic or viscoelastic) are right.
+struct MasticSource {
+  std::filesystem::path file;          ///< the other scene
+  std::shared_ptr<const Scene> scene;  ///< its content
+
+  /// The chain that was computed.
+  struct Computed {
+    double lowest_hz = 0, highest_hz = 0;  ///< reduced frequencies between which the chain was fitted
+    double largest_difference = 0;         ///< largest relative difference of its modulus from the specimen's
+    int units = 0;                         ///< number of Kelvin units
+    std::filesystem::path folder;          ///< folder of the result; empty: it could not be kept
+    bool kept_before = false;              ///< whether an earlier command had computed it
+  };
+  std::optional<Computed> computed = {};
+};
 
 /// `explicit_`: time stepping; `harmonic`: the frequency domain; `quasi_static`: increments without inertia.
 enum class SolverMethod : std::uint8_t { explicit_, harmonic, quasi_static };
@@ -100,6 +125,8 @@ struct Scene {
   LawTable laws;            ///< at Materials::temperature or, without one, each at its own reference temperature
   Deltas deltas = all_one;  ///< already included in the laws
   ShiftLaws shifts;         ///< shift laws that belong to `laws`
+  LawRanges ranges;         ///< ranges that belong to `laws`
+  std::optional<MasticSource> mastic_source;  ///< empty: the scene itself gives the law of the mastic
   NetworkSpec network;
   Experiment experiment;
   SolverSpec solver;
@@ -137,6 +164,14 @@ LawTable laws_at(const Scene& scene, double temperature);
 /// Returns `laws`, which are given at the scene's temperature, at another temperature [°C], as the function above does
 /// with the scene's own laws.
 LawTable laws_at(const Scene& scene, double temperature, LawTable laws);
+
+/// Returns a scene's laws at their reference temperatures.
+LawTable reference_laws(const Scene& scene);
+
+/// Returns a sentence for each law that the test of the scene uses outside of the range in which the law holds: at
+/// frequencies of a cyclic test or a sweep, at the inverse 1/(2·pi·t) of the times t of other tests, and at the scene's
+/// temperatures.
+std::vector<std::string> law_range_warnings(const Scene& scene);
 
 /// Returns log10 a_T at a temperature if all laws with viscosities follow the same shift, which is then the shift of
 /// the specimen; otherwise nothing.

@@ -24,6 +24,10 @@ struct ModulusParts {
   /// The part of `normal` and of `shear` by which E* follows the rock in series with the laws (Contact::series): a
   /// change of the rock's modulus by one per cent changes E* by a hundredth of it. Zero without such rock.
   std::array<std::complex<double>, pair_types> normal_rock{}, shear_rock{};
+  /// With the rule "volumetric": contribution of the pressures of cells to the derivative of E* with respect to the
+  /// logarithm of the mastic's stiffness. The derivative for the rock has the opposite contribution. It is not a part
+  /// of the sum E*.
+  std::complex<double> pressure_of_mastic = 0;
   std::complex<double> inertia = 0;  ///< (s² + s·β)·density scaling · uᵀ·M·u
 
   std::complex<double> modulus() const;
@@ -45,14 +49,15 @@ std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable
 std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
                                        double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
 
-/// Returns the derivatives of |E*| and φ for motions e^(s·t) in a network with the rule "series", whose laws are those
-/// of the phases: with respect to every parameter of the mastic's law ("mastic.E_m"), which all pairs with this law
-/// have in common, to the modulus of the rock ("aggregate.E"), and to the density scaling if there is inertia.
+/// Returns the derivatives of |E*| and φ for motions e^(s·t) in a network whose laws are those of the phases (rules
+/// "series" and "volumetric"), at constant Poisson's ratios: with respect to every parameter of the mastic's law
+/// ("mastic.E_m"), which all pairs with this law have in common, to the modulus of the rock ("aggregate.E"), and to the
+/// density scaling if there is inertia.
 std::vector<Sensitivity> phase_sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
 std::vector<Sensitivity> phase_sensitivities(const ModulusParts&, const LawTable&,
                                              double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
 
-/// Returns whether the law of a pair is that of the mastic in a network with the rule "series". The law of the other
+/// Returns whether the law of a pair is that of the mastic in a network with laws of phases. The law of the other
 /// pairs is that of the rock.
 constexpr bool is_of_mastic(PairType pair) { return pair != PairType::inner && pair != PairType::aw; }
 

@@ -124,6 +124,16 @@ struct Watcher {
   std::int64_t every = 0;
 };
 
+/// Computes the law of the mastic, if the scene takes it from the specimen of another scene (Scene::mastic_source); for
+/// other scenes does nothing. The specimen is solved in the frequency domain over the reduced frequencies that the test
+/// of `scene` needs, and a chain of at most 16 Kelvin units that stands for its modulus becomes the law of the mastic,
+/// with the specimen's shift. The result is kept in a folder beside the other scene, under a digest of its content, and
+/// is then not computed again. run() and calibrate() call this function; callers that use Scene::laws by themselves
+/// must call it first. Returns the warnings about the other scene.
+///
+/// \throws InputError, RunError with a message that names both scenes; InterruptedError.
+std::vector<std::string> compute_mastic_law(Scene& scene, const Watcher& watcher = {});
+
 /// Does the whole job: prepares the scene, plans the run, computes the results and writes every file. The folder is not
 /// changed until preparing and planning are done, so a scene that is refused leaves older results unchanged. After
 /// planning, older results are replaced.

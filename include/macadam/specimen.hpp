@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen.hpp  Defines the particles of a specimen in its box, and reads, writes, generates and checks them.
+/// \file specimen.hpp  Defines the particles of a specimen in its domain, and reads, writes, generates and checks them.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "macadam/domains/domain.hpp"
 #include "macadam/numeric.hpp"
 #include "macadam/shape.hpp"
 
@@ -25,23 +26,17 @@ enum class Phase : std::uint8_t {
 /// Returns "aggregate", "mastic" or "void".
 const char* to_string(Phase phase);
 
-/// Axis-aligned box with one corner at the origin; z is vertical.
-struct Box {
-  Vec3d size{};                                               ///< edge lengths [m]
-  double volume() const { return size.x * size.y * size.z; }  ///< [m³]
-};
-
 /// A sphere of air. It has a cell in the tessellation like a particle; the facets of the cell are free surfaces.
 struct VoidSphere {
   Vec3d centre{};     ///< [m]
   double radius = 0;  ///< [m]
 };
 
-/// Spheres in a box. All vectors except `voids` have one entry per particle; the order is the user's and is kept in
+/// Spheres in a domain. All vectors except `voids` have one entry per particle; the order is the user's and is kept in
 /// every output. Voids are not particles: they have no mass, motion or contacts. In the numbering of cells, in the
 /// tessellation and in files, the cells of voids follow the cells of particles.
 struct Specimen {
-  Box box;
+  Domain box;                  ///< region that the specimen fills, a box by default
   std::vector<Vec3d> centre;   ///< [m]
   std::vector<double> radius;  ///< [m]
   std::vector<Phase> phase;
@@ -64,30 +59,31 @@ struct Specimen {
 /// Returns the area of the initial cross-section perpendicular to the load [m²]. The stress of a test is the force on a
 /// loaded wall over this area.
 /// @{
-inline double section_area(const Box& box) { return box.size.x * box.size.y; }
+inline double section_area(const Domain& domain) { return domain.section_area(); }
 inline double section_area(const Specimen& specimen) { return section_area(specimen.box); }
 /// @}
 
 /// Returns the initial distance of the two loaded walls [m]. The strain of a test is the displacement of the top wall
 /// over this length.
 /// @{
-inline double gauge_length(const Box& box) { return box.size.z; }
+inline double gauge_length(const Domain& domain) { return domain.gauge_length(); }
 inline double gauge_length(const Specimen& specimen) { return gauge_length(specimen.box); }
 /// @}
 
 /// Returns a copy in which the voids are particles, which follow all other particles.
 Specimen with_voids_as_cells(const Specimen& specimen);
 
-/// Checks every particle and void: finite centre inside the box; finite positive radius; `body` is −1 for every mastic
-/// particle and for no aggregate; no two centres coincide. Also checks that the box is finite and positive. `source`
-/// begins each message (usually a file name). \throws InputError naming the first particle with a fault.
+/// Checks every particle and void: finite centre inside the domain; finite positive radius; `body` is −1 for every
+/// mastic particle and for no aggregate; no two centres coincide. Also checks that the dimensions are finite and
+/// positive. `source` begins each message (usually a file name). \throws InputError naming the first particle with a
+/// fault.
 void validate(const Specimen& specimen, const std::string& source);
 
 /// Reads `id,x,y,z,radius,phase,body` (metres; plain text or gzip, detected from the content), in file order, and
 /// validates it. Rows of phase `void` must follow the rows of all particles.
 ///
 /// \throws InputError with file, line, the value found and the value expected.
-Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box);
+Specimen read_specimen_csv(const std::filesystem::path& file, const Domain& domain);
 
 /// Writes a specimen in the format of read_specimen_csv(), with enough digits to recover each double.
 ///
@@ -169,9 +165,10 @@ struct SpecimenSpec {
   std::optional<std::filesystem::path> file;
   /// With `file`: the true surfaces of its aggregates, for the rule "series" of contacts.
   std::optional<std::filesystem::path> aggregate_file = {};
-  Box box;
+  Domain box;  ///< region that the specimen fills
   std::uint64_t seed = 1;
   std::vector<AggregateClass> aggregate;  ///< in any order; placed largest first
+  std::vector<std::string> merged;        ///< a sentence per class of a recipe that was too small for the box
   std::optional<ShapeSpec> shapes;        ///< empty: aggregates are single spheres
   std::optional<MasticSpec> mastic;
   std::optional<VoidSpec> voids;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation.hpp  Computes the Laguerre–Voronoi diagram of a specimen, clipped exactly by its box:
+/// \file tessellation.hpp  Computes the Laguerre–Voronoi diagram of a specimen, clipped by its domain:
 /// docs/model.md, section 2.
 #pragma once
 
@@ -12,7 +12,8 @@
 
 namespace macadam {
 
-/// Walls are represented by negative numbers wherever a particle number may stand: −1…−6 for −x +x −y +y −z +z.
+/// Walls are represented by negative numbers wherever a particle number may stand: −1…−6 for −x +x −y +y −z +z. The
+/// curved side of a cylinder has the number −1.
 enum Wall : std::int32_t {
   wall_x_lo = -1,
   wall_x_hi = -2,
@@ -38,15 +39,20 @@ struct Facet {
   std::uint32_t vertex_begin = 0, vertex_end = 0;  ///< range in Tessellation::vertices
 };
 
-/// Laguerre cells of all particles and voids (weights R²) inside the box. Voids are numbered after the particles.
+/// Laguerre cells of all particles and voids (weights R²) inside the domain. Voids are numbered after the particles.
+/// The weights of voids may differ: see `void_weight`.
 struct Tessellation {
-  std::vector<Facet> facets;    ///< sorted by (a, b); among the facets of one a, walls (negative b) come first
+  /// Sorted by (a, b); among the facets of one a, walls (negative b) come first. A cell may have several facets on a
+  /// curved side, one for each plane that represents the side (domains/cylinder.hpp).
+  std::vector<Facet> facets;
   std::vector<Vec3d> vertices;  ///< [m]; the vertices of a facet are consecutive, counter-clockwise about its normal
   /// [m³], one per particle, then one per void; 0 for a particle or void without a cell.
   std::vector<double> cell_volume;
-  std::vector<std::int32_t> hidden;  ///< particles and voids without a cell in the box, in rising order
+  std::vector<std::int32_t> hidden;  ///< particles and voids without a cell in the domain, in rising order
   /// Number of neighbours that meet only in an edge or a point (zero area); these are not facets.
   std::int64_t null_facets = 0;
+  /// Weights of the voids [m²], one per void; they may be negative. Empty if the weights are the squares of the radii.
+  std::vector<double> void_weight = {};
 
   /// Returns the vertices of a facet.
   std::span<const Vec3d> polygon(const Facet& f) const {
@@ -60,6 +66,16 @@ struct Tessellation {
 /// \throws InputError from validate(): coincident centres, particles outside the box and so on.
 Tessellation tessellate(const Specimen& specimen);
 
+/// Builds the tessellation with weights of the voids for which the cell of each void has the volume of the void's
+/// sphere, to 0.1 %. With the weight R² the cell of a void is usually larger than its sphere, because it has few
+/// facets. The planes between two particles do not change, because the weights of particles stay R².
+///
+/// Cells keep the volumes that they have reached if the next correction of the weights would leave a particle or void
+/// without a cell. Builds the diagram once per correction, usually four to nine times.
+///
+/// \throws InputError from validate(): coincident centres, particles outside the box and so on.
+Tessellation tessellate_with_void_volumes(const Specimen& specimen);
+
 /// Returns one sentence for each of the following faults; returns none for a packing that fills its box.
 /// - The spheres fill less than a tenth of the box (see sparse_box()). In this case the faults below are not checked.
 /// - A cell reaches far beyond its sphere: more than 4 radii of the largest sphere among the particle and its
@@ -70,7 +86,7 @@ std::vector<std::string> packing_warnings(const Specimen& specimen, const Tessel
 
 /// How far a tessellation violates the laws of every Laguerre diagram. All values would be 0 in exact arithmetic.
 struct TessellationInvariants {
-  double volume = 0;    ///< |Σ cell volumes − box| / box
+  double volume = 0;    ///< |Σ cell volumes − volume of the domain| / volume of the domain
   double closure = 0;   ///< max over cells of |Σ A·n outwards| / Σ A
   double flatness = 0;  ///< max over facets of a vertex's distance to the facet's plane / distance of the centres
   double power = 0;     ///< max over facets and vertices of |pow_a − pow_b| / distance², interior facets

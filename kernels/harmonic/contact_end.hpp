@@ -30,6 +30,25 @@ MACADAM_HD K in_series(const K& k, double series) {
   return series == 0 ? k : k / (1.0 + series * k);
 }
 
+/// Frame of a contact seen from one of its ends.
+template <class T>
+MACADAM_HD Placement<T> frame_of(const ContactEnd& e) {
+  const Vec3<double> n{e.n[0], e.n[1], e.n[2]}, s{e.s[0], e.s[1], e.s[2]}, t = cross(n, s);
+  return {{T(n.x), T(n.y), T(n.z)}, {T(s.x), T(s.y), T(s.z)}, {T(t.x), T(t.y), T(t.z)}, T(e.arm), T(e.arm_other)};
+}
+
+/// Returns the load that a contact's springs transmit to this end, about x0, at the relative displacements `u`. `times`
+/// and `alpha` are as in end_load().
+template <class T, class Times>
+MACADAM_HD FacetLoad<T> spring_load(const ContactEnd& e, const T (&u)[6], Times&& times, T alpha) {
+  T density[6], m[6];
+  for (int c = 0; c < 6; ++c) {
+    density[c] = times(u[c], c >= 3);
+    m[c] = T(e.moments[c]);
+  }
+  return condensed_load(density, alpha, m);
+}
+
 /// Returns force and moment on this end if the two ends move by `own` and `other`. T holds one or several real numbers
 /// per component; `times(u, shear)` multiplies them by k*(s) of the contact, in shear (slip and twist) without α.
 template <class T, class Times>

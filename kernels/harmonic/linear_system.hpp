@@ -36,6 +36,9 @@ struct LinearSystem {
   RawVector<ContactEnd> ends;
   std::vector<double> series;  ///< [end] Contact::series [1/Pa]; empty if it is zero everywhere
   std::vector<double> mass;    ///< [body][2]: mass [kg], moment of inertia [kg·m²]
+  /// [body] Resistance of cells to changes of volume (rule "volumetric"); empty without it. Only the solver on the CPU
+  /// takes it into account, and the preconditioner does not contain it.
+  std::vector<CellStiffness> cells;
   RealStiffness typical;
   std::vector<Lever> lever;            ///< [body]
   std::vector<std::int32_t> box_body;  ///< box → first body; boxes + 1 entries

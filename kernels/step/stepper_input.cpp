@@ -120,6 +120,11 @@ void require_series(const ContactNetwork& network, const FactsTable& laws) {
 
 void require_input(std::size_t particles, const ContactNetwork& network, const FactsTable& laws,
                    const StepperOptions& options) {
+  if (!network.cells.empty())
+    throw InputError(
+        "rule of the network: found \"volumetric\", expected \"centres\" or \"series\", because steps do not compute "
+        "the "
+        "pressures of cells; the frequency domain does");
   for (int pair = 0; pair < pair_types; ++pair) {
     const auto p = static_cast<std::size_t>(pair);
     if (network.count[p] > 0 && !laws[p]) {

@@ -104,6 +104,19 @@ class Result:
         """The relaxation modulus as Maxwell units, for relaxation, creep and monotonic tests without steps."""
         return self.csv("prony.csv")
 
+    @cached_property
+    def cracks(self) -> pandas.DataFrame:
+        """The contact points that broke in a stepped test: contact, a, b, pair, x, y, z [m], normal, area_m2, mode, with
+        cracks opening_m, slip_m and damage, and time_s."""
+        return self.csv("cracks.csv")
+
+    @cached_property
+    def damage(self) -> pandas.DataFrame:
+        """The contacts that have begun to crack, at the end of a stepped test with cracks: contact, a, b, pair, x, y, z
+        [m], normal, area_m2, opening_m, slip_m, damage (means over the facet), energy_j, friction_j, cracked_points,
+        points."""
+        return self.csv("damage.csv")
+
     def csv(self, name: str) -> pandas.DataFrame:
         """Reads a CSV file of the folder by its name."""
         import pandas

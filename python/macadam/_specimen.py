@@ -27,7 +27,7 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
 
     particles: arrays that replace the scene's particles; the scene then needs no source of particles. `centre` [m] (n,
     3), `radius` [m] (n,), `phase` (0 aggregate, 1 mastic; if it is not given, all are mastic), `body` (number of the
-    aggregate, -1 for mastic), and `box` [m] (3,), if it differs from the scene's.
+    aggregate, -1 for mastic), and `box` [m] (3,), if it differs from the scene's; with `box` the specimen is a box.
     out: a folder to write specimen.csv, aggregates.csv, summary.json and so on into, as the command does.
     sections: planes ("x=0.025", "z=40 mm") whose cross sections are written into `out`.
     progress: called with a stage and the fraction of it that is done, 0 to 1.
@@ -62,6 +62,8 @@ def _scene_of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[
         for phase in ("aggregate", "mastic"):
             if recipe[f"{phase}_density"] > 0:
                 tables.setdefault("materials", {})[phase] = {"density": recipe[f"{phase}_density"]}
-    edges = section.get("box") if box is None else np.asarray(box).tolist()
-    tables["specimen"] = {"file": _core.given_particles} | ({} if edges is None else {"box": edges})
+    domain = {k: section[k] for k in ("domain", "box", "diameter", "height") if k in section}
+    if box is not None:
+        domain = {"box": np.asarray(box).tolist()}
+    tables["specimen"] = {"file": _core.given_particles} | domain
     return Scene(tables, file=name, **{k: v for k, v in options.items() if k != "seed"})

@@ -89,7 +89,7 @@ nb::dict fractions_of(const HarmonicResult& r) {
 nb::list sensitivities_of(const HarmonicResult& r, const Prepared& p) {
   nb::list out;
   const std::complex<double> at = HarmonicLoad{r.frequency_hz}.s();
-  const bool of_phases = p.scene->network.rule == ContactRule::series;
+  const bool of_phases = has_laws_of_phases(p.scene->network.rule);
   for (const Sensitivity& s :
        of_phases ? phase_sensitivities(r.parts, p.scene->laws, at) : sensitivities(r.parts, p.scene->laws, at)) {
     nb::dict one;
@@ -145,6 +145,10 @@ void bind_harmonic(nb::module_& m) {
           },
           "Complex displacement and rotation (ux uy uz θx θy θz) of each particle per unit displacement of the top "
           "wall, (n, 6).")
+      .def_prop_ro(
+          "pressures", [](const HarmonicResult& r) { return view(r.pressures.data(), {r.pressures.size()}); },
+          "With rule \"volumetric\": complex pressure of each cell over 2μ per unit displacement of the top wall "
+          "[1/m], positive in tension, (n,); otherwise empty.")
       .def("sensitivities", &sensitivities_of, nb::arg("specimen"),
            "Returns the change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm, without "
            "inertia.");

@@ -133,15 +133,18 @@ void bind_scene(nb::module_& m) {
       .def_prop_ro(
           "kind", [](const GivenScene& s) { return kind_of(s.experiment); }, "Kind of the test in `[loading]`.")
       .def_prop_ro(
-          "method",
-          [](const GivenScene& s) { return to_string(s.solver.method); },
+          "method", [](const GivenScene& s) { return to_string(s.solver.method); },
           "Method: explicit, harmonic or quasi_static.")
       .def_prop_ro(
           "backend", [](const GivenScene& s) { return to_string(s.solver.backend); }, "Requested backend.")
       .def_prop_ro(
           "seed", [](const GivenScene& s) { return s.specimen.seed; }, "Seed of a generated specimen.")
       .def_prop_ro(
-          "box", [](const GivenScene& s) { return triple(s.specimen.box.size); }, "Edge lengths of the box [m].")
+          "box", [](const GivenScene& s) { return triple(s.specimen.box.size); },
+          "Edge lengths of the bounding box [m].")
+      .def_prop_ro(
+          "domain", [](const GivenScene& s) { return s.specimen.box.name(); },
+          "Shape of the specimen: box or cylinder.")
       .def_prop_ro(
           "recipe", &recipe_of,
           "Properties of a recipe by mass, or None: densities [kg/m³]; air voids, VMA, VFB, binder contents, and the "

@@ -24,12 +24,13 @@ namespace macadam::python {
 namespace {
 
 /// Returns a specimen of these particles. Without `phase` all are mastic; without `body` none belongs to an aggregate.
-/// \throws InputError for arrays of wrong shape or of unequal lengths.
-Specimen particles_of(const ArrayLike& box, const ArrayLike& centre, const ArrayLike& radius,
+/// `domain` is the domain of the scene, whose shape is kept. \throws InputError for arrays of wrong shape or of unequal
+/// lengths.
+Specimen particles_of(const Domain& domain, const ArrayLike& box, const ArrayLike& centre, const ArrayLike& radius,
                       const std::optional<ArrayLike>& phase, const std::optional<ArrayLike>& body) {
   Specimen out;
   const std::vector<double> edges = numbers(box, "particles: box", 3);
-  out.box.size = {edges[0], edges[1], edges[2]};
+  out.box = {{edges[0], edges[1], edges[2]}, domain.shape};
   out.centre = vectors(centre, "particles: centre");
   out.radius = numbers(radius, "particles: radius");
   const std::size_t n = out.radius.size();
@@ -50,24 +51,33 @@ Specimen particles_of(const ArrayLike& box, const ArrayLike& centre, const Array
   return out;
 }
 
+/// Returns a copy of the scene. If its mastic is the specimen of another scene, computes the law of the mastic.
+std::shared_ptr<const GivenScene> with_mastic_law(const GivenScene& scene, LongCall& call) {
+  auto out = std::make_shared<GivenScene>(scene);
+  Watcher watcher;
+  watcher.progress = call.progress_function();
+  compute_mastic_law(*out, watcher);
+  return out;
+}
+
 PreparedPointer prepare_scene(const GivenScene& scene, nb::object progress) {
   LongCall call(std::move(progress));
   return call([&] {
-    auto copy = std::make_shared<const GivenScene>(scene);
+    const auto copy = with_mastic_law(scene, call);
     Preparation made = prepare(*copy, call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
+    return std::make_shared<Prepared>(Prepared{copy, std::move(made)});
   });
 }
 
 PreparedPointer prepare_particles(const GivenScene& scene, const ArrayLike& box, const ArrayLike& centre,
                                   const ArrayLike& radius, const std::optional<ArrayLike>& phase,
                                   const std::optional<ArrayLike>& body) {
-  Specimen specimen = particles_of(box, centre, radius, phase, body);
+  Specimen specimen = particles_of(scene.specimen.box, box, centre, radius, phase, body);
   LongCall call;
   return call([&] {
-    auto copy = std::make_shared<const GivenScene>(scene);
+    const auto copy = with_mastic_law(scene, call);
     Preparation made = prepare(*copy, std::move(specimen), call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
+    return std::make_shared<Prepared>(Prepared{copy, std::move(made)});
   });
 }
 
@@ -75,11 +85,11 @@ PreparedPointer prepare_to_folder(const GivenScene& scene, const std::filesystem
                                   const std::vector<std::string>& sections, nb::object progress) {
   LongCall call(std::move(progress));
   return call([&] {
-    auto copy = std::make_shared<const GivenScene>(scene);
+    const auto copy = with_mastic_law(scene, call);
     std::vector<SectionPlane> planes;
     for (const std::string& text : sections) planes.push_back(read_section_plane(text, scene.specimen.box));
     Preparation made = prepare_into(out, *copy, planes, call.progress_function());
-    return std::make_shared<Prepared>(Prepared{std::move(copy), std::move(made)});
+    return std::make_shared<Prepared>(Prepared{copy, std::move(made)});
   });
 }
 
@@ -132,7 +142,15 @@ nb::list gradation_rows(const Prepared& p) {
 void bind_particles(nb::class_<Prepared>& c) {
   c.def("__len__", [](const Prepared& p) { return p.made.specimen.size(); })
       .def_prop_ro(
-          "box", [](const Prepared& p) { return triple(p.made.specimen.box.size); }, "Edge lengths [m].")
+          "box", [](const Prepared& p) { return triple(p.made.specimen.box.size); },
+          "Edge lengths of the bounding box [m].")
+      .def_prop_ro(
+          "domain", [](const Prepared& p) { return p.made.specimen.box.name(); }, "Shape: box or cylinder.")
+      .def_prop_ro(
+          "volume", [](const Prepared& p) { return p.made.specimen.box.volume(); }, "Volume of the domain [m³].")
+      .def_prop_ro(
+          "section_area", [](const Prepared& p) { return section_area(p.made.specimen); },
+          "Area of the section perpendicular to the load [m²].")
       .def_prop_ro(
           "centre", [](const Prepared& p) { return view(p.made.specimen.centre); },
           "Centres of the particles [m], (n, 3).")
@@ -172,8 +190,9 @@ void bind_specimen(nb::module_& m) {
   pickle_specimens(c);
   c.def("__repr__", [](const Prepared& p) {
     const Vec3d mm = 1e3 * p.made.specimen.box.size;
-    return fmt::format("<macadam.Specimen: {} particles, {} contacts, box {:.6g} × {:.6g} × {:.6g} mm>",
-                       p.made.specimen.size(), p.made.network.contacts.size(), mm.x, mm.y, mm.z);
+    return fmt::format("<macadam.Specimen: {} particles, {} contacts, {} {:.6g} × {:.6g} × {:.6g} mm>",
+                       p.made.specimen.size(), p.made.network.contacts.size(), p.made.specimen.box.name(), mm.x, mm.y,
+                       mm.z);
   });
   c.def_prop_ro("scene", [](const Prepared& p) { return *p.scene; })
       .def_prop_ro(

@@ -83,7 +83,16 @@ void bind_states(nb::module_& m) {
             return view(reinterpret_cast<const std::uint8_t*>(s.point_breaks.data()), {s.point_breaks.size()});
           },
           "State of each contact point, one contact after the other: 0 intact, 1 broken in tension, 2 broken in shear; "
-          "empty if no law can break.");
+          "empty if no law can break.")
+      .def_prop_ro(
+          "point_cracks",
+          [](const ContactState& s) {
+            static_assert(sizeof(laws::PointCrack) == 5 * sizeof(double), "a row of the array is one PointCrack");
+            return view(s.point_cracks.empty() ? nullptr : &s.point_cracks.front().opening, {s.point_cracks.size(), 5});
+          },
+          "Crack of each contact point, one contact after the other, (points, 5): opening and slip [m], damage from 0 "
+          "to "
+          "1, crack energy and work of friction per area [J/m²]; empty if no law has a crack.");
 }
 
 }  // namespace macadam::python

@@ -39,7 +39,7 @@ def options(command):
     """Returns the options that the help of a command lists. The help of a command written in Python is printed by its
     argument parser."""
     words = [sys.executable, "-m", f"macadam.{command[0]}"] if command[0] in ("mixture", "report", "study") else [PROGRAM, *command]
-    told = subprocess.run([*words, "--help"], capture_output=True, text=True, timeout=60)
+    told = subprocess.run([*words, "--help"], capture_output=True, text=True, timeout=3600)
     assert told.returncode == 0, f"{' '.join(command)} --help: {told.stderr}"
     return set(re.findall(r"(?<![\w-])--?[a-zA-Z][\w-]*", told.stdout))
 
@@ -84,7 +84,7 @@ def values_not_run():
 @pytest.mark.parametrize("words", values_not_run())
 def test_values_of_options_are_accepted(words, tmp_path):
     """In an empty folder a command must fail because its inputs are missing, not because of its options."""
-    ran = subprocess.run([PROGRAM, *words], cwd=tmp_path, text=True, capture_output=True, timeout=60)
+    ran = subprocess.run([PROGRAM, *words], cwd=tmp_path, text=True, capture_output=True, timeout=3600)
     assert ran.returncode == 2 and not re.search(r"(?m)^macadam: (command line: )?--", ran.stderr), ran.stderr
 
 
@@ -110,7 +110,7 @@ def test_page_runs(page, tmp_path):
             (tmp_path / file).write_text(code, encoding="utf-8")
             continue
         ran = subprocess.run(["bash", "-eu", "-o", "pipefail", "-c", code], cwd=tmp_path, env=environment, text=True,
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=3600)
         assert ran.returncode == 0, f"{page.name}:\n{code}\n{ran.stdout}"
     if page.stem == "start":
         as_told(page.read_text(encoding="utf-8"), tmp_path)

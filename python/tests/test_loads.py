@@ -74,3 +74,15 @@ def test_brittle_bonds_break_for_good(scene):
     assert strong.table.broken_points.iloc[-1] == 0
     with pytest.raises(mc.InputError, match="brittle_bond"):
         mc.harmonic(strong.scene, frequencies=[10])
+
+
+def test_cracks_have_energies_and_tables(scene):
+    crack = dict(tensile_strength="20 kPa", fracture_energy=2.0, shear_strength="30 kPa")
+    cracking = [dict(c, crack=crack) if c["pair"] == "M-M" else c for c in scene.as_dict()["contacts"]]
+    pulled = mc.monotonic(mc.Scene(scene, contacts=cracking), rate=0.5, strain=5e-4, points=5, method="explicit", **FAST)
+    last = pulled.table.iloc[-1]
+    assert last.cracked_points > 0 and 0 < last.crack_energy_j < last.work_j
+    assert pulled.summary["cracks"]["M-M"]["cracked_points"] == last.cracked_points
+    assert len(pulled.cracks) == last.broken_points
+    assert pulled.damage.cracked_points.sum() == last.cracked_points
+    assert pulled.damage.energy_j.sum() == pytest.approx(last.crack_energy_j)

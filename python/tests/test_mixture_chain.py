@@ -72,11 +72,11 @@ def test_curves_and_laws(made):
     assert files == ["binder.toml", "mastic.toml", "mortar_seed_1.toml", "mortar_seed_2.toml"]
     for entry in summary["laws"]:
         assert entry["valid_hz"][0] < needed[0] and entry["valid_hz"][1] > needed[1]
-        assert entry["units"] <= laws.MOST_UNITS
+        assert entry["units"] <= 16  # a contact law has at most 16 units
         assert entry["misfit"] < 0.05  # the largest error that a chain is allowed
         text = (folder / entry["file"]).read_text()
         mastic = tomllib.loads(text)["materials"]["mastic"]
-        assert "valid_hz" in text and mastic["shift"] == "wlf" and mastic["C1"] == summary["binder"]["C1"]
+        assert "valid_frequencies" in text and mastic["shift"] == "wlf" and mastic["C1"] == summary["binder"]["C1"]
     # each scale is stiffer than the scale below
     at = {
         name: np.interp(0.0, np.log10(c.reduced_frequency_hz), np.log10(c.e_star_pa))

@@ -51,6 +51,7 @@ CASES = {
         "Cracks and energies",
         "the energies that it became, one above the other",
         "facets in it that have begun to crack",
+        "facets whose mean damage is above 0.5",
         "The sum of the energies differs from the work by at most",
     ],
     "confined": ["The sides are held", "confined"],
@@ -113,6 +114,17 @@ def test_discs_cut_a_plane_in_chords() -> None:
     ends = lines[0][np.argsort(lines[0][:, 2])]
     # the numbers are of order 1, so that rounding is some 1e-16
     assert np.allclose(ends, [[0, 3, 5 - np.sqrt(3)], [0, 3, 5 + np.sqrt(3)]], rtol=0, atol=1e-14)
+
+
+def test_discs_have_the_area_and_normal_of_their_facets() -> None:
+    normal = np.array([[0.0, 0, 1], [0.6, 0, 0.8], [-1, 0, 0]])
+    centre, area = np.arange(9.0).reshape(3, 3), np.array([1.0, 2, 3])
+    polygons = cracks.discs(centre, normal, area)
+    assert np.allclose(polygons.mean(axis=1), centre, rtol=0, atol=1e-12)
+    arms = polygons - centre[:, None]
+    assert np.allclose(np.einsum("nci,ni->nc", arms, normal), 0, atol=1e-12)
+    twice = np.cross(arms, np.roll(arms, -1, axis=1)).sum(axis=1)  # twice the area, along the normal
+    assert np.allclose(0.5 * np.linalg.norm(twice, axis=1), area, rtol=1e-12)
 
 
 def test_fields_are_drawn_by_pyvista(tmp_path: Path, no_pictures) -> None:

@@ -40,7 +40,7 @@ def browse(tmp_path: Path, page: Path, *options: str) -> str:
         ],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=3600,
     )
     assert done.returncode == 0, done.stderr
     return done.stderr
@@ -97,7 +97,7 @@ def test_every_picture_is_shown(tmp_path: Path) -> None:
         ],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=3600,
     )
     widths = re.search(r"<title>([\d,]+)</title>", done.stdout)
     assert widths and all(int(w) > 100 for w in widths[1].split(","))
@@ -117,6 +117,6 @@ def test_wide_tables_stay_on_the_page(tmp_path: Path) -> None:
         encoding="utf-8",
     )
     options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path}/user", "--window-size=794,1000"]
-    done = subprocess.run([CHROMIUM, *options, "--dump-dom", probe.as_uri()], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([CHROMIUM, *options, "--dump-dom", probe.as_uri()], capture_output=True, text=True, timeout=3600)
     over = re.search(r"<title>([\d,]+)</title>", done.stdout)  # 794 pixels are 210 mm
     assert over and not any(map(int, over[1].split(","))), over

@@ -2,6 +2,7 @@
 """Specimens: their arrays are views that stay valid without the specimen, and files of specimens."""
 import csv
 import gc
+import pickle
 import subprocess
 import sys
 
@@ -129,6 +130,23 @@ def test_particles_of_ones_own_need_no_other_source(scene, tmp_path):
     assert of_recipe.inertia()[0].sum() == pytest.approx(recipe.recipe["mastic_density"] * 27 * 4 / 3 * np.pi * 5e-4**3)
     with pytest.raises(mc.InputError, match="box"):
         mc.specimen(minimal, particles={k: v for k, v in particles.items() if k != "box"})
+
+
+def test_cylinders(scene):
+    """A cylinder keeps its shape in copies and with particles of one's own; with a box of one's own it is a box."""
+    tables = scene.as_dict()
+    mix = {k: v for k, v in tables["specimen"].items() if k != "box"}
+    core = mc.Scene({**tables, "specimen": {**mix, "domain": "cylinder", "diameter": "14 mm", "height": "15 mm"}})
+    made = mc.specimen(core)
+    assert core.domain == made.domain == "cylinder" and made.box == pytest.approx((14e-3, 14e-3, 15e-3))
+    assert made.section_area == pytest.approx(np.pi / 4 * 14e-3**2, rel=1e-12)
+    assert made.cells.volume.sum() == pytest.approx(made.volume, rel=1e-12)  # rounding of some thousand terms
+    assert np.hypot(*(made.centre[:, :2] - 7e-3).T).max() <= 7e-3
+    assert pickle.loads(pickle.dumps(made)).domain == "cylinder"
+    own = {name: getattr(made, name) for name in ("centre", "radius", "phase", "body")}
+    again = mc.specimen(core, particles=own)
+    assert again.domain == "cylinder" and np.array_equal(again.cells.volume, made.cells.volume)
+    assert mc.specimen(core, particles={**own, "box": [14e-3, 14e-3, 15e-3]}).domain == "box"
 
 
 def test_texts_have_numbers(specimen, tmp_path):

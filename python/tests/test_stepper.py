@@ -202,7 +202,23 @@ def test_broken_points_of_contacts(scene):
     assert np.array_equal(state.point_breaks[state.point_breaks != 0], breaks)
 
 
+def test_cracks_of_contact_points(scene):
+    crack = dict(tensile_strength=1e4, fracture_energy="0.2 J/m2", shear_strength=2e4)
+    cracking = [dict(pair=c["pair"], law="elastic", E=1e10, alpha=0.5, crack=crack) if c["pair"] == "M-M" else c
+                for c in scene.as_dict()["contacts"]]
+    specimen = mc.specimen(mc.Scene(scene, contacts=cracking))
+    dt = 0.5 * mc.critical_step(specimen, density_scaling=1e6)
+    drive = mc.drives.ConstantRate(speed=1e-3, dt=dt, duration=1000 * dt)
+    stepping = stepper(specimen, drive, form="points")
+    assert not stepping.contacts().point_cracks.any()
+    stepping.advance(400)
+    opening, slip, damage, energy, friction = stepping.contacts().point_cracks.T
+    assert 0 < damage.max() <= 1 and (damage >= 0).all() and (friction == 0).all()
+    assert ((opening > 0) | (slip > 0))[damage > 0].all() and not opening[damage == 0].any()
+    assert (energy[damage > 0] > 0).all() and energy.max() <= 0.2 * (1 + 1e-9)  # both modes take 0.2 J/m²
+
+
 def test_laws_that_cannot_break_have_no_broken_points(specimen, dt):
     ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=50)
     state = stepper(specimen, ramp).contacts()
-    assert state.broken.size == 0 and state.point_breaks.size == 0
+    assert state.broken.size == 0 and state.point_breaks.size == 0 and state.point_cracks.shape == (0, 5)

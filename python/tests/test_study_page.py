@@ -38,10 +38,10 @@ def test_commands_of_the_page(tmp_path: Path) -> None:
     for block in blocks("studies.md"):
         if block.lstrip().startswith("macadam "):
             commands += 1
-            subprocess.run(command(block.strip()), cwd=tmp_path, check=True, env=environment, timeout=300)
+            subprocess.run(command(block.strip()), cwd=tmp_path, check=True, env=environment, timeout=3600)
         elif "mc.study(" in block:
             programs += 1
-            subprocess.run([sys.executable, "-c", block], cwd=tmp_path, check=True, env=environment, timeout=300)
+            subprocess.run([sys.executable, "-c", block], cwd=tmp_path, check=True, env=environment, timeout=3600)
         elif block.lstrip().startswith("scene ="):
             studies += 1
             (tmp_path / "study.toml").write_text(block)
@@ -54,7 +54,7 @@ def test_commands_of_the_page(tmp_path: Path) -> None:
         ROOT / "docs/studies.md"
     ).read_text("utf-8")
     line = command(f"macadam report results/study/results/{key} --out one.html")
-    subprocess.run(line, cwd=tmp_path, check=True, env=environment, timeout=300)
+    subprocess.run(line, cwd=tmp_path, check=True, env=environment, timeout=3600)
 
 
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")

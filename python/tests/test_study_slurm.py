@@ -50,7 +50,7 @@ def test_the_same_file_runs_on_slurm(tmp_path: Path) -> None:
             env={**ENVIRONMENT, **environment, "PYTHONPATH": ENVIRONMENT["PYTHONPATH"], "MACADAM_PROGRAM": program},
             capture_output=True,
             text=True,
-            timeout=280,
+            timeout=3600,
         )
     assert done.returncode == 1, done.stderr  # the stand-in fails for 13
     assert "expected better luck" in done.stderr and "5 results, 1 failed" in done.stdout
@@ -72,7 +72,7 @@ def test_a_stopped_study_leaves_no_job(tmp_path: Path) -> None:
         try:
             running.wait_for_work()
             running.process.terminate()
-            running.process.communicate(timeout=280)
+            running.process.communicate(timeout=3600)
             assert running.process.returncode == 130
             _wait_for_jobs(environment)
             assert len(list((tmp_path / "out/results").iterdir())) == 1
@@ -84,7 +84,7 @@ def test_a_stopped_study_leaves_no_job(tmp_path: Path) -> None:
 def _wait_for_jobs(environment: dict[str, str], rounds: int = 600) -> None:
     """Returns when the cluster has no jobs; an assertion fails if it still has some after `rounds` half seconds."""
     for _ in range(rounds):
-        listed = subprocess.run(["squeue", "-h"], env=environment, capture_output=True, text=True, timeout=280)
+        listed = subprocess.run(["squeue", "-h"], env=environment, capture_output=True, text=True, timeout=3600)
         assert listed.returncode == 0, listed.stderr
         if not listed.stdout:
             return
@@ -133,7 +133,7 @@ def _study(tmp_path: Path, path: str) -> subprocess.CompletedProcess:
     (tmp_path / "study.toml").write_text(STUDY)
     line = [sys.executable, "-m", "macadam.study", "study.toml", "--out", "out", "--on", "slurm"]
     environment = {**ENVIRONMENT, "MACADAM_PROGRAM": stand_in(tmp_path)[0], "PATH": path}
-    return subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=280)
+    return subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=3600)
 
 
 def test_a_machine_without_slurm_is_told(tmp_path: Path) -> None:

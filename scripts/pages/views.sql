@@ -288,13 +288,15 @@ FROM mutations JOIN (SELECT k, sum(looked_at = 'same') AS same, sum(looked_at = 
 CREATE VIEW model_errors AS  -- contact networks beside the continuum: e (%), phi (degrees), u: uncertainty of the continuum (%)
 SELECT *, error_percent AS e, phase_error_deg AS phi, 100 * continuum_uncertainty / continuum_over_mastic AS u,
   iif(mastic_radius_m = '0.00075 0.001', 'published', 'halved') AS spheres,
-  iif(geometry LIKE 'shapes%', 'shapes', iif(void_nominal > 0, 'voids', 'balls')) AS kind,
-  text(CASE WHEN geometry LIKE 'shapes%' THEN 'shapes, {:.0f} %' WHEN void_nominal > 0 THEN 'balls, {:.0f} %, voids {:.0f} %'
+  NOT (rule = 'series' AND coalesce(void_rule, '') = 'spheres') AS usual,  -- made with the default of the key void_cells
+  CASE text('{:.1f}', ratio) WHEN '14.3' THEN 'AM1, 2 Hz' WHEN '10.4' THEN 'AM1, 20 Hz' WHEN '36.8' THEN 'AM2, 2 Hz' ELSE '' END AS mastic,
+  CASE WHEN geometry LIKE 'packed%' THEN 'packed' WHEN geometry LIKE 'shapes%' THEN 'shapes' WHEN void_nominal > 0 THEN 'voids' ELSE 'balls' END AS kind,
+  text(CASE WHEN geometry LIKE 'packed%' THEN 'packed shapes, {:.0f} %' WHEN geometry LIKE 'shapes%' THEN 'shapes, {:.0f} %' WHEN void_nominal > 0 THEN 'balls, {:.0f} %, voids {:.0f} %'
        ELSE 'balls, {:.0f} %' END, 100 * rock_nominal, 100 * void_nominal) AS specimen
 FROM "model-error.csv";
 
 CREATE VIEW model_table AS  -- the errors of both rules in one row per geometry, size of spheres and ratio
-SELECT specimen, kind, rock_nominal, void_nominal, spheres, ratio, min(continuum_voxels_m) AS voxels, avg(continuum_over_mastic) AS continuum, avg(u) AS u,
+SELECT specimen, kind, rock_nominal, void_nominal, spheres, ratio, mastic, min(continuum_voxels_m) AS voxels, avg(continuum_over_mastic) AS continuum, avg(u) AS u,
   avg(continuum_phase_deg) AS phase,
   max(iif(rule = 'series' AND filling = 'single', e, NULL)) AS s1, max(iif(rule = 'series' AND filling = 'coarse', e, NULL)) AS s2,
   max(iif(rule = 'series' AND filling = 'fine', e, NULL)) AS s3,
@@ -302,21 +304,40 @@ SELECT specimen, kind, rock_nominal, void_nominal, spheres, ratio, min(continuum
   max(iif(rule = 'centres' AND filling = 'fine', e, NULL)) AS c3,
   max(iif(rule = 'series' AND filling = 'single', phi, NULL)) AS f1, max(iif(rule = 'series' AND filling = 'coarse', phi, NULL)) AS f2,
   max(iif(rule = 'series' AND filling = 'fine', phi, NULL)) AS f3
-FROM model_errors GROUP BY geometry, seed, spheres, ratio;
+FROM model_errors WHERE usual GROUP BY geometry, seed, spheres, ratio;
 
 CREATE VIEW model_certain AS  -- networks whose continuum is known to 4 %, from three voxel sizes
-SELECT * FROM model_errors WHERE spheres = 'published' AND u < 4 AND continuum_voxels_m LIKE '% % %';
+SELECT * FROM model_errors WHERE usual AND spheres = 'published' AND u < 4 AND continuum_voxels_m LIKE '% % %';
 
 CREATE VIEW model_unsure AS  -- the other networks
-SELECT * FROM model_errors WHERE spheres = 'published' AND NOT (u < 4 AND continuum_voxels_m LIKE '% % %');
+SELECT * FROM model_errors WHERE usual AND spheres = 'published' AND NOT (u < 4 AND continuum_voxels_m LIKE '% % %');
 
 CREATE VIEW model_spreads AS  -- largest difference between the divisions of one geometry into spheres (%)
-SELECT geometry, rule, ratio, 100 * (max(e_star_over_mastic) / min(e_star_over_mastic) - 1) AS spread,
+SELECT geometry, rule, ratio, mastic, 100 * (max(e_star_over_mastic) / min(e_star_over_mastic) - 1) AS spread,
   max(phase_deg) - min(phase_deg) AS phase_spread, count(*) AS n
-FROM model_errors WHERE spheres = 'published' GROUP BY geometry, seed, rule, ratio;
+FROM model_errors WHERE usual AND spheres = 'published' GROUP BY geometry, seed, rule, ratio;
 
 CREATE VIEW series_paper AS  -- specimens of the study with rule series: difference of |E*| (%) and phi from single spheres
 SELECT s.*, 100 * (s.e_star_pa / r.e_star_pa - 1) AS e, 100 * (s.phase_deg / r.phase_deg - 1) AS phi,
   CASE s.scene WHEN 'ac14_ss_am1' THEN 'SS' WHEN 'ac14_ms_poly_coarse' THEN 'MS-Poly-coarse' WHEN 'ac14_ms_poly_fine' THEN 'MS-Poly-fine'
     WHEN 'ac14_ms_ico_coarse' THEN 'MS-Ico-coarse' ELSE 'MS-Ico-fine' END AS specimen
 FROM "series-paper.csv" s JOIN "series-paper.csv" r USING (seed, mix, reading, frequency_hz) WHERE r.scene = 'ac14_ss_am1';
+
+CREATE VIEW model_bounds AS  -- networks beside the bounds of Hashin and Shtrikman; above, below: distance from them (%), < 0 outside
+SELECT *, 100 * (e_over_mastic / lower - 1) AS above, 100 * (1 - e_over_mastic / upper) AS below,
+  100 * (e_over_mastic / lower_zero - 1) AS above_zero, 100 * (1 - e_over_mastic / upper_zero) AS below_zero
+FROM "bounds.csv";
+
+-- Mixtures
+
+CREATE VIEW mixture_convergence AS  -- a case of bench/mixture/convergence at one point of the test: geometric mean over the seeds
+SELECT study, radius_m, box_over_grain, temperature_c, frequency_hz, count(*) AS seeds, max(particles) AS particles,
+  exp(avg(ln(e_star_pa))) AS e, avg(phase_deg) AS phase,
+  100 * sqrt(max(0, avg(ln(e_star_pa) * ln(e_star_pa)) - avg(ln(e_star_pa)) * avg(ln(e_star_pa))) * count(*) / (count(*) - 1)) AS scatter
+FROM "mixture-convergence.csv" GROUP BY study, radius_m, box_over_grain, temperature_c, frequency_hz;
+
+CREATE VIEW mixture_finer AS  -- change (%) of |E*| and of phi by smaller spheres, over the seeds that both have
+SELECT a.radius_m AS coarse, b.radius_m AS fine, a.temperature_c, a.frequency_hz,
+  100 * (exp(avg(ln(b.e_star_pa / a.e_star_pa))) - 1) AS e, avg(b.phase_deg - a.phase_deg) AS phi
+FROM "mixture-convergence.csv" a JOIN "mixture-convergence.csv" b USING (study, seed, temperature_c, frequency_hz)
+WHERE study = 'radius' AND b.radius_m < a.radius_m GROUP BY a.radius_m, b.radius_m, a.temperature_c, a.frequency_hz;

@@ -37,7 +37,7 @@ class RanksProgram : public Program {
   std::string command(const std::string& arguments) const {
     return fmt::format(
         "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMPI_ALLOW_RUN_AS_ROOT=1 "
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 600 '{}' --oversubscribe -n 2 '{}' {} >'{}' 2>'{}' </dev/null",
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 3600 '{}' --oversubscribe -n 2 '{}' {} >'{}' 2>'{}' </dev/null",
         plugins_.string(), (folder_ / "tmp").string(), MPIRUN, MACADAM_PROGRAM, arguments,
         (folder_ / "stdout.txt").string(), (folder_ / "stderr.txt").string());
   }

@@ -112,7 +112,7 @@ const std::string in_time = fmt::format("duration = {}\nsamples = 40\n", end);
 /// The strain rates, the drive of a stepper and the closed form in this file describe the same strain.
 TEST_F(History, EveryDescriptionIsOneStrain) {
   for (const Case& c : cases()) {
-    const auto& spec = std::get<StrainHistory>(read_scene(column(c.keys + in_time, "")).experiment);
+    const auto spec = std::get<StrainHistory>(read_scene(column(c.keys + in_time, "")).experiment);
     std::visit(
         [&](const auto& drive) {
           const double dt = drive.step(1.7e-6, end), unit = 4e-3;
@@ -139,7 +139,7 @@ TEST_F(History, EveryDescriptionIsOneStrain) {
 TEST_F(History, TheStressIsTheConvolution) {
   const PronySeries series{E_inf, {{E_1, time_1}}};
   for (const Case& c : cases()) {
-    const auto& spec = std::get<StrainHistory>(read_scene(column(c.keys + in_time, "")).experiment);
+    const auto spec = std::get<StrainHistory>(read_scene(column(c.keys + in_time, "")).experiment);
     HistoryResponse response(std::visit([](const auto& drive) { return drive.pieces(end); }, spec.drive));
     const double scale = largest_stress(c);
     for (const double t : {3.1e-4, 1e-3, 1.7e-3, 2.9e-3, end})
@@ -246,12 +246,11 @@ TEST_F(History, WrongScenesAreRefused) {
   EXPECT_HAS(refusal("drive = \"haversine\"\n"), "[loading] duration: found nothing");
   EXPECT_HAS(refusal(pulse + "strain = 1e-4\n"), "[loading] pulse: found nothing, expected this key, which drive");
   EXPECT_HAS(refusal(pulse + "strain = 0\npulse = 0.1\n"), "[loading] strain: found 0, expected a strain above -1");
-  EXPECT_HAS(
-      refusal(pulse + "strain = 1e-4\npulse = 0.1\nrate = 1\n"),
-      "[loading] rate: found this key with drive = \"haversine\", expected only the keys of this drive: strain, "
-      "pulse, rest, pulses");
-  EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 0.1\nfile = \"a.csv\"\n"),
-             "[loading] file: found this key with");
+  EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 0.1\nrate = 1\n"),
+             "[loading] rate: found this key with drive = \"haversine\", expected only the keys of this drive: strain, "
+             "pulse, rest, pulses");
+  write(folder_ / "a.csv", "time_s,strain\n1,1e-4\n");
+  EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 0.1\nfile = \"a.csv\"\n"), "[loading] file: found this key with");
   EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 1e-7\nrest = 1e-7\n"), "found more than 500000 pulses");
   EXPECT_HAS(refusal(pulse + "strain = 1e-4\npulse = 0.1\nsamples = 0\n"), "[loading] samples: found 0");
   EXPECT_HAS(refusal(time + "drive = \"ramp\"\nstrain = 1e-4\nramp = 0\n"), "[loading] ramp: found 0");
@@ -279,8 +278,7 @@ TEST_F(History, WrongTablesAreRefusedByTheirLine) {
   EXPECT_HAS(refused("time_s,strain\n1,nan\n"), "strains.csv:2: strain: found nan");
   EXPECT_HAS(refused("time_s,strain\n1,1e-4\n1,2e-4\n"), "strains.csv:3: time_s: found 1 after 1, expected times that");
   EXPECT_HAS(refused("time_s,strain\n0,1e-4\n1,2e-4\n"), "strains.csv:2: strain: found 0.0001, expected 0 at time 0");
-  EXPECT_HAS(refused("time_s,strain\n0,0\n"),
-             "[loading] file: found 1 times and 1 strains, expected a time after 0");
+  EXPECT_HAS(refused("time_s,strain\n0,0\n"), "[loading] file: found 1 times and 1 strains, expected a time after 0");
 }
 
 }  // namespace

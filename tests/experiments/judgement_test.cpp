@@ -121,6 +121,16 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfThePairsThatArePresent) {
   EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 1.151e11);
 }
 
+// With rule "series" a specimen may be stiffer than its mastic, whose law all contacts of this specimen have.
+TEST_F(WithoutReference, WithRuleSeriesTheRockIsTheStiffest) {
+  Scene scene = read_scene(write_scene());
+  Preparation prepared = prepare(scene);
+  for (auto& law : scene.laws) law = laws::Elastic{1e6, 1};
+  prepared.network.rule = ContactRule::series;
+  prepared.network.rock_modulus = 60e9;
+  EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 60e9);
+}
+
 // A spring and a dashpot in series that are equally stiff at 20 Hz have 1/√2 of the spring's stiffness.
 TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   Scene scene = read_scene(write_scene());
@@ -129,6 +139,17 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   const double spring = 1e10, omega = 2 * std::numbers::pi * 20;
   scene.laws[static_cast<std::size_t>(PairType::mm)] = laws::GeneralisedKelvin{spring, spring / omega, {}, {}, 0};
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
+}
+
+// With rock in series a contact is 1/(r + 1/k) times distance over length, whatever its law alone is.
+TEST_F(WithoutReference, TheStiffestContactHasRockInSeries) {
+  Scene scene = read_scene(write_scene());
+  Preparation prepared = prepare(scene);
+  for (auto& law : scene.laws) law = laws::Elastic{1e9, 0.5};
+  prepared.network.rule = ContactRule::series;
+  for (Contact& c : prepared.network.contacts) c.length = 0.25 * c.distance, c.series = 3e-9;
+  const double normal = 4 / (1e-9 + 3e-9), slip = 4 / (2e-9 + 3e-9);
+  EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20), std::max(normal, slip), 1e-12 * normal);
 }
 
 // If a particle has no contacts, there is no harmonic solution with which a run can be checked. The specimens here are

@@ -86,6 +86,47 @@ TEST(FieldMeshes, LinesJoinWhatContactsJoin) {
   }
 }
 
+// Facets that can crack are the polygons of their contacts; each has the means of the cracks of its points.
+TEST(FieldMeshes, PolygonsOfCracksAreTheFacetsOfContactsThatCrack) {
+  const Specimen s = random_specimen(test_seed());
+  const Tessellation t = tessellate(s);
+  const ContactNetwork network = build_network(s, t);
+  Laws laws = elastic_laws();
+  laws[static_cast<std::size_t>(PairType::mm)] =
+      laws::Cracked<laws::Elastic>{laws::Elastic{1e10, 0.1}, {1e6, 50, 2e6, 50, 0, 0}};
+  const FieldMesh mesh = crack_mesh(t, network, facts_of(laws));
+  ASSERT_EQ(static_cast<std::int64_t>(mesh.cell_count()), network.count[static_cast<std::size_t>(PairType::mm)]);
+  ContactState state;
+  state.point_cracks.resize(network.point_area.size());
+  for (std::size_t c = 0; c < network.contacts.size(); ++c) {
+    for (std::uint32_t j = network.contacts[c].point_begin; j < network.contacts[c].point_end; ++j) {
+      const double number = static_cast<double>(c);
+      state.point_cracks[j] = {1e-6 * number, 2e-6 * number, number / 1e4, number, 0};
+    }
+  }
+  const std::vector<FieldArray> arrays = crack_arrays(network, facts_of(laws), state);
+  for (std::size_t p = 0; p < mesh.cell_count(); ++p) {
+    const auto number = static_cast<std::size_t>(whole(mesh.arrays, "contact")[p]);
+    const Contact& contact = network.contacts[number];
+    EXPECT_EQ(contact.pair, PairType::mm);
+    const auto corner = [&](std::int64_t k) {
+      return vector(mesh.points, static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(k)]));
+    };
+    Vec3d twice{};
+    const Vec3d first = corner(mesh.offsets[p]);
+    for (std::int64_t k = mesh.offsets[p] + 1; k + 1 < mesh.offsets[p + 1]; ++k)
+      twice += cross(corner(k) - first, corner(k + 1) - first);
+    // as for the cells: corners in single precision move the area by less than 1e-6 of 4 mm²
+    EXPECT_NEAR(0.5 * norm(twice), contact.area, 1e-6 * 4e-6);
+    const auto value = static_cast<double>(number);
+    // single precision
+    EXPECT_NEAR(floats(arrays, "opening")[p], 1e-6 * value, 1e-12 * value);
+    EXPECT_NEAR(floats(arrays, "slip")[p], 2e-6 * value, 1e-12 * value);
+    EXPECT_NEAR(floats(arrays, "damage")[p], value / 1e4, 1e-10 * value);
+    EXPECT_NEAR(floats(arrays, "crack_energy")[p], value, 1e-6 * value);
+  }
+}
+
 TEST(FieldMeshes, SizeClassesAreThoseOfTheAggregates) {
   Specimen s = random_specimen(1);
   std::vector<Aggregate> aggregates(2);

@@ -302,7 +302,7 @@ void expect_same_rows() {
   for (std::size_t body = 0; body < n; ++body) {
     const auto particle = static_cast<std::size_t>(layout.particle[body]);
     harmonic::Lanes<F> out[6];
-    harmonic::apply_row<F>(system, block, body, x, out);
+    harmonic::apply_row<F>(system, block, body, x, {}, out);
     for (int f = 0; f < F; ++f) {
       double scale = 0;
       for (std::size_t i = 0; i < 6 * n; ++i) scale = std::max(scale, std::abs(expected[f][i]));

@@ -100,7 +100,7 @@ TEST(PoissonRatio, IsZeroIfNormalAndShearStiffnessAreEqual) {
   const Inertia inertia = make_inertia(specimen, 1, 1);
   const HarmonicResult found = Harmonic(specimen, network, laws, inertia, {}, 1).solve(1);
   EXPECT_NEAR(found.top.e_star_pa, 2e10, 2e10 * 1e-10);
-  const auto ratio = poisson_ratio(specimen, cells, found.motion);
+  const auto ratio = poisson_ratio(specimen, cells, found);
   ASSERT_TRUE(ratio);
   EXPECT_NEAR(std::abs(*ratio), 0, 1e-8);
 }
@@ -120,7 +120,7 @@ TEST(PoissonRatio, GrowsAsTheShearStiffnessFalls) {
     for (const PairType wall : {PairType::aw, PairType::mw})  // platens without friction
       laws[static_cast<std::size_t>(wall)] = laws::Elastic{2e10, 0};
     const HarmonicResult found = Harmonic(specimen, network, laws, inertia, {}, 1).solve(1);
-    const double ratio = poisson_ratio(specimen, cells, found.motion)->real();
+    const double ratio = poisson_ratio(specimen, cells, found)->real();
     EXPECT_GT(ratio, before) << "alpha " << alpha;
     const double isotropic = (1 - alpha) / (4 + alpha);
     EXPECT_GT(ratio, isotropic / 3) << "alpha " << alpha;

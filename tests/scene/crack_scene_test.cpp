@@ -113,6 +113,17 @@ TEST(CrackScene, OnlyPairsOfParticlesWithTwoLawsCrack) {
   EXPECT_HAS(message("M-M", "law = \"brittle_bond\"\nE = 1e10\ntensile_strength = 1e6\n"), "crack");
 }
 
+TEST(CrackScene, ExampleOfTensionHasCracksBetweenParticles) {
+  const Scene scene = read_scene(MACADAM_EXAMPLES "/tension/scene.toml");
+  const FactsTable facts = facts_of(scene.laws);
+  for (const PairType pair : {PairType::mm, PairType::ma, PairType::aa})
+    EXPECT_TRUE(facts[static_cast<std::size_t>(pair)]->cracks) << to_string(pair);
+  for (const PairType pair : {PairType::mw, PairType::aw})
+    EXPECT_FALSE(facts[static_cast<std::size_t>(pair)]->cracks) << to_string(pair);
+  EXPECT_STREQ(kind_of(scene.experiment), "monotonic");
+  EXPECT_FALSE(scene.solver.damping_given) << "the balance of energies can be checked only without damping";
+}
+
 // Between two temperatures of a table the value is linear. A crack with tables needs a temperature within all of them.
 TEST(CrackScene, TablesOverTemperatureAreEvaluatedAtTheSceneTemperature) {
   const std::string tables =

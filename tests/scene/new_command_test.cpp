@@ -117,6 +117,24 @@ TEST_F(NewCommand, WritesWhatItSaysAndReplacesNothing) {
   EXPECT_EQ(macadam("new " + path("nowhere/mix.toml")).code, 1);
 }
 
+// Pairs of particles have cracks, walls have none; the scene is a strength test that is stepped.
+TEST_F(NewCommand, CracksAreForStrengthTests) {
+  for (const NewKind kind : kinds) {
+    const std::string text = scene::new_scene(kind, "monotonic", ContactRule::centres, true);
+    const Scene made = read_text(text);
+    const FactsTable laws = facts_of(made.laws);
+    for (const PairType pair : {PairType::mm, PairType::ma, PairType::aa})
+      EXPECT_TRUE(laws[static_cast<std::size_t>(pair)]->cracks) << to_string(pair);
+    for (const PairType pair : {PairType::aw, PairType::mw})
+      EXPECT_FALSE(laws[static_cast<std::size_t>(pair)]->cracks) << to_string(pair);
+    EXPECT_EQ(made.solver.method, SolverMethod::explicit_);
+    for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), 120u) << line;
+  }
+  EXPECT_TRUE(contains(macadam("new --cracks " + path("mix.toml")).err, "expected --test monotonic"));
+  EXPECT_TRUE(
+      contains(macadam("new --cracks --test monotonic --rule series " + path("mix.toml")).err, "--rule centres"));
+}
+
 TEST_F(NewCommand, EveryKindRuns) {
   for (const NewKind kind : kinds) {
     std::string text = scene_text(kind, "cyclic");

@@ -213,5 +213,20 @@ TEST_F(SceneRecipe, NoneBesideAFile) {
   EXPECT_HAS(refused({{2, "box = [0.03, 0.03, 0.03]\nfile = \"some.csv\""}}), "together with the key file");
 }
 
+// The box has 27000 mm³. The finest class, 2 to 5 mm, takes the material of the class 5 to 10 mm if that class has less
+// than the 65.4 mm³ of a sphere of 5 mm.
+TEST_F(SceneRecipe, AClassWithLessThanOneGrainIsMerged) {
+  EXPECT_TRUE(scene().specimen.merged.empty());
+  const Scene whole = scene({{5, "[\"5 mm\", \"99.9 %\"],"}, {16, ""}});
+  ASSERT_EQ(whole.specimen.aggregate.size(), 2u);
+  EXPECT_EQ(whole.specimen.aggregate[0].volume_fraction, 0.0);
+  ASSERT_EQ(whole.specimen.merged.size(), 1u);
+  EXPECT_NE(whole.specimen.merged[0].find("5-10 mm"), std::string::npos) << whole.specimen.merged[0];
+  EXPECT_NE(whole.specimen.merged[0].find("2-5 mm"), std::string::npos) << whole.specimen.merged[0];
+  const MixVolumes v = volumes_of(*whole.recipe);
+  EXPECT_DOUBLE_EQ(*whole.specimen.aggregate[1].volume_fraction,
+                   v.classes[1].volume / (1 - v.air_voids) + v.classes[0].volume / (1 - v.air_voids));
+}
+
 }  // namespace
 }  // namespace macadam::test

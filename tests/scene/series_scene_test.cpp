@@ -65,6 +65,24 @@ TEST_F(SeriesScene, PairsFollowFromThePhases) {
   }
 }
 
+TEST_F(SeriesScene, CellsOfVoidsHaveTheVolumesOfTheVoids) {
+  const std::string voids = "[specimen.voids]\nradius = [0.0005, 0.001]\nfraction = 0.04\n";
+  const auto scene_with = [&](const std::string& key) {
+    return read(specimen + voids + aggregate + mastic + series + key + cyclic);
+  };
+  const Scene equal = scene_with(""), plain = scene_with("void_cells = \"spheres\"\n");
+  EXPECT_EQ(equal.network.cells_of_voids(), VoidCells::volume);
+  EXPECT_EQ(plain.network.cells_of_voids(), VoidCells::spheres);
+  EXPECT_EQ(NetworkSpec{}.cells_of_voids(), VoidCells::spheres);  // rule "centres"
+  const RockReport rock = prepare(equal).rock.value();
+  EXPECT_NEAR(rock.void_cells / rock.void_nominal, 1, 1e-3);  // the tolerance of tessellate_with_void_volumes()
+  const RockReport larger = prepare(plain).rock.value();
+  EXPECT_EQ(larger.void_nominal, rock.void_nominal);
+  EXPECT_GT(larger.void_cells, 1.05 * larger.void_nominal);
+  refused(specimen + voids + aggregate + mastic + series + "void_cells = \"radius\"\n" + cyclic,
+          {"void_cells", "\"radius\"", "\"volume\""});
+}
+
 TEST_F(SeriesScene, MasticMayBeElasticAndRockMayBeAbsent) {
   const Scene scene = read(
       "[specimen]\nbox = [0.01, 0.01, 0.01]\n[specimen.mastic]\nradius = [5e-4, 1e-3]\nporosity = "
@@ -99,7 +117,8 @@ TEST_F(SeriesScene, PairsKeepLimitsOfFacets) {
 }
 
 TEST_F(SeriesScene, WrongKeysAreRefused) {
-  refused(replaced(good, "\"series\"", "\"volumetric\""), {"[network] rule", "\"volumetric\"", "\"centres\""});
+  refused(replaced(good, "\"series\"", "\"serial\""),
+          {"[network] rule", "\"serial\"", "\"centres\"", "\"volumetric\""});
   refused(replaced(good, "rule", "rul"), {"an unknown key", "rule"});
   refused(replaced(good, "poisson_ratio = 0.35", "poison_ratio = 0.35"), {"an unknown key", "poisson_ratio"});
   refused(replaced(good, "poisson_ratio = 0.35\n", ""), {"[materials.mastic] poisson_ratio", "nothing"});

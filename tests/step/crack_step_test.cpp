@@ -292,7 +292,7 @@ TEST(CrackInput, IsSteppedByPointsInDoubleOrMixed) {
     return message_of(
         [&] { make_stepper(backend, scene.specimen, scene.network, scene.laws, scene.inertia, options); });
   };
-  EXPECT_HAS(message(Backend::cpu), "generalised_kelvin with crack, which is not linear; expected points");
+  EXPECT_HAS(message(Backend::cpu), "generalised_kelvin with crack, which is not linear, expected \"points\"");
   options.form = ContactForm::points;
   EXPECT_EQ(message(Backend::cpu), "nothing was thrown");
   options.precision = Precision::single;

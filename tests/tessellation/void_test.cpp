@@ -252,6 +252,57 @@ TEST(GeneratedVoids, AreRefusedWhereTheyAreImpossible) {
   EXPECT_HAS(message_of([&] { generate_specimen(spec); }), "no space for void");
 }
 
+TEST(VoidCells, HaveTheVolumesOfTheirSpheres) {
+  const Specimen s = generate_specimen(mix(0.05)).specimen;
+  const Tessellation plain = tessellate(s), equal = tessellate_with_void_volumes(s);
+  ASSERT_EQ(equal.void_weight.size(), s.voids.size());
+  EXPECT_TRUE(plain.void_weight.empty());
+  double spheres = 0, cells = 0;
+  for (std::size_t k = 0; k < s.voids.size(); ++k) {
+    const double sphere = volume_of(s.voids[k].radius);
+    spheres += sphere, cells += plain.cell_volume[s.size() + k];
+    EXPECT_NEAR(equal.cell_volume[s.size() + k] / sphere, 1, 1e-3) << k;  // the tolerance that the function promises
+  }
+  EXPECT_GT(cells, 1.05 * spheres);  // otherwise the test would show nothing
+  const TessellationInvariants i = measure_invariants(s, equal);
+  EXPECT_LT(std::max({i.volume, i.closure, i.flatness, i.power, i.walls}), 1e-9);
+  for (const Facet& f : equal.facets) {
+    if (f.b < 0 || f.b >= static_cast<std::int32_t>(s.size())) continue;
+    const auto a = static_cast<std::size_t>(f.a), b = static_cast<std::size_t>(f.b);
+    const double d = norm(s.centre[b] - s.centre[a]);
+    const double arm = 0.5 * (d + (s.radius[a] * s.radius[a] - s.radius[b] * s.radius[b]) / d);
+    EXPECT_NEAR(dot(f.centroid - s.centre[a], f.normal) / d, arm / d, 1e-9);  // rounding of the vertices
+  }
+}
+
+TEST(VoidCells, AreThoseOfTheTessellationWithoutVoids) {
+  const Specimen s = random_specimen(3, 5, 5, 6);
+  const Tessellation plain = tessellate(s), equal = tessellate_with_void_volumes(s);
+  EXPECT_EQ(equal.cell_volume, plain.cell_volume);
+  EXPECT_EQ(equal.facets.size(), plain.facets.size());
+  EXPECT_TRUE(equal.void_weight.empty());
+}
+
+TEST_F(VoidFiles, MayNeedNegativeWeights) {
+  const Specimen s = read_rows("0,0.002,0.005,0.005,0.002,mastic,-1\n1,0.008,0.005,0.005,0.001,void,-1\n");
+  const Tessellation cells = tessellate_with_void_volumes(s);
+  ASSERT_EQ(cells.void_weight.size(), 1U);
+  // A cell of 4.18879 mm³ begins at x = 10 - 0.0418879 mm. There (36 + 4 - weight)/12 = x - 2 with lengths in mm.
+  EXPECT_NEAR(cells.void_weight[0], -55.49735e-6, 0.001 * 4.19e-9 / 100e-6 * 12e-3);  // 0.1 % of the volume
+  EXPECT_NEAR(cells.cell_volume[1] / volume_of(0.001), 1, 1e-3);
+  const TessellationInvariants i = measure_invariants(s, cells);
+  EXPECT_LT(std::max({i.volume, i.closure, i.flatness, i.power, i.walls}), 1e-9);
+}
+
+TEST_F(VoidFiles, LeaveTheCellsOfParticles) {
+  // The two voids have more volume than the box, so cells of this volume would leave nothing to the mastic.
+  const Specimen s = read_rows(
+      "0,0.002,0.005,0.005,0.002,mastic,-1\n1,0.006,0.005,0.005,0.005,void,-1\n2,0.0062,0.005,0.005,0.005,void,-1\n");
+  const Tessellation cells = tessellate_with_void_volumes(s);
+  EXPECT_TRUE(cells.hidden.empty());
+  EXPECT_GT(cells.cell_volume[0], 0);
+}
+
 class VoidScenes : public VoidFiles {
  protected:
   Scene scene(const std::string& specimen, const std::string& voids) const {

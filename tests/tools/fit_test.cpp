@@ -332,5 +332,26 @@ TEST(Fit, AnElasticSpringIsAChainWithoutUnits) {
   EXPECT_NEAR(law.E_m, 1e10, 1e2);
 }
 
+// The points are those of a chain, so only the difference that the function allows is left.
+TEST(Fit, AChainStandsForACurve) {
+  laws::GeneralisedKelvin law;
+  law.E_m = 6e9, law.C_m = 1.3e9, law.E = {2e8, 5e9}, law.C = {5e9, 1e8};
+  ModulusData curve;
+  curve.source = "curve";
+  for (int k = -8; k <= 8; ++k) {
+    const double hz = std::pow(10.0, k / 4.0);
+    const std::complex<double> modulus = law.stiffness(std::complex<double>(0, 2 * std::numbers::pi * hz));
+    curve.points.push_back({hz, std::abs(modulus), std::arg(modulus) * 180 / std::numbers::pi});
+  }
+  const CurveChain found = chain_of_curve(curve);
+  EXPECT_LE(found.largest_difference, 0.02);
+  for (const ModulusPoint& p : curve.points) {
+    const std::complex<double> s(0, 2 * std::numbers::pi * p.frequency_hz);
+    EXPECT_LE(std::abs(found.law.stiffness(s) / law.stiffness(s) - 1.0), found.largest_difference * (1 + 1e-9));
+  }
+  curve.temperatures = true;
+  EXPECT_THROW(chain_of_curve(curve), InputError);
+}
+
 }  // namespace
 }  // namespace macadam::test

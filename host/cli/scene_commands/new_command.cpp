@@ -23,6 +23,7 @@ struct NewArguments {
   std::string file = "scene.toml", test = "cyclic";
   scene::NewKind kind = scene::NewKind::recipe;
   ContactRule rule = ContactRule::centres;
+  bool cracks = false;
 };
 
 /// Writes a new file. \throws InputError if a file of this name exists, even if it was made a moment ago.
@@ -48,7 +49,10 @@ void write_new(const std::string& file, const std::string& text) {
 }
 
 void new_command(const NewArguments& arguments) {
-  write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test, arguments.rule));
+  if (arguments.rule == ContactRule::volumetric && arguments.test != "cyclic" && arguments.test != "sweep")
+    throw InputError("macadam new", 0, "--test with --rule volumetric", arguments.test,
+                     "cyclic or sweep, because this rule is available in the frequency domain only");
+  write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test, arguments.rule, arguments.cracks));
   say("{} is written. Edit it, then run:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)
     say("  put specimen.csv (id,x,y,z,radius,phase,body) into the same folder, and write the edge lengths of its box "
@@ -72,11 +76,15 @@ void add_new_command(CLI::App& app) {
   std::vector<std::pair<std::string, std::string>> tests;
   for (const std::string& kind : scene::tests_of_new_scenes()) tests.emplace_back(kind, kind);
   add_choice(command, "--test", arguments->test, "the test of the specimen", tests);
-  add_choice(command, "--rule", arguments->rule,
-             "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow",
-             {{"centres", ContactRule::centres}, {"series", ContactRule::series}});
-  add_examples(command, {"macadam new mix.toml", "macadam new --kind shapes --test sweep mix.toml",
-                         "macadam new --rule series mix.toml"});
+  add_choice(
+      command, "--rule", arguments->rule,
+      "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow, without "
+      "or with their Poisson's ratios",
+      {{"centres", ContactRule::centres}, {"series", ContactRule::series}, {"volumetric", ContactRule::volumetric}});
+  command.add_flag("--cracks", arguments->cracks,
+                   "contacts between particles crack, for a strength test (--test monotonic)");
+  add_examples(command, {"macadam new mix.toml", "macadam new --kind spheres --test monotonic --cracks mix.toml",
+                         "macadam new --kind shapes --test sweep mix.toml", "macadam new --rule series mix.toml"});
   command.callback([arguments] { new_command(*arguments); });
 }
 

@@ -5,6 +5,7 @@
 #include "host/cli/terminal/help.hpp"
 #include "macadam/error.hpp"
 #ifdef MACADAM_CT
+#include "host/cli/tool_commands/ct_modulus.hpp"
 #include "host/cli/tool_commands/ct_phantom.hpp"
 #include "host/cli/tool_commands/ct_segment.hpp"
 #include "host/cli/tool_commands/ct_twin.hpp"
@@ -16,13 +17,15 @@ void add_ct_command(CLI::App& app) {
   CLI::App& ct = *app.add_subcommand("ct", "find grains, phases and specimens in images of computed tomography");
   add_examples(ct, {"macadam ct phantom examples/ct/scene.toml --voxel \"200 um\" --out results/phantom",
                     "macadam ct segment results/phantom/scan.mha --out results/segmented",
-                    "macadam ct twin results/segmented --scene examples/ct/scene.toml --out results/twin"});
+                    "macadam ct twin results/segmented --scene examples/ct/scene.toml --out results/twin",
+                    "macadam ct modulus results/segmented --scene examples/ct/modulus.toml --out results/modulus"});
 #ifdef MACADAM_CT
   ct.require_subcommand(1);
   // Each of these commands is in a file of its own, which adds it here.
   add_ct_segment(ct);
   add_ct_phantom(ct);
   add_ct_twin(ct);
+  add_ct_modulus(ct);
 #else
   ct.allow_extras();
   ct.callback([] {

@@ -21,7 +21,7 @@ struct FitArguments {
   std::string data, parameters, out;
   std::optional<double> poisson, from, to;
   double error = 0.01;
-  bool flow = false, no_flow = false, no_pictures = false;
+  bool flow = false, no_flow = false, no_pictures = false, curve = false;
   FitOptions fit;
 };
 
@@ -36,7 +36,11 @@ void require_uses(const CLI::App& command, const FitArguments& arguments) {
   if (!arguments.parameters.empty())
     refuse("this option together with --parameters", "this option only with a CSV file of measurements",
            {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson", "--shift",
-            "--reference-temperature"});
+            "--reference-temperature", "--curve"});
+  else if (arguments.curve)
+    refuse("this option together with --curve", "only one of the two options, because --curve chooses the chain itself",
+           {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--shift",
+            "--reference-temperature", "--from", "--to", "--error"});
   else if (model == FitModel::kelvin)
     refuse("this option with model kelvin",
            "this option only with --model 2s2p1d or huet-sayegh, from which a Kelvin chain is computed",
@@ -61,6 +65,14 @@ void convert(const FitArguments& arguments) {
   say("files in {}: law.toml\n", arguments.out);
 }
 
+/// Writes the chain that stands for a computed curve.
+void stand_for(const ModulusData& curve, const std::string& out) {
+  const FitReport report = report_of(chain_of_curve(curve), curve);
+  write_report(out, report);
+  say("{}{}", unused_columns_text(curve), report.text);
+  say("files in {}: law.toml\n", out);
+}
+
 void fit_command(const CLI::App& command, FitArguments arguments) {
   if (arguments.data.empty() == arguments.parameters.empty()) {
     throw InputError("command line", 0, "what to fit",
@@ -71,6 +83,7 @@ void fit_command(const CLI::App& command, FitArguments arguments) {
   if (arguments.data.empty()) return convert(arguments);
   if (arguments.flow || arguments.no_flow) arguments.fit.flow = arguments.flow;
   const ModulusData data = read_modulus_data(arguments.data, arguments.poisson);
+  if (arguments.curve) return stand_for(data, arguments.out);
   const Fit fit = fit_modulus(data, arguments.fit);
   const FitReport report = report_of(fit, arguments.from, arguments.to, arguments.error);
   const std::filesystem::path out = arguments.out;
@@ -125,13 +138,17 @@ void add_fit_command(CLI::App& app) {
   add_number(command, "--to", arguments->to,
              "highest frequency of the Kelvin chain [Hz]; default: the highest measured frequency", 1e-15, 1e15);
   add_number(command, "--error", arguments->error, "largest relative error of the Kelvin chain's |E*|", 1e-6, 0.5);
+  command.add_flag("--curve", arguments->curve,
+                   "the moduli are a computed curve, such as sweep.csv: write only the Kelvin chain of up to 16 units "
+                   "that stands for it, by way of a 2S2P1D model or directly");
   const std::string model = "The model", temperatures = "Temperatures", chain = "The Kelvin chain of another model";
   for (const char* name : {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson"})
     command.get_option(name)->group(model);
   for (const char* name : {"--shift", "--reference-temperature"}) command.get_option(name)->group(temperatures);
   for (const char* name : {"--parameters", "--from", "--to", "--error"}) command.get_option(name)->group(chain);
   add_examples(command, {"macadam fit examples/laws/mastic.csv --out results/law",
-                         "macadam fit examples/laws/mastic.csv --out results/law --model 2s2p1d --shift wlf"});
+                         "macadam fit examples/laws/mastic.csv --out results/law --model 2s2p1d --shift wlf",
+                         "macadam fit results/sweep/sweep.csv --curve --out results/law"});
   command.callback([arguments, &command] { fit_command(command, *arguments); });
 }
 

@@ -65,14 +65,10 @@ void warn(const Frequency& f, const std::string& text, std::vector<std::string>&
 }  // namespace
 
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz) {
-  double stiffest = 0;
-  for (std::size_t pair = 0; pair < pair_types; ++pair) {
-    if (network.count[pair] == 0) continue;
-    const double alpha = std::visit([](const auto& law) { return law.alpha; }, *scene.laws[pair]);
-    const double own = stiffness_at(*scene.laws[pair], 2 * std::numbers::pi * frequency_hz);
-    stiffest = std::max(stiffest, std::max(1.0, alpha) * own);
-  }
-  return stiffest;
+  // With the rules of phases a specimen may be as stiff as its rock, for example by the resistance of cells to a change
+  // of volume.
+  const double of_contacts = stiffness_range(scene, network, 2 * std::numbers::pi * frequency_hz, true).second;
+  return std::max(network.rock_modulus, of_contacts);
 }
 
 void judge(HarmonicFrequency& f, double stiffest, std::vector<std::string>& warnings) {

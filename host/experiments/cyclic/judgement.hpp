@@ -10,9 +10,10 @@
 
 namespace macadam {
 
-/// Returns an upper bound of the network's modulus at a frequency [Pa]: the modulus of its stiffest contact. This
-/// modulus is a bound because the energy of the affine motion is at least the energy of the true motion (Voigt's
-/// bound), and because the cells fill the box, so that ΣA·d·n_z² over the contacts is the volume of the box.
+/// Returns an upper bound of the network's modulus at a frequency [Pa]: the modulus of its stiffest contact, or of the
+/// rock with rule "series", whose contacts have mastic and rock in series. This modulus is a bound because the energy
+/// of the affine motion is at least the energy of the true motion (Voigt's bound), and because the cells fill the box,
+/// so that ΣA·d·n_z² over the contacts is the volume of the box.
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz);
 
 /// If the result cannot be right, stores the reason in `fault`. Adds a warning for each of these: a phase angle that a

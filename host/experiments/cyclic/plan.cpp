@@ -296,7 +296,7 @@ class Planner {
     const double step = longest_cyclic_step(scene_.solver, plan_.critical.dt, f.density_scaling);
     require_possible(1 / (frequency * step), step, fmt::format("per cycle at {} Hz", frequency));
     drives::Cyclic loading;
-    loading.amplitude = spec.strain_amplitude * prepared_.specimen.box.size.z;
+    loading.amplitude = spec.strain_amplitude * gauge_length(prepared_.specimen);
     loading.frequency = frequency;
     loading.steps_per_period = std::llround(steps_per_period(frequency, step, spec.samples_per_cycle));
     loading.ramp_steps = std::llround(ramp * static_cast<double>(loading.steps_per_period));

@@ -64,8 +64,10 @@ class PlannedHarmonic : public PlannedExperiment {
       : scene_(scene), prepared_(prepared), watcher_(watcher), states_(states) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
-    // the reference backend implements time steps only; the direct solver runs on the CPU only
-    if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
+    // the reference backend implements time steps only; the direct solver and the rule "volumetric" need the CPU
+    if (result.backend == Backend::reference || solver.linear == LinearMethod::direct ||
+        scene.network.rule == ContactRule::volumetric)
+      result.backend = Backend::cpu;
     result.solver = described(scene, viscous_, result.backend);
     if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
     backend_ = result.backend;
@@ -161,7 +163,7 @@ class PlannedHarmonic : public PlannedExperiment {
       }
       f.parts = s.parts;
       f.bottom = s.bottom;
-      if (!f.confined) f.poisson_ratio = poisson_ratio(prepared_.specimen, prepared_.tessellation, s.motion);
+      if (!f.confined) f.poisson_ratio = poisson_ratio(prepared_.specimen, prepared_.tessellation, s);
       f.residual = s.residual;
       f.iterations = s.iterations;
       f.held_force = s.held_force;

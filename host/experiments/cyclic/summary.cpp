@@ -27,7 +27,7 @@ Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, 
 void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, ContactRule rule, Json& out) {
   out["sensitivities"] = Json::array();
   const std::complex<double> at(0, 2 * std::numbers::pi * f.frequency_hz);
-  const bool of_phases = rule == ContactRule::series;
+  const bool of_phases = has_laws_of_phases(rule);
   for (const Sensitivity& s : of_phases ? phase_sensitivities(f.parts, laws, at) : sensitivities(f.parts, laws, at)) {
     out["sensitivities"].push_back(
         {{"parameter", s.parameter}, {"d_e_star_pa", s.d_e_star_pa}, {"d_phase_deg", s.d_phase_deg}});

@@ -119,7 +119,8 @@ LoadErrors::LoadErrors(const TransientExperiment& test, const Scene& scene, cons
   for (const auto& law : facts_of(scene.laws)) remembers_ = remembers_ || (law && std::isfinite(law->shortest_time));
   const Box& box = prepared.specimen.box;
   affine_modulus_ = affine_modulus(prepared.network, facts_of(scene.laws), box.volume());
-  wave_ = std::numbers::pi * std::numbers::pi / (heavy_density * box.size.z * box.size.z) * (test.by_stress ? 0.25 : 1);
+  wave_ = std::numbers::pi * std::numbers::pi / (heavy_density * gauge_length(box) * gauge_length(box)) *
+          (test.by_stress ? 0.25 : 1);
 }
 
 double LoadErrors::of(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {

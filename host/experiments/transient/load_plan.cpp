@@ -56,7 +56,7 @@ class LoadPlanner {
     double mass = 0;
     for (const double m : inertia_.mass) mass += m;
     const double modulus = affine_modulus(prepared_.network, facts_of(scene_.laws), box.volume());
-    return slowest_period(test_, box.size.z, modulus, plan_.density_scaling * mass / box.volume());
+    return slowest_period(test_, gauge_length(box), modulus, plan_.density_scaling * mass / box.volume());
   }
 
   void choose_ramp(double slowest) {
@@ -73,9 +73,17 @@ class LoadPlanner {
   }
 
   void choose_damping(double slowest) {
-    damping_ = damping_of(test_, scene_.solver, plan_.ramp, slowest);
+    damping_ = damping_of(test_, scene_.solver, facts_of(scene_.laws), plan_.ramp, slowest);
     plan_.damping_kind = damping_.kind;
     plan_.damping = damping_.value;
+    if (starts_in_motion(test_, facts_of(scene_.laws))) {
+      decide("the particles start with the velocities of the strain rate, so that the start causes no waves{}",
+             scene_.solver.damping_given           ? ""
+             : plan_.damping_kind == Damping::none ? "; no damping"
+                                                   : fmt::format("; local damping {}, because sliding faces excite "
+                                                                 "vibrations in compression",
+                                                                 plan_.damping));
+    }
     if (!damping_.chosen) return;
     decide("viscous damping of {:.3g} 1/s: {}", plan_.damping,
            damping_.critical

@@ -51,13 +51,23 @@ double ramp_of(const TransientExperiment& test, double slowest) {
   return given > 0 ? given : slowest;
 }
 
+bool starts_in_motion(const TransientExperiment& test, const FactsTable& laws) {
+  return test.grows && !test.by_stress && !test.reverses && can_crack(laws);
+}
+
 // Weak damping leaves waves, and strong damping delays the slow motion. Therefore β is the smallest value with which
 // the waves have decayed by the times of the points of the result. A ramp causes waves. Their amplitude relative to the
 // stress is the time that a wave takes through the specimen, divided by the duration of the ramp. After a time t,
 // viscous damping leaves the fraction e^(−β·t/2) of this amplitude.
-LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, double ramp, double slowest) {
+LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, const FactsTable& laws, double ramp,
+                       double slowest) {
   LoadDamping out{solver.damping_kind, solver.damping};
   if (solver.damping_given) return out;
+  if (starts_in_motion(test, laws)) {
+    constexpr double against_sliding = 0.05;  // takes less than a thousandth of the work
+    const bool compresses = test.strain.value_or(0) < 0;
+    return compresses ? LoadDamping{Damping::local, against_sliding} : LoadDamping{};
+  }
   out.pause = shortest_pause(test, ramp);
   const double grown = std::min(ramp, test.history.times.front()), waves = std::min(1.0, 0.5 * slowest / grown);
   const double critical = 4 * std::numbers::pi / slowest;

@@ -19,15 +19,21 @@ double ramp_of(const TransientExperiment& test, double slowest);
 struct LoadDamping {
   Damping kind = Damping::none;
   double value = 0;       ///< χ, or β [1/s]
-  bool chosen = false;    ///< whether these rules chose the damping, which is then viscous, and not the scene
+  bool chosen = false;    ///< whether these rules chose viscous damping; otherwise the scene or cracks decided
   bool critical = false;  ///< whether it is the critical damping of the slowest wave; weaker damping would leave waves
                           ///< at the first points
   double pause = 0;       ///< shortest time from a change of the load's rate to the next point of the result [s]
 };
 
+/// Returns whether the test begins with the velocities of its strain rate, so that its start causes no waves: a
+/// strength test of contacts that crack, because such waves would change the strength.
+bool starts_in_motion(const TransientExperiment& test, const FactsTable& laws);
+
 /// Returns the damping of the scene. If it gives none, returns the weakest viscous damping with which waves have died
-/// out at the points of the result.
-LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, double ramp, double slowest);
+/// out at the points of the result. A test that starts in motion has no damping in tension, so that the balance of
+/// energies can be checked, and a weak local damping in compression, where sliding faces excite vibrations.
+LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver, const FactsTable& laws, double ramp,
+                       double slowest);
 
 /// Returns the longest time step that the rules allow [s]; a ramp has a whole number of steps. `critical`: critical
 /// time step without density scaling [s]. \throws RunError for too many steps, as require_possible() does.

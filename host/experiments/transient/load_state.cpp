@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "host/run/checkpoints.hpp"
@@ -30,7 +31,7 @@ namespace {
 
 constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks",
                      *unstepped_array = "unstepped", *ledger_array = "energies", *stresses_array = "stresses";
-constexpr std::size_t point_words = 19;
+constexpr std::size_t point_words = 19 + pair_types;
 
 /// Returns the numbers of a relaxation in one list: its error, the long-term modulus, then modulus and time of each
 /// unit.
@@ -93,8 +94,9 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
                             w[6],
                             w[7],
                             static_cast<std::int64_t>(w[8]),
-                            {static_cast<std::int64_t>(w[9]), w[10], w[11]},
+                            {static_cast<std::int64_t>(w[9]), w[10], w[11], {}},
                             {w[12], w[13], w[14], w[15], w[16], w[17], w[18]}});
+      std::copy_n(w + 19, pair_types, out.points.back().cracks.cracked_area_m2.begin());
     }
   }
   if (out.state.empty()) damaged("no state");
@@ -110,9 +112,11 @@ void add_to(Checkpoint& out, const LoadState& at) {
                    static_cast<double>(p.broken_points), static_cast<double>(p.cracks.cracked), p.cracks.crack_energy_j,
                    p.cracks.friction_energy_j, p.energies.work_j, p.energies.elastic_j, p.energies.viscous_j,
                    p.energies.crack_j, p.energies.friction_j, p.energies.kinetic_j, p.energies.damping_j});
+    points.insert(points.end(), p.cracks.cracked_area_m2.begin(), p.cracks.cracked_area_m2.end());
   }
-  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, then 9 energies J", std::move(points)});
-  out.arrays.push_back({ledger_array, "J, J, s, then m, N, and chains", at.ledger.numbers()});
+  out.arrays.push_back(
+      {points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, then 9 energies J, 6 areas m2", std::move(points)});
+  out.arrays.push_back({ledger_array, "J, J, s, J, then m, N, and chains", at.ledger.numbers()});
   if (!at.stresses.empty()) {
     std::vector<double> stresses;
     for (const StressSample& s : at.stresses) stresses.insert(stresses.end(), {s.strain, s.stress_pa});

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "host/experiments/transient/load_rules.hpp"
 #include "host/experiments/transient/load_state.hpp"
 #include "host/experiments/transient/quasi_static_plan.hpp"
 #include "host/experiments/transient/stepped_columns.hpp"
@@ -90,6 +91,7 @@ class SteppedLoad : public PlannedExperiment {
         throw InputError(checkpoint.string() + ": this machine cannot continue the checkpoint: " + error.what());
       throw;
     }
+    if (state.empty() && starts_in_motion(test_, facts_of(scene_.laws))) set_in_motion();
   }
 
   /// Fills in the results that are known before the first step.
@@ -195,6 +197,15 @@ class SteppedLoad : public PlannedExperiment {
   bool owns_checkpoint() const override { return owns_checkpoint_; }
 
  private:
+  /// Gives the particles the velocities of a uniform strain rate, whose upper end is the velocity of the top wall.
+  void set_in_motion() {
+    const std::vector<Vec3d>& centre = prepared_.specimen.centre;
+    std::vector<Vec3d> velocity(centre.size()), spin(centre.size());
+    const double rate = drive_->rate(0) / prepared_.specimen.box.size.z;
+    for (std::size_t i = 0; i < centre.size(); ++i) velocity[i].z = rate * centre[i].z;
+    stepper_->set_velocities(velocity, spin);
+    ledger_.start(stepper_->particles());
+  }
   bool is_quasi_static() const { return scene_.solver.method == SolverMethod::quasi_static; }
   void make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state) {
     auto made = std::make_unique<QuasiStaticStepper>(prepared_.specimen, prepared_.network, scene_.laws, inertia_,

@@ -163,6 +163,11 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
       if (found.cracks) point["broken_points"] = p.broken_points;
       if (found.cracks && found.cracks->sums) {
         point["cracked_points"] = p.cracks.cracked;
+        Json& areas = point["cracked_area_m2"] = Json::object();
+        for (std::size_t i = 0; i < pair_types; ++i) {
+          if (found.cracks->by_pair[i].breakable > 0)
+            areas[to_string(static_cast<PairType>(i))] = p.cracks.cracked_area_m2[i];
+        }
         add_energies(p.energies, found.damping_kind != Damping::none, point);
       }
       out["points"].push_back(std::move(point));

@@ -36,7 +36,9 @@ class BlockCocg {
     for (int f = 0; f < F; ++f) {
       const LinearTask& task = *tasks[static_cast<std::size_t>(f)];
       for (std::size_t pair = 0; pair < pair_types; ++pair) {
-        stiffness_.k[pair].set(f, task.stiffness.k[pair]);
+        const Complex k = task.stiffness.k[pair];
+        stiffness_.k[pair].set(f, k);
+        if (k != 0.0) stiffness_.compliance[pair].set(f, 1.0 / k);
         stiffness_.alpha[pair] = task.stiffness.alpha[pair];
       }
       stiffness_.inertia.set(f, task.inertia);
@@ -181,9 +183,10 @@ class BlockCocg {
   /// Computes r = f − K·x (r must hold f on entry) and the fine level of z. Returns rᵀ·z, rᵀ·r and the products with
   /// the free motions.
   Sums start() {
+    find_pressures(x_);
     return sum([&](std::size_t i, Sums& own) {
       L kx[6];
-      apply_row<F>(system_, stiffness_, i, x_, kx);
+      apply_row<F>(system_, stiffness_, i, x_, pressures_, kx);
       for (std::size_t c = 0; c < 6; ++c) r_[6 * i + c] -= kx[c];
       fine(i, own);
     });
@@ -256,11 +259,19 @@ class BlockCocg {
     }
   }
 
+  /// Computes the pressures of all cells under the motion `of`, if the system has cells.
+  void find_pressures(const LaneVector<F>& of) {
+    pressures_.resize(system_.cells.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < pressures_.size(); ++i) pressures_[i] = pressure_of<F>(system_, stiffness_, i, of);
+  }
+
   /// Computes q = K·p and returns pᵀ·q.
   Products<F> apply() {
+    find_pressures(p_);
     return sum([&](std::size_t i, Sums& own) {
              L q[6];
-             apply_row<F>(system_, stiffness_, i, p_, q);
+             apply_row<F>(system_, stiffness_, i, p_, pressures_, q);
              for (std::size_t c = 0; c < 6; ++c) {
                q_[6 * i + c] = q[c];
                own.rz.add(p_[6 * i + c], q[c]);
@@ -286,7 +297,7 @@ class BlockCocg {
   const std::vector<LinearTask*>& tasks_;
   std::size_t n_, free_;
   BlockStiffness<F> stiffness_;
-  LaneVector<F> x_, r_, p_, q_, z_, load_, coarse_;
+  LaneVector<F> x_, r_, p_, q_, z_, load_, coarse_, pressures_;
   Products<F> coarse_product_;
   Complex rho_[F] = {};
   bool done_[F] = {};

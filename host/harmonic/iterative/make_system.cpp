@@ -70,6 +70,8 @@ void make_rows(const ContactNetwork& network, const kernels::Layout& layout, Lin
       *to++ = c.a == particle ? seen_from_a(c, layout) : seen_from_b(c, layout);
     }
   }
+  for (std::size_t body = 0; body < (network.cells.empty() ? 0 : n); ++body)
+    out.cells.push_back(network.cells[static_cast<std::size_t>(layout.particle[body])]);
   const auto& contacts = network.contacts;
   if (std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.series == 0; })) return;
   out.series.resize(out.ends.size());

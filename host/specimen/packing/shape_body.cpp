@@ -244,10 +244,10 @@ ShapeContact contact(const ShapeBody& a, const ShapeBody& b, double gap) {
   return m.contact();
 }
 
-ShapeContact wall_contact(const ShapeBody& body, const Box& box, double gap) {
+ShapeContact wall_contact(const ShapeBody& body, const Domain& domain, double gap) {
   const double reach = body.radius() + gap;
-  const Vec3d c = body.centre, l = box.size;
-  const double near = std::min({c.x, c.y, c.z, l.x - c.x, l.y - c.y, l.z - c.z});
+  const Vec3d c = body.centre, l = domain.size;
+  const double near = -domain.signed_distance(c);
   if (near >= reach) return {0, near - reach, {}, {}};
   Manifold m;
   const auto add = [&](const Vec3d& p, double radius) {
@@ -256,7 +256,13 @@ ShapeContact wall_contact(const ShapeBody& body, const Box& box, double gap) {
       if (low > 0) m.add(low, p, inwards);
       if (high > 0) m.add(high, p, -inwards);
     };
-    wall(p.x, l.x, {1, 0, 0}), wall(p.y, l.y, {0, 1, 0}), wall(p.z, l.z, {0, 0, 1});
+    if (domain.is_box()) {
+      wall(p.x, l.x, {1, 0, 0}), wall(p.y, l.y, {0, 1, 0});
+    } else {
+      const Vec3d push = domain.overlap(p, gap + radius).push, side{push.x, push.y, 0};
+      if (const double depth = norm(side); depth > 0) m.add(depth, p, (1 / depth) * side);
+    }
+    wall(p.z, l.z, {0, 0, 1});
   };
   if (body.sphere) {
     add(c, body.sphere_radius());

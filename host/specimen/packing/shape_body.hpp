@@ -85,6 +85,6 @@ struct ShapeContact {
 };
 /// Finds the contact between two bodies, or between a body and the walls.
 ShapeContact contact(const ShapeBody& a, const ShapeBody& b, double gap);
-ShapeContact wall_contact(const ShapeBody& body, const Box& box, double gap);
+ShapeContact wall_contact(const ShapeBody& body, const Domain& domain, double gap);
 
 }  // namespace macadam

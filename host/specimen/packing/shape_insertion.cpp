@@ -21,7 +21,7 @@ double smallest_radius(const std::vector<ShapeBody>& bodies) {
 
 }  // namespace
 
-ShapeInsertion::ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bodies, double spacing,
+ShapeInsertion::ShapeInsertion(const Domain& box, const std::vector<ShapeBody>& bodies, double spacing,
                                std::int64_t attempts, RandomStream random)
     : box_(box),
       radius_to_come_(bodies.size()),
@@ -84,7 +84,12 @@ Vec3d ShapeInsertion::point(Draws& draws, const Vec3d& from, const Vec3d& to) {
 
 bool ShapeInsertion::inside(const ShapeBody& body, const Extent& e) const {
   const Vec3d c = body.centre, low = -e.low, high = box_.size - e.high;
-  return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z;
+  if (!(c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z)) return false;
+  if (box_.inside_sides(c, body.radius())) return true;
+  if (body.sphere) return false;
+  const auto& points = body.geometry->shape.surface.points;
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Vec3d& p) { return box_.inside_sides(body.to_space(p), 0); });
 }
 
 /// Tests only whether the body's inner ball (a ball inside the body, see ShapeBody::inner_radius()) comes too close to
@@ -109,11 +114,7 @@ bool ShapeInsertion::clear(const ShapeBody& body) const {
 void ShapeInsertion::measure_room(std::size_t k) {
   if (room_.empty()) {
     room_.resize(grid_.cells());
-    const Vec3d l = box_.size;
-    for (std::size_t cell = 0; cell < room_.size(); ++cell) {
-      const Vec3d c = middle(cell);
-      room_[cell] = std::min({c.x, c.y, c.z, l.x - c.x, l.y - c.y, l.z - c.z});
-    }
+    for (std::size_t cell = 0; cell < room_.size(); ++cell) room_[cell] = -box_.signed_distance(middle(cell));
   }
   for_each_in_parallel(grid_.layers(), [&](std::size_t layer) {
     for (std::size_t j = measured_; j < placed_.size(); ++j) {

@@ -18,7 +18,7 @@ class ShapeInsertion {
  public:
   /// `bodies` are all bodies that will be placed; they and `box` must outlive this object. Two bodies are at least
   /// `spacing` apart [m].
-  ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bodies, double spacing, std::int64_t attempts,
+  ShapeInsertion(const Domain& box, const std::vector<ShapeBody>& bodies, double spacing, std::int64_t attempts,
                  RandomStream random);
 
   /// Sets the rotation and centre of body number `k` such that it is inside the box and touches no body placed so far.
@@ -43,7 +43,7 @@ class ShapeInsertion {
   /// Returns the cells that may contain the centre of body k.
   std::vector<std::size_t> open_cells(std::size_t k, double inner_radius);
 
-  const Box& box_;
+  const Domain& box_;
   /// Entry k: the largest radius, and the largest inner radius, of the bodies from number k on [m].
   std::vector<double> radius_to_come_, inner_to_come_;
   SphereGrid near_;  ///< for each cell, the placed bodies that a body not yet placed may touch

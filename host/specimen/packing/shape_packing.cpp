@@ -47,7 +47,7 @@ struct PairContact {
 /// The state of a packing: bodies that grow, their contacts and their motion.
 class Packing {
  public:
-  Packing(const Box& box, std::vector<ShapeBody>& bodies, double from, double gap)
+  Packing(const Domain& box, std::vector<ShapeBody>& bodies, double from, double gap)
       : box_(box),
         bodies_(bodies),
         gap_(gap),
@@ -207,7 +207,7 @@ class Packing {
     list_pairs();
   }
 
-  const Box& box_;
+  const Domain& box_;
   std::vector<ShapeBody>& bodies_;
   double gap_;  // relative to the smaller body's D^I
   /// Present scale of the bodies, and the smallest D^I at full size [m].
@@ -225,7 +225,7 @@ class Packing {
 
 }  // namespace
 
-double pack(const Box& box, std::vector<ShapeBody>& bodies, double from, double gap,
+double pack(const Domain& box, std::vector<ShapeBody>& bodies, double from, double gap,
             const std::function<void(double share)>& progress) {
   return bodies.empty() ? 1 : Packing(box, bodies, from, gap).run(progress);
 }

@@ -14,7 +14,7 @@ namespace macadam {
 /// jammed. Jammed bodies may overlap. `gap` is the distance that two surfaces, or a surface and a wall, should keep,
 /// relative to the smaller body's D^I; no two surfaces come closer than about half of this distance. The same input
 /// gives the same bits for any number of threads.
-double pack(const Box& box, std::vector<ShapeBody>& bodies, double from, double gap,
+double pack(const Domain& box, std::vector<ShapeBody>& bodies, double from, double gap,
             const std::function<void(double share)>& progress);
 
 }  // namespace macadam

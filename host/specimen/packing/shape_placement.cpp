@@ -106,7 +106,7 @@ std::string no_room(const ShapeComposition& composition, const std::vector<Shape
 
 /// Inserts the bodies and returns which of them were placed. If a body cannot be placed, the smaller bodies of its
 /// class are skipped.
-std::vector<std::uint8_t> insert(const Box& box, const std::vector<ShapeTemplate>& shapes,
+std::vector<std::uint8_t> insert(const Domain& box, const std::vector<ShapeTemplate>& shapes,
                                  const ShapeComposition& composition, const ShapePlacementSpec& spec,
                                  std::vector<ShapeBody>& bodies, const std::function<void(double)>& progress) {
   ShapeInsertion insertion(box, bodies, spec.spacing, spec.attempts, RandomStream(spec.seed, place_stream));
@@ -124,7 +124,7 @@ std::vector<std::uint8_t> insert(const Box& box, const std::vector<ShapeTemplate
 }
 
 /// Places the bodies by insertion at a smaller scale, then packs them at full size. \throws RunError if they jam.
-void pack_all(const Box& box, const std::vector<ShapeTemplate>& shapes, const ShapeComposition& composition,
+void pack_all(const Domain& box, const std::vector<ShapeTemplate>& shapes, const ShapeComposition& composition,
               const ShapePlacementSpec& spec, std::vector<ShapeBody>& bodies, const auto& report) {
   double volume = 0;
   for (const AggregateRequest& r : composition.aggregate) volume += aggregate_volume(shapes[r.shape], r.size, r.sphere);
@@ -153,7 +153,7 @@ ShapeTemplate shape_template(const Surface& surface) {
   return t;
 }
 
-ShapePlacement place_shapes(const Box& box, const std::vector<ShapeTemplate>& shapes,
+ShapePlacement place_shapes(const Domain& box, const std::vector<ShapeTemplate>& shapes,
                             const ShapeComposition& composition, const ShapePlacementSpec& spec,
                             const std::function<void(const char* stage, double share)>& progress) {
   check(shapes, composition, spec);

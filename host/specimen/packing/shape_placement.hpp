@@ -82,7 +82,7 @@ struct ShapePlacement {
 /// contains another. Exact tests of the triangles, or of the spheres if these are given, ensure both conditions. The
 /// same input gives the same bits for any number of threads. \throws RunError naming the class that did not fit, and
 /// how much of it was placed, unless `spec.allow_short`.
-ShapePlacement place_shapes(const Box& box, const std::vector<ShapeTemplate>& shapes,
+ShapePlacement place_shapes(const Domain& box, const std::vector<ShapeTemplate>& shapes,
                             const ShapeComposition& composition, const ShapePlacementSpec& spec,
                             const std::function<void(const char* stage, double share)>& progress = {});
 

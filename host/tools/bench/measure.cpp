@@ -184,7 +184,7 @@ class Measured {
 
   /// Sets up cyclic loading at 20 Hz with 0.8 of the critical time step.
   void drive(StepperOptions& options, double critical) const {
-    drives::Cyclic loading{1e-4 * case_.specimen.box.size.z, 20, 1, 0};
+    drives::Cyclic loading{1e-4 * gauge_length(case_.specimen), 20, 1, 0};
     loading.steps_per_period = std::llround(std::ceil(1 / (loading.frequency * 0.8 * critical)));
     options.boundary = moving_top(loading);
     options.dt = loading.dt();

@@ -322,7 +322,10 @@ class Calibrator {
 Calibration calibrate(const Scene& scene, const ModulusData& data, const CalibrationOptions& options,
                       const Watcher& watcher) {
   const ThreadLimit threads(scene.solver.threads);
-  return calibration::Calibrator(scene, data, options, watcher).calibrate();
+  Scene with_laws = scene;
+  const std::vector<std::string> warnings = compute_mastic_law(with_laws, watcher);
+  if (watcher.warn) std::for_each(warnings.begin(), warnings.end(), watcher.warn);
+  return calibration::Calibrator(with_laws, data, options, watcher).calibrate();
 }
 
 }  // namespace macadam

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "macadam/error.hpp"
 #include "macadam/laws/values.hpp"
 #include "macadam/sensitivity.hpp"
 
@@ -50,6 +51,11 @@ std::vector<Parameter> parameters_of_phases(const Scene& scene) {
 }  // namespace
 
 std::vector<Parameter> parameters_of(const Scene& scene) {
+  if (scene.network.rule == ContactRule::volumetric)
+    throw InputError(
+        scene.file.string(), 0, "rule in [network]", "\"volumetric\"",
+        "\"centres\" or \"series\", because the reduced model of calibration does not contain the pressures of "
+        "cells");
   if (scene.network.rule == ContactRule::series) return parameters_of_phases(scene);
   std::vector<Parameter> out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {

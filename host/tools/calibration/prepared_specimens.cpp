@@ -114,7 +114,7 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
       refuse("column temperature_c",
              fmt::format("{} and {} degrees C, between which no law of the scene changes", *out.front(), *t),
              fmt::format("one temperature, or a scene with shift = \"wlf\", \"arrhenius\" or \"table\" in {}",
-                         scene.network.rule == ContactRule::series ? "[materials.mastic]" : "a section [[contacts]]"));
+                         has_laws_of_phases(scene.network.rule) ? "[materials.mastic]" : "a section [[contacts]]"));
     }
     const LawTable laws = laws_at(scene, *t);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {

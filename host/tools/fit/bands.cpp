@@ -5,7 +5,9 @@
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <limits>
 #include <numbers>
 
@@ -60,6 +62,17 @@ std::pair<double, double> Fit::reduced_range() const {
     high = std::max(high, f);
   }
   return {low, high};
+}
+
+laws::LawRange Fit::range() const {
+  laws::LawRange out;
+  std::tie(out.lowest_hz, out.highest_hz) = reduced_range();
+  if (!temperatures) return out;
+  const auto [coldest, warmest] = std::minmax_element(
+      points.begin(), points.end(),
+      [](const FittedPoint& a, const FittedPoint& b) { return a.measured.temperature_c < b.measured.temperature_c; });
+  out.lowest_c = coldest->measured.temperature_c, out.highest_c = warmest->measured.temperature_c;
+  return out;
 }
 
 std::vector<BandPoint> confidence_bands(const Fit& fit, const std::vector<double>& frequencies_hz, double level) {

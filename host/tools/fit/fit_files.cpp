@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host/files/result_files.hpp"
@@ -67,7 +69,8 @@ std::vector<double> curve_frequencies(const Fit& fit) {
 
 }  // namespace
 
-std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shift, const std::string& origin) {
+std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shift, const laws::LawRange& range,
+                     const std::string& origin) {
   std::string out = fmt::format(
       "# {}\n[[contacts]]\npair = \"M-M\"  # the pair that has this law\nlaw = \"generalised_kelvin\"\nE_m = {}\n",
       origin, real(law.E_m));
@@ -90,7 +93,13 @@ std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shif
                          list_of(s.log10_a_T));
     }
   };
-  return out + std::visit(Write{}, shift);
+  out += std::visit(Write{}, shift);
+  if (range.limits_frequency())
+    out += fmt::format("valid_frequencies = [{}, {}]  # Hz, at the reference temperature\n", real(range.lowest_hz),
+                       real(range.highest_hz));
+  if (range.limits_temperature())
+    out += fmt::format("valid_temperatures = [{}, {}]\n", real(range.lowest_c), real(range.highest_c));
+  return out;
 }
 
 std::string fit_json(const Fit& fit, const KelvinConversion* conversion) {
@@ -239,7 +248,9 @@ FitReport report_of(const Fit& fit, std::optional<double> from, std::optional<do
     const std::string origin =
         fmt::format("macadam fit: |E*| of {} measurements within {:.3g} % (rms), phase {:.3g} degrees",
                     fit.points.size(), 100 * fit.errors.e_star_rms, fit.errors.phase_rms_deg);
-    out.files["law.toml"] = law_toml(*law, fit.shift, origin);
+    laws::LawRange valid = fit.range();
+    if (conversion) valid.lowest_hz = range.first, valid.highest_hz = range.second;
+    out.files["law.toml"] = law_toml(*law, fit.shift, valid, origin);
   }
   return out;
 }
@@ -251,7 +262,23 @@ FitReport report_conversion(const ShiftedAnalogue& model, std::optional<double> 
   const std::string origin = fmt::format(
       "macadam fit: replaces a {} model from {} to {} Hz, largest error {:.2g} of |E*|",
       std::isfinite(model.model.beta) ? "2S2P1D" : "Huet-Sayegh", range.first, range.second, conversion.largest_error);
-  return {{{"law.toml", law_toml(conversion.law, model.shift, origin)}}, conversion_text(conversion, range), ""};
+  return {{{"law.toml", law_toml(conversion.law, model.shift, {range.first, range.second}, origin)}},
+          conversion_text(conversion, range),
+          ""};
+}
+
+FitReport report_of(const CurveChain& chain, const ModulusData& curve, const laws::Shift& shift) {
+  laws::LawRange range{std::numeric_limits<double>::infinity(), 0};
+  for (const ModulusPoint& p : curve.points)
+    range.lowest_hz = std::min(range.lowest_hz, p.frequency_hz),
+    range.highest_hz = std::max(range.highest_hz, p.frequency_hz);
+  const std::string text = fmt::format(
+      "Kelvin chain of {} units that stands for {} moduli from {:.4g} to {:.4g} Hz: largest difference {:.2g} "
+      "% of E*\n",
+      chain.law.units(), curve.points.size(), range.lowest_hz, range.highest_hz, 100 * chain.largest_difference);
+  const std::string origin = fmt::format("macadam fit: stands for {} moduli, largest difference {:.2g} of E*",
+                                         curve.points.size(), chain.largest_difference);
+  return {{{"law.toml", law_toml(chain.law, shift, range, origin)}}, text, ""};
 }
 
 void write_report(const std::filesystem::path& folder, const FitReport& report) {

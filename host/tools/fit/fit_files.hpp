@@ -8,9 +8,10 @@
 
 namespace macadam {
 
-/// Returns a `[[contacts]]` section of a scene with the chain and its shift law; `origin` becomes a comment of one
-/// line.
-std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shift, const std::string& origin);
+/// Returns a `[[contacts]]` section of a scene with the chain, its shift law and the range in which it holds; `origin`
+/// becomes a comment of one line.
+std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shift, const laws::LawRange& range,
+                     const std::string& origin);
 
 /// Returns all data of a fit. `conversion`: the chain that replaces a model that is not a chain, or nullptr.
 std::string fit_json(const Fit& fit, const KelvinConversion* conversion);

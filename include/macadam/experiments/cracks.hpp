@@ -34,6 +34,7 @@ struct CrackSums {
   std::int64_t cracked = 0;      ///< number of points that have begun to crack, separated points included
   double crack_energy_j = 0;     ///< energy that damage has dissipated, and energy that open cracks store [J]
   double friction_energy_j = 0;  ///< work of friction [J]
+  std::array<double, pair_types> cracked_area_m2{};  ///< area of the cracked points, by PairType [m²]
 };
 
 /// Broken points of a test.

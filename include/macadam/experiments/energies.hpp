@@ -11,7 +11,7 @@ struct Energies {
   double viscous_j = 0;   ///< dissipated in the dashpots of the contact laws
   double crack_j = 0;     ///< dissipated by damage, and stored in open cracks
   double friction_j = 0;  ///< dissipated by friction in cracks
-  double kinetic_j = 0;   ///< of the particles, density scaling included
+  double kinetic_j = 0;   ///< change of the energy of motion of the particles, density scaling included
   double damping_j = 0;   ///< dissipated by the damping of the time steps
 
   /// Returns the work that no other energy accounts for [J]. Without an error it is zero.

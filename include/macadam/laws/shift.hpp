@@ -16,24 +16,29 @@
 namespace macadam::laws {
 
 /// Temperature has no effect.
-struct NoShift {};
+struct NoShift {
+  bool operator==(const NoShift&) const = default;
+};
 
 /// Williams, Landel and Ferry: log10 a_T = −C1·(T − T_r)/(C2 + T − T_r). Not defined for T ≤ T_r − C2.
 struct Wlf {
   double C1 = 0, C2 = 0;             ///< [1], [K]
   double reference_temperature = 0;  ///< T_r [°C]
+  bool operator==(const Wlf&) const = default;
 };
 
 /// Arrhenius: ln a_T = E_a/R·(1/T − 1/T_r), temperatures in K.
 struct Arrhenius {
   double activation_energy = 0;      ///< E_a [J/mol]
   double reference_temperature = 0;  ///< T_r [°C]
+  bool operator==(const Arrhenius&) const = default;
 };
 
 /// log10 a_T at given temperatures, linear in between; not defined outside the range of the temperatures.
 struct ShiftTable {
   std::vector<double> temperatures;  ///< [°C], increasing, at least one
   std::vector<double> log10_a_T;     ///< one per temperature
+  bool operator==(const ShiftTable&) const = default;
 };
 
 using Shift = std::variant<NoShift, Wlf, Arrhenius, ShiftTable>;

@@ -22,9 +22,7 @@ from macadam.mixture.errors import MixtureError
 from macadam.study import programs
 from macadam.study.locks import locked
 
-MOST_UNITS = 16  # largest number of Kelvin units of a contact law
 _ERRORS = (0.01, 0.02, 0.05)  # allowed errors of a chain that replaces a 2S2P1D model, tried one after the other
-_GOOD = 0.02  # misfit above which a chain is also fitted directly to the points
 
 
 @dataclass
@@ -78,21 +76,14 @@ class Law:
 
     def keys(self) -> dict[str, Any]:
         """Returns the keys of the law in a scene."""
-        return {"law": "generalised_kelvin", "E_m": self.E_m, "C_m": self.C_m, "E": self.E, "C": self.C, **self.shift}
-
-    def covers(self, frequencies) -> bool:
-        """Whether all reduced frequencies [Hz] are in the range in which the law holds."""
-        f = np.asarray(frequencies)
-        return bool(f.min() >= self.valid_hz[0] * (1 - 1e-9) and f.max() <= self.valid_hz[1] * (1 + 1e-9))
+        chain = {"law": "generalised_kelvin", "E_m": self.E_m, "C_m": self.C_m, "E": self.E, "C": self.C}
+        return {**chain, **self.shift, "valid_frequencies": list(self.valid_hz)}
 
     def toml(self, poisson: float) -> str:
-        """Returns a section `[materials.mastic]` for a scene with this law, and comments with its range. poisson:
-        Poisson's ratio."""
-        low, high = self.valid_hz
+        """Returns a section `[materials.mastic]` for a scene with this law and its range. poisson: Poisson's ratio."""
         return (
-            f"# macadam mixture: law of {self.name}\n# valid_hz = [{low:.6g}, {high:.6g}]  reduced frequencies "
-            f"between which it holds, at {self.shift['reference_temperature']:g} °C\n# largest difference from the "
-            f"values that it stands for: {100 * self.misfit:.2g} %\n"
+            f"# macadam mixture: law of {self.name}\n# largest difference from the values that it stands for: "
+            f"{100 * self.misfit:.2g} %\n"
         ) + _toml.dumps({"materials": {"mastic": {**self.keys(), "poisson_ratio": poisson}}}).lstrip()
 
 
@@ -126,25 +117,13 @@ class Fitter:
         self.program, self.version, self.folder = program, version, folder
 
     def fit(self, name: str, curve: Curve, shift: dict[str, Any]) -> Law:
-        """Returns the chain of at most 16 units that stands for a curve, valid between its ends: of a 2S2P1D model that
-        is fitted to the curve or, if the model misses it, of a direct fit. Raises MixtureError if both fail."""
+        """Returns the chain of at most 16 units that stands for a curve, valid between its ends. Raises MixtureError if
+        there is none."""
         valid = float(curve.frequency.min()), float(curve.frequency.max())
-        tried = [
-            ["--model", "2s2p1d", "--from", repr(valid[0]), "--to", repr(valid[1]), "--error", str(e)] for e in _ERRORS
-        ]
-        tried += [["--most-units", str(MOST_UNITS)]]
-        best, said = None, ""
-        for options in tried:
-            direct = options is tried[-1]
-            if best is not None and (best.misfit <= _GOOD or not direct):
-                continue
-            file, said = self._run("data.csv", curve.text(), options)
-            if file is not None:
-                law = read_law(file, name, shift, valid, curve)
-                best = law if best is None or law.misfit < best.misfit else best
-        if best is None:
+        file, said = self._run("data.csv", curve.text(), ["--curve"])
+        if file is None:
             raise MixtureError(f"law of {name}: {said}", 1)
-        return best
+        return read_law(file, name, shift, valid, curve)
 
     def convert(self, name: str, model: Model, poisson: float, curve: Curve, shift: dict[str, Any]) -> Law:
         """Returns the chain that stands for the binder's model between the ends of a curve of it."""

@@ -137,12 +137,6 @@ def by_specimens(shop: Workshop, scale: Scale, before: Step, frequencies: list[f
     design = shop.design
     part = volumes.part_of(design.recipe, scale.lower, scale.upper, scale.box_volume, last, scale.size_law)
     _describe(shop, scale, part, last)
-    for law in before.laws:
-        if not law.covers(frequencies):
-            shop.warnings.add(
-                f"Scale {scale.name}: the law of {law.name} holds from {law.valid_hz[0]:.2g} to {law.valid_hz[1]:.2g} "
-                f"Hz and is used from {min(frequencies):.2g} to {max(frequencies):.2g} Hz."
-            )
     laws = [before.laws[k % len(before.laws)] for k in range(len(scale.seeds))]
     made = [
         (seed, scene_of(design, scale, part, law, before.poisson, seed, frequencies, shop.rule))

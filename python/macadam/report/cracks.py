@@ -4,16 +4,18 @@ section of the specimen."""
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
 
 from macadam.report import look, specimen
 from macadam.report.folders import Folder
 from macadam.report.page import Page
+from macadam.report.spheres import frame, outline
 
 # Energies from the bottom of the stack to its top: key of a point, name, colour.
 ENERGIES = (
@@ -25,6 +27,7 @@ ENERGIES = (
     ("damping_energy_j", "damping", "#6b6f76"),
 )
 DAMAGE = "inferno_r"  # colour map of the damage
+DRAWN = 0.5  # damage above which a facet is drawn in the picture of the whole specimen
 
 
 def add(page: Page, folders: list[Folder]) -> None:
@@ -43,10 +46,12 @@ def add(page: Page, folders: list[Folder]) -> None:
             continue
         figure, words = _section(folder)
         page.figure(figure, words, "the crack in a section of the specimen", raster=True)
+        figure, words = _block(folder)
+        page.figure(figure, words, "the crack in the specimen", raster=True)
 
 
 def _energies(folder: Folder) -> tuple[Any, str]:
-    """Draws the energies as a stack (left) and the area of broken points by pair (right). Returns figure and
+    """Draws the energies as a stack (left) and the cracked and broken area by pair (right). Returns figure and
     caption."""
     points = folder.in_time["points"]
     strain = np.array([1e6 * p["strain"] for p in points])
@@ -61,12 +66,16 @@ def _energies(folder: Folder) -> tuple[Any, str]:
     handles, labels = left.get_legend_handles_labels()
     left.legend(handles[::-1], labels[::-1], loc="upper left")
     drawn = _area(folder, right, strain)
-    right.set(xlabel="strain (µm/m)", ylabel="area of broken points (mm²)")
+    right.set(xlabel="strain (µm/m)", ylabel="area of contact points (mm²)")
     right.set_ylim(bottom=0)
     if drawn:
         right.legend()
     words = "Left: the work of the walls (dashed) and the energies that it became, one above the other. "
-    words += "Right: area of the broken points, by pair of materials." if drawn else "Right: no contact point broke."
+    words += (
+        "Right: area of the points that have begun to crack (dashed) and that are broken, by pair of materials."
+        if drawn
+        else "Right: no contact point cracked."
+    )
     error = folder.in_time.get("energy_error")
     if error is not None:
         words += f" The sum of the energies differs from the work by at most {look.percent(error, 2)} of the work."
@@ -82,17 +91,25 @@ def _known(points: list[dict[str, Any]], key: str) -> bool:
 
 
 def _area(folder: Folder, axes: Any, strain: np.ndarray) -> bool:
-    """Draws the area of the broken points over the strain at which they broke. Returns whether any point broke."""
-    broken = {pair: c for pair, c in (folder.summary.get("cracks") or {}).items() if c["points"]}
-    if not broken or not folder.has("cracks.csv"):
-        return False
-    table = folder.table("cracks.csv", ["pair", "area_m2", "time_s"])
-    times = np.array([p["time_s"] for p in folder.in_time["points"]])
-    for pair in broken:
-        rows = table[table["pair"] == pair]
-        by_time = [1e6 * rows.loc[rows["time_s"] <= t * (1 + 1e-9), "area_m2"].sum() for t in times]
-        axes.plot(strain, by_time, color=look.PAIRS.get(pair, look.INK), label=pair)
-    return True
+    """Draws the area of the points that have begun to crack (dashed) and of those that are broken (solid), by pair.
+    Returns whether any point has begun to crack."""
+    points = folder.in_time["points"]
+    pairs = [pair for pair, area in points[-1].get("cracked_area_m2", {}).items() if area > 0]
+    broken = folder.table("cracks.csv", ["pair", "area_m2", "time_s"]) if _breaks(folder) else None
+    times = np.array([p["time_s"] for p in points])
+    for pair in pairs:
+        colour = look.PAIRS.get(pair, look.INK)
+        axes.plot(strain, [1e6 * p["cracked_area_m2"][pair] for p in points], color=colour, ls="--", lw=1)
+        rows = broken[broken["pair"] == pair] if broken is not None else None
+        by_time = np.zeros(len(times)) if rows is None else [
+            1e6 * rows.loc[rows["time_s"] <= t * (1 + 1e-9), "area_m2"].sum() for t in times
+        ]  # fmt: skip
+        axes.plot(strain, by_time, color=colour, label=pair)
+    return bool(pairs)
+
+
+def _breaks(folder: Folder) -> bool:
+    return folder.has("cracks.csv") and any(c["points"] for c in (folder.summary.get("cracks") or {}).values())
 
 
 def chords(
@@ -131,8 +148,8 @@ def _section(folder: Folder) -> tuple[Any, str]:
     axes.imshow(0.5 + 0.5 * picture, origin="lower", extent=extent, interpolation="antialiased")
     scale = ScalarMappable(Normalize(0, 1), DAMAGE)
     drawn = 0
-    if any(c["cracked_points"] for c in (folder.summary.get("cracks") or {}).values() if "cracked_points" in c):
-        table = folder.table("damage.csv", ["x", "y", "z", "nx", "ny", "nz", "area_m2", "damage"])
+    table = _damaged(folder)
+    if table is not None:
         table = table.sort_values("damage", kind="stable")  # the most damaged facets are drawn last
         cuts, lines = chords(
             table[list("xyz")].to_numpy(float), table[["nx", "ny", "nz"]].to_numpy(float),
@@ -149,4 +166,49 @@ def _section(folder: Folder) -> tuple[Any, str]:
         f"Section at {'xyz'[axis]} = {look.length(box[axis] / 2)} mm at the end of the test, with the {drawn} facets in "
         "it that have begun to crack. Each facet is drawn as a disc of its area; its colour is its mean damage, 0 intact "
         "and 1 separated."
+    )
+
+
+def _damaged(folder: Folder) -> Any:
+    """Returns the table of the contacts that have begun to crack; None if there are none."""
+    cracked = any(c.get("cracked_points") for c in (folder.summary.get("cracks") or {}).values())
+    return folder.table("damage.csv", ["x", "y", "z", "nx", "ny", "nz", "area_m2", "damage"]) if cracked else None
+
+
+def discs(centre: np.ndarray, normal: np.ndarray, area: np.ndarray, corners: int = 16) -> np.ndarray:
+    """Returns regular polygons with the centres, normals and areas of facets: (n, corners, 3) [m]."""
+    least = np.eye(3)[np.abs(normal).argmin(axis=1)]  # an axis that is far from the normal
+    first = np.cross(normal, least)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    second = np.cross(normal, first)
+    radius = np.sqrt(area / (0.5 * corners * np.sin(2 * np.pi / corners)))
+    angle = 2 * np.pi * np.arange(corners) / corners
+    ring = np.cos(angle)[:, None] * first[:, None] + np.sin(angle)[:, None] * second[:, None]
+    return centre[:, None] + radius[:, None, None] * ring
+
+
+def _block(folder: Folder) -> tuple[Any, str]:
+    """Draws the facets of which more than half is damaged in the outline of the box, from behind to the front. Returns
+    figure and caption."""
+    box, turn = specimen.box_of(folder), specimen.directions_of_view()
+    corners = np.array(list(product(*([0, e] for e in box)))) @ turn.T
+    figure, axes = look.figure(look.THIRD + 1, specimen.HEIGHT * 1.2)
+    outline(axes, corners, "#c3c7cc")
+    scale = ScalarMappable(Normalize(DRAWN, 1), DAMAGE)
+    table = _damaged(folder)
+    table = None if table is None else table[table["damage"] > DRAWN]
+    drawn = 0 if table is None else len(table)
+    if drawn:
+        centre = table[list("xyz")].to_numpy(float)
+        shapes = discs(centre, table[["nx", "ny", "nz"]].to_numpy(float), table["area_m2"].to_numpy(float)) @ turn.T
+        order = np.argsort(centre @ turn[2], kind="stable")  # what is nearest to the eye is drawn last
+        colours = scale.to_rgba(table["damage"].to_numpy(float)[order])
+        axes.add_collection(
+            PolyCollection(shapes[order][:, :, :2], facecolors=colours, edgecolors=(0, 0, 0, 0.4), linewidths=0.2, zorder=2)
+        )
+    figure.colorbar(scale, ax=axes, label="damage", shrink=0.8)
+    frame(axes, corners.min(axis=0), corners.max(axis=0))
+    return figure, (
+        f"The {drawn} facets whose mean damage is above {DRAWN} at the end of the test, as discs of the same "
+        "area in the box of the specimen."
     )

@@ -200,10 +200,13 @@ def _summary_sentences(f: Folder) -> list[str]:
         text = _strength(f)  # not capitalize(), which would change the units to "kpa"
         words.append(text[:1].upper() + text[1:] + ".")
     if f.kind == "run":
-        edges = " × ".join(map(look.length, s.get("box_m") or []))
+        edges = s.get("box_m") or []
+        size = " × ".join(map(look.length, edges)) + " mm"
+        if (s.get("domain") or {}).get("shape") == "cylinder":
+            size = f"{look.length(edges[0])} mm in diameter and {look.length(edges[2])} mm in height"
         contacts_of = sum(v or 0 for v in (s.get("contacts") or {}).values())
         words.append(
-            f"A specimen of {edges} mm with {look.number(s.get('particles'))} particles and "
+            f"A specimen of {size} with {look.number(s.get('particles'))} particles and "
             f"{look.number(contacts_of)} contacts."
         )
     if f.by_frequency:

@@ -35,6 +35,18 @@ class Curve:
     label: str = ""
 
 
+    @property
+    def model_error(self) -> str:
+        """A sentence about the difference between contact network and continuum, which error bars do not include."""
+        found = self.folder.summary.get("model_error")
+        if found:
+            return str(found["words"])
+        return (
+            "error of the model: the contact network with rule centres has the factors delta of the scene, so only a "
+            "comparison with measurements or with a continuum can tell how far it is from the material"
+        )
+
+
 # Adds the section on |E*| and phase angle, and notes the runs that have none.
 def add(page: Page, folders: list[Folder]) -> None:
     runs = [f for f in folders if f.kind == "run"]
@@ -174,6 +186,8 @@ def _caption(found: list[Curve]) -> str:
             "solution, the error of a harmonic result is the difference between the reactions of its two walls. "
             "Error bars do not include the scatter between specimens of the mix."
         )
+    for said in dict.fromkeys(c.model_error for c in found):
+        words.append(f"{said[0].upper()}{said[1:]}.")
     for seeds in scatter(found):
         words.append(
             f"Black: {seeds.label}, with their standard deviation as bars; the deviation is "

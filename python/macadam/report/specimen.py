@@ -52,7 +52,7 @@ def add(page: Page, folders: list[Folder]) -> None:
         section, words = _section(folder, box, paint)
         page.figure(section, words, "a section of the specimen", third=True, raster=True)
         if (folder.specimen["phase"] == "aggregate").any():
-            grains, words = spheres(folder.specimen, box, paint, _view(), HEIGHT)
+            grains, words = spheres(folder.specimen, box, paint, directions_of_view(), HEIGHT)
             page.figure(grains, words, "the aggregates in the specimen", third=True, raster=True)
 
 
@@ -134,6 +134,10 @@ def plane_of(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pa
     for a, b in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):
         rim[a] |= (body[a] != body[b]) & (body[a] >= 0) & (body[b] >= 0)
     picture[rim] *= 0.45
+    if (folder.summary.get("domain") or {}).get("shape") == "cylinder":
+        at = {u: along[0][None, :], v: along[1][:, None], axis: np.array([[value]])}
+        outside = np.hypot(at[0] - box[0] / 2, at[1] - box[1] / 2) > box[0] / 2
+        picture[np.broadcast_to(outside, body.shape)] = 1  # white
     return picture
 
 
@@ -181,7 +185,7 @@ def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
     return figure, f"Section at {'xyz'[axis]} = {look.number(float(where), 3)} mm. {source}"
 
 
-def _view() -> np.ndarray:
+def directions_of_view() -> np.ndarray:
     """Returns the directions of view as rows of a matrix: right, up, towards the eye."""
     a, e = np.radians([-60, 24])
     towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
@@ -192,7 +196,7 @@ def _view() -> np.ndarray:
 def _block(folder: Folder, box: np.ndarray, paint: Paint) -> Any:
     """Draws the block that is left after the fraction SAWN is removed from the three visible sides. The drawing
     consists of three pictures of cells, each sheared to the direction of view, in the outline of the box."""
-    turn = _view()
+    turn = directions_of_view()
     corners = np.array(list(product(*([0, e] for e in box)))) @ turn.T
     low, high = corners.min(axis=0), corners.max(axis=0)
     figure, axes = look.figure(look.THIRD, HEIGHT)

@@ -17,6 +17,8 @@ from macadam.study.errors import StudyError
 # Keys of a scene whose values name a file or folder; for each key, the values that have another meaning.
 _FILES = {
     ("specimen", "file"): (),
+    ("specimen", "aggregate_file"): (),
+    ("materials", "mastic", "from"): (),
     ("specimen", "shapes", "library"): ("aggregates", "icosahedron", "aggregates and icosahedron"),
 }
 

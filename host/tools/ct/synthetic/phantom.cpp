@@ -31,7 +31,9 @@ void refuse(bool wrong, const char* what, double found, const char* expected) {
 }
 
 /// \throws InputError for impossible values of the specification.
-void check(const PhantomSpec& spec, const Box& box) {
+void check(const PhantomSpec& spec, const Domain& box) {
+  if (!box.is_box())
+    throw InputError("phantom", 0, "domain of the scene", box.name(), "box, because a phantom is a box");
   refuse(!(std::isfinite(spec.voxel) && spec.voxel > 0), "voxel", spec.voxel, "a positive length");
   refuse(!(spec.air >= 0 && std::isfinite(spec.air)), "air", spec.air, "a length of 0 or more");
   const double edge = std::min({box.size.x, box.size.y, box.size.z});

@@ -217,6 +217,8 @@ Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
     if (progress) progress(stage, share);
   };
   SpecimenSpec how = scene.specimen;
+  if (!how.box.is_box())
+    throw InputError(how.source, how.line, "domain", how.box.name(), "box, because a twin is a box cut out of a scan");
   if (!how.mastic)
     throw InputError(how.source, how.line, "[specimen.mastic]", "none",
                      "this section, which gives the radius of the mastic particles of the twin");

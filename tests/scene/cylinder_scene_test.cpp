@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// cylinder_scene_test.cpp  Tests scenes whose specimen is a cylinder: their keys, messages about wrong values, and the
+// generated specimens.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "host/specimen/generate.hpp"
+#include "macadam/macadam.hpp"
+#include "tests/scene/scene_file.hpp"
+#include "tests/support/test_files.hpp"
+
+namespace macadam {
+namespace {
+
+using test::SceneFile, test::text_of;
+
+struct CylinderScene : SceneFile {
+  /// Returns the valid scene with other keys in place of `box`.
+  static std::string with(const std::string& keys, const std::string& network = "[network]") {
+    return text_of({{2, keys}, {27, network}});
+  }
+  static std::string cylinder(const std::string& diameter, const std::string& height) {
+    return "domain = \"cylinder\"\ndiameter = " + diameter + "\nheight = " + height;
+  }
+};
+
+TEST_F(CylinderScene, DiameterAndHeightGiveTheDomain) {
+  const Scene scene = read(with(cylinder("\"20 mm\"", "0.03")));
+  EXPECT_STREQ(scene.specimen.box.name(), "cylinder");
+  EXPECT_EQ(scene.specimen.box.size.x, 0.02);
+  EXPECT_EQ(scene.specimen.box.size.y, 0.02);
+  EXPECT_EQ(scene.specimen.box.size.z, 0.03);
+  EXPECT_TRUE(read(with("domain = \"box\"\nbox = [0.02, 0.02, 0.03]")).specimen.box.is_box());
+}
+
+TEST_F(CylinderScene, WrongKeysAreNamed) {
+  EXPECT_HAS(message(with("domain = \"cylinder\"\nheight = 0.03")),
+             "[specimen] diameter: found nothing, expected this key, which is required");
+  EXPECT_HAS(message(with("domain = \"cylinder\"\ndiameter = 0.03")), "[specimen] height: found nothing");
+  EXPECT_HAS(message(with(cylinder("-0.02", "0.03"))), "[specimen] diameter: found -0.02, expected a positive number");
+  EXPECT_HAS(message(with(cylinder("0.02", "0"))), "[specimen] height: found 0, expected a positive number");
+  EXPECT_HAS(message(with(cylinder("1e-200", "1e-200"))), "[specimen] height: found a volume of");
+  EXPECT_HAS(message(with("domain = \"cylindre\"\nbox = [0.02, 0.02, 0.03]")), "\"cylinder\"");
+  EXPECT_HAS(message(with(cylinder("0.02", "0.03") + "\nbox = [0.02, 0.02, 0.03]")),
+             "[specimen] box: found this key with domain = \"cylinder\", expected diameter and height");
+  EXPECT_HAS(message(with("box = [0.02, 0.02, 0.03]\ndiameter = 0.02")),
+             "[specimen] diameter: found this key without domain = \"cylinder\"");
+  EXPECT_HAS(message(with("domain = \"cylinder\"\nbox = [0.02, 0.02, 0.03]")), "[specimen] box: found this key");
+  EXPECT_HAS(message(with(cylinder("0.009", "0.03"))), "less than the smaller of diameter and height, 0.009 m");
+  EXPECT_HAS(message(with(cylinder("0.02", "0.03"), "[network]\nlateral_walls = true")),
+             "[network] lateral_walls: found true with domain = \"cylinder\"");
+  EXPECT_HAS(message(with("")), "[specimen] box: found nothing");
+}
+
+SpecimenSpec small_mix(const Domain& domain, std::uint64_t seed) {
+  SpecimenSpec spec;
+  spec.box = domain;
+  spec.seed = seed;
+  spec.aggregate = {{0.002, 0.00475, 0.2, {}}, {0.00475, 0.0095, 0.2, {}}};
+  spec.mastic = MasticSpec{0.00075, 0.001, 0.05, {}};
+  return spec;
+}
+
+/// Expects all aggregates inside the domain, all centres too, and cells that fill the domain.
+void expect_inside(const GeneratedWithCells& made) {
+  const Specimen& s = made.made.specimen;
+  // Positions are doubles, rounded by half a unit in the last place of the dimensions.
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * norm(s.box.size);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    EXPECT_TRUE(s.box.contains(s.centre[i])) << i;
+    if (s.phase[i] == Phase::aggregate) { EXPECT_LE(s.box.signed_distance(s.centre[i]), rounding - s.radius[i]) << i; }
+  }
+  double volume = 0;
+  for (const double v : made.tessellation.value().cell_volume) volume += v;
+  EXPECT_NEAR(volume / s.box.volume(), 1, 1e-12);  // rounding of some hundred terms
+}
+
+TEST(GeneratedCylinder, SpheresLieInside) {
+  const Domain domain = cylinder_domain(0.015, 0.014);
+  const GeneratedWithCells made = generate_with_cells(small_mix(domain, 2), {});
+  EXPECT_STREQ(made.made.specimen.box.name(), "cylinder");
+  expect_inside(made);
+  // 5 % porosity: the mastic is reached up to one sphere, and the amount refers to the volume of the cylinder
+  double solid = 0;
+  for (const double r : made.made.specimen.radius) solid += 4 * std::numbers::pi / 3 * r * r * r;
+  EXPECT_NEAR(solid / domain.volume(), 0.95, 4 * std::numbers::pi / 3 * 1e-9 / domain.volume());
+}
+
+TEST(GeneratedCylinder, ShapesLieInside) {
+  for (const PlacementMethod placement : {PlacementMethod::insertion, PlacementMethod::packing}) {
+    SpecimenSpec spec = small_mix(cylinder_domain(0.024, 0.022), 3);
+    spec.aggregate = {{4.75e-3, 9.5e-3, std::nullopt, 6}, {2e-3, 4.75e-3, std::nullopt, 30}};
+    spec.shapes.emplace();
+    spec.shapes->library = ShapeSpec::Library::icosahedron;
+    spec.shapes->placement = placement;
+    spec.shapes->fill.radius_min = 0.75e-3;
+    spec.shapes->fill.radius_max = 1e-3;
+    spec.shapes->fill.porosity = 0;
+    const GeneratedSpecimen made = generate_specimen(spec);
+    for (const Aggregate& a : made.aggregates) {
+      if (a.surface < 0) continue;
+      for (const Vec3d& p : made.surfaces[static_cast<std::size_t>(a.surface)].points)
+        EXPECT_LT(spec.box.signed_distance(a.pose(p)), 1e-9) << a.body;  // packing accepts overlaps of this depth
+    }
+  }
+}
+
+TEST_F(CylinderScene, ASpecimenFileGivesTheSameSpecimen) {
+  const Domain domain = cylinder_domain(0.013, 0.012);
+  const Specimen made = generate_specimen(small_mix(domain, 5)).specimen;
+  const auto csv = folder_ / "core.csv";
+  write_specimen_csv(csv, made);
+  const Specimen read = read_specimen_csv(csv, domain);
+  ASSERT_EQ(read.size(), made.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    EXPECT_EQ(norm(read.centre[i] - made.centre[i]), 0);
+    EXPECT_EQ(read.radius[i], made.radius[i]);
+  }
+  EXPECT_FALSE(read.box.is_box());
+  // a narrower cylinder leaves spheres outside, and the message names the row
+  EXPECT_HAS(test::message_of([&] { read_specimen_csv(csv, cylinder_domain(0.011, 0.012)); }), "core.csv:");
+}
+
+}  // namespace
+}  // namespace macadam
