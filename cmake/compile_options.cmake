@@ -38,7 +38,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 if(MACADAM_SANITIZE)
   target_compile_options(macadam_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE};${MACADAM_CHECKS}>")
-  # The library's functions must call the library's own copies of templates, not those of a program built without
+  # The library's functions must call the library's own copies of templates, not the copies of a program built without
   # sanitizers.
   target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE} -Wl,-Bsymbolic-functions)
   # Without this definition, Eigen would pad allocations in files that are compiled with the address sanitizer but not

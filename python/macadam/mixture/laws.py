@@ -118,7 +118,7 @@ class Fitter:
 
     def fit(self, name: str, curve: Curve, shift: dict[str, Any]) -> Law:
         """Returns the chain of at most 16 units that stands for a curve, valid between its ends. Raises MixtureError if
-        there is none."""
+        no such chain was found."""
         valid = float(curve.frequency.min()), float(curve.frequency.max())
         file, said = self._run("data.csv", curve.text(), ["--curve"])
         if file is None:
