@@ -195,5 +195,5 @@ def _test_frequencies(found: BinderFit, design: designs.Design) -> list[float]:
 
 
 def rounded(frequency: float) -> float:
-    """Returns a frequency rounded to nine digits, as in scenes."""
+    """Rounds to nine digits, as in scenes."""
     return float(f"{float(frequency):.9g}")

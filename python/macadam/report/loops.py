@@ -100,7 +100,7 @@ def _add_master_curve(page: Page, folder: Folder) -> None:
             )
         return
     if any(r.get("reduced_frequency_hz") is None for r in rows):
-        page.leave_out(folder.label, "master curve", "there are no reduced frequencies, because the laws do not all have the same shift")
+        page.leave_out(folder.label, "master curve", "reduced frequencies are missing, because the laws do not all have the same shift")
         return
     factor, unit = look.modulus_unit(r["e_star_pa"] for r in rows)
     figure, (left, middle, right) = look.figure(look.WIDE, 2.7, 1, 3, width_ratios=[3, 3, 2])
