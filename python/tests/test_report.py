@@ -49,7 +49,7 @@ CASES = {
         "Strength of ",
         ", work of fracture ",
         "Cracks and energies",
-        "the energies that it became, one above the other",
+        "the energies into which it was converted, stacked",
         "facets in it that have begun to crack",
         "facets whose mean damage is above 0.5",
         "The sum of the energies differs from the work by at most",

@@ -70,7 +70,7 @@ def _energies(folder: Folder) -> tuple[Any, str]:
     right.set_ylim(bottom=0)
     if drawn:
         right.legend()
-    words = "Left: the work of the walls (dashed) and the energies that it became, one above the other. "
+    words = "Left: the work of the walls (dashed) and the energies into which it was converted, stacked. "
     words += (
         "Right: area of the points that have begun to crack (dashed) and that are broken, by pair of materials."
         if drawn
