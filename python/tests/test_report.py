@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no program macadam: bui
 CASES = {
     "stepped": [
         "Decided by the program",
-        "the last stepped cycle",
+        "the last cycle computed with time steps",
         "Error bars",
         "geometry update",
         "stepping",
