@@ -6,8 +6,8 @@ target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall
 # A value of an enumeration that a list of names or cases leaves out is an error, never another value's name
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror=switch>)
 # A product followed by a sum is rounded twice, with every compiler, option and processor, so that results have the same
-# bits everywhere. Otherwise gcc and clang would use fused multiply-add on processors that support it, each compiler in
-# different places.
+# bits everywhere. Otherwise gcc and clang would use fused multiply-add if the processor supports it, each in different
+# places.
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
 # Eigen's own threads would split sums according to the number of threads, so results would depend on this number. The
 # thread sanitizer would also report the way in which these threads wait for one another as a race.

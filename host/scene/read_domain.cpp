@@ -60,12 +60,12 @@ std::vector<Key> keys_of_domain(const Section& section, double& diameter, double
        round,
        {[&](const Value& value) { diameter = value.number(length, positive); }, {"number", &length, positive.words}},
        "diameter of a cylinder, whose vertical axis passes through x = y = diameter/2",
-       "none; required for a cylinder"},
+       "only for a cylinder"},
       {"height",
        round,
        {read_height, {"number", &length, positive.words}},
        "height of a cylinder",
-       "none; required for a cylinder"}};
+       "only for a cylinder"}};
 }
 
 }  // namespace macadam::scene
