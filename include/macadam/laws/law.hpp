@@ -124,6 +124,16 @@ MACADAM_HD S select(const Condition& condition, const S& yes, S no) {
   }
 }
 
+/// Returns the condition, or for packets whether it holds in any lane. A law may branch on this value, because no lane
+/// takes another way than the others.
+template <class Condition>
+MACADAM_HD bool any(const Condition& condition) {
+  if constexpr (std::is_same_v<Condition, bool>)
+    return condition;
+  else
+    return any_of(condition);  // found by argument-dependent lookup
+}
+
 /// Factor 1 of a contact without rock in series. A product with it is the other number, so no code is compiled.
 struct NoFactor {
   template <class S>
