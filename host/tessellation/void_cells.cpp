@@ -13,7 +13,7 @@ namespace macadam {
 namespace {
 
 constexpr double tolerance = 1e-3;  // largest difference between the volumes of a void and its cell, over the void's
-constexpr int most_rounds = 20;     // three to six rounds are usual
+constexpr int most_rounds = 20;     // four to nine rounds are usual
 
 /// Returns the derivative of the volume of each void's cell with respect to its weight [m]. A facet moves by
 /// 1/(2·distance of the centres) per unit of weight; a wall does not move.

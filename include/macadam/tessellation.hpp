@@ -71,7 +71,7 @@ Tessellation tessellate(const Specimen& specimen);
 /// facets. The planes between two particles do not change, because the weights of particles stay R².
 ///
 /// Cells keep the volumes that they have reached if the next correction of the weights would leave a particle or void
-/// without a cell. Builds the diagram once per correction, usually three to six times.
+/// without a cell. Builds the diagram once per correction, usually four to nine times.
 ///
 /// \throws InputError from validate(): coincident centres, particles outside the box and so on.
 Tessellation tessellate_with_void_volumes(const Specimen& specimen);

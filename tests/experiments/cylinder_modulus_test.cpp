@@ -53,7 +53,7 @@ TEST_F(CylinderModulus, IsThatOfAHomogeneousMaterial) {
           .solve(1);
   EXPECT_NEAR(found.top.e_star_pa / E, 1, 1e-10);
   EXPECT_NEAR(found.bottom.e_star_pa / E, 1, 1e-10);
-  const auto ratio = poisson_ratio(prepared.specimen, prepared.tessellation, found.motion);
+  const auto ratio = poisson_ratio(prepared.specimen, prepared.tessellation, found);
   ASSERT_TRUE(ratio);
   EXPECT_NEAR(std::abs(*ratio), 0, 1e-8);
 }

@@ -69,6 +69,29 @@ class FullSolutions {
   Preparation prepared_;
 };
 
+/// With rule "series" and elastic phases, relaxation and a constant rate without time steps have the modulus of the
+/// cyclic test. The tolerance is that of the classes of contacts with nearly equal rock in series, whose error is a
+/// part of the reported one.
+TEST_F(Experiments, RuleSeriesNeedsNoTimeSteps) {
+  const auto run_series = [&](const std::string& loading) {
+    write(folder_ / "scene.toml",
+          "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[materials.aggregate]\ndensity = 2630\n"
+          "law = \"elastic\"\nE = 6e10\n[materials.mastic]\ndensity = 2110\nlaw = \"elastic\"\nE = 6e9\n"
+          "poisson_ratio = 0.35\n[network]\nrule = \"series\"\n[loading]\n" +
+              loading + "[solver]\nmethod = \"harmonic\"\nbackend = \"cpu\"\n");
+    const Outcome outcome = run_quick("out");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  };
+  run_series("kind = \"cyclic\"\nfrequencies = [1.0]\n");
+  const double modulus = summary("out").at("results").at(0).at("e_star_pa");
+  EXPECT_GT(modulus, 6e9);
+  run_series("kind = \"relaxation\"\nstrain = 1e-4\ntimes = [1e-3, 1]\n");
+  for (const auto& row : rows_of(text("out/relaxation.csv"))) EXPECT_NEAR(row.at("modulus_pa") / modulus, 1, 1e-6);
+  run_series("kind = \"monotonic\"\nrate = 1e-3\nstrain = 1e-4\npoints = 2\n");
+  for (const auto& row : rows_of(text("out/monotonic.csv")))
+    EXPECT_NEAR(row.at("stress_pa") / (row.at("strain") * modulus), 1, 1e-6);
+}
+
 TEST_F(Experiments, RelaxationIsTheInversionOfFullSolutions) {
   const auto rows =
       rows_of(run_t8("kind = \"relaxation\"\nstrain = 2e-4\ntimes = [1e-3, 1e-2, 0.1, 1, 10]\n", "relaxation.csv"));
