@@ -87,11 +87,12 @@ struct ParticleState {
 };
 
 /// Displacement [m] and rotation [rad] of one particle at the last whole step, as in ParticleState: ux uy uz θx θy θz.
-using ParticleMotion = std::array<double, 6>;
+using MotionOfParticle = std::array<double, 6>;
 
 /// Returns the motion of some particles, given by their numbers in the specimen.
-inline std::vector<ParticleMotion> motions_of(const ParticleState& state, const std::vector<std::int32_t>& particles) {
-  std::vector<ParticleMotion> out;
+inline std::vector<MotionOfParticle> motions_of(const ParticleState& state,
+                                                const std::vector<std::int32_t>& particles) {
+  std::vector<MotionOfParticle> out;
   out.reserve(particles.size());
   for (const std::int32_t particle : particles) {
     const auto i = static_cast<std::size_t>(particle);
@@ -204,7 +205,7 @@ class Stepper {
 
   /// Returns the current motion of some particles, given by their numbers in the specimen. Copies less than
   /// particles().
-  virtual std::vector<ParticleMotion> motions(const std::vector<std::int32_t>& of) const {
+  virtual std::vector<MotionOfParticle> motions(const std::vector<std::int32_t>& of) const {
     return motions_of(particles(), of);
   }
 

@@ -127,11 +127,11 @@ class StepperImpl final : public Stepper {
     return out;
   }
 
-  std::vector<ParticleMotion> motions(const std::vector<std::int32_t>& of) const override {
+  std::vector<MotionOfParticle> motions(const std::vector<std::int32_t>& of) const override {
     exec_.use_device();
     exec_.gather();
     const std::vector<double> u = exec_.displacements();
-    std::vector<ParticleMotion> out;
+    std::vector<MotionOfParticle> out;
     out.reserve(of.size());
     for (const std::int32_t particle : of) {
       const double* ub = &u[static_cast<std::size_t>(layout_.body_of(particle)) * displacement_words];
