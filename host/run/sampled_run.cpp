@@ -65,14 +65,17 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
       watcher_.progress(course.shown(step, speed(step)), static_cast<double>(step) / static_cast<double>(end));
     }
   };
+  const auto needs_stepper = [&](std::int64_t k) {
+    return fields_.wants(k) || (course.uses_stepper && course.uses_stepper(k));
+  };
   // Returns how many samples directly after sample k can be taken in the same call of the stepper. These samples need
   // only an observation, and they follow one another at a constant distance: the distance of sample k from the current
   // step.
   const auto alike = [&](std::int64_t k) {
-    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : most_samples;
+    const std::int64_t most = every > 0 ? 0 : most_samples;
     const std::int64_t distance = course.step_of(k) - step;
     std::int64_t n = 0;
-    while (n < most && k + n < course.last && !fields_.wants(k + n) && course.taken(k + n + 1) &&
+    while (n < most && k + n < course.last && !needs_stepper(k + n) && course.taken(k + n + 1) &&
            course.step_of(k + n + 1) - course.step_of(k + n) == distance)
       ++n;
     return n;

@@ -30,9 +30,10 @@ struct Course {
   /// The step of a sample; it never decreases from sample to sample.
   std::function<std::int64_t(std::int64_t)> step_of;
   std::function<bool(std::int64_t)> taken;  ///< whether this sample is passed to `take`
-  /// Receives a sample. The stepper may already be beyond the step of this sample.
+  /// Receives a sample. Unless uses_stepper(sample), the stepper may already be beyond the step of this sample.
   std::function<void(std::int64_t sample, const Observation& now)> take;
-  bool looks_at_stepper = false;     ///< whether `take` uses the stepper, which must then still be at the sample
+  /// Returns whether `take` uses the stepper at this sample; the stepper is then still at the sample. Empty: never.
+  std::function<bool(std::int64_t)> uses_stepper = {};
   std::function<bool()> ended = {};  ///< called after `take`: returns whether this sample is the last; may be empty
   /// Called after every `between_every` steps, if this number is not 0. These steps may lie between samples. A resumed
   /// run may call it a second time for the step from which it continues.

@@ -2,8 +2,11 @@
 /// \file results.hpp  Evaluates sampled strain and stress of a cyclic test: |E*| and φ.
 #pragma once
 
+#include <complex>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +19,8 @@ namespace macadam {
 /// One sample of a cyclic test.
 struct ResponseSample {
   double frequency_hz, time_s, strain, stress_pa;  ///< tension positive
+  /// Mean strain across the axis, positive outwards; NaN if it was not measured at this sample.
+  double lateral_strain = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Stiffness modulus and phase angle.
@@ -30,6 +35,9 @@ struct CyclicResult {
   double fit_rms = 0;        ///< rms difference of the stress from its fit, over the stress amplitude
   double change_e_star = 0;  ///< relative change of |E*| from the last but one cycle to the last (NaN with one cycle)
   double change_phase_deg = 0;  ///< change of φ from the last but one cycle to the last, as a difference
+  /// Complex Poisson's ratio: minus the fundamental of the lateral strain over that of the strain. Both are fitted to
+  /// those samples of the last `fit_cycles` cycles that have a lateral strain; empty if there are fewer than 5.
+  std::optional<std::complex<double>> poisson_ratio = {};
 };
 
 /// Fits offset, trend, fundamental and second harmonic to strain and stress over the last `fit_cycles` whole cycles

@@ -86,6 +86,22 @@ struct ParticleState {
   std::vector<Vec3d> moment;        ///< about the centre, at the last whole step [N·m]
 };
 
+/// Displacement [m] and rotation [rad] of one particle at the last whole step, as in ParticleState: ux uy uz θx θy θz.
+using MotionOfParticle = std::array<double, 6>;
+
+/// Returns the motion of some particles, given by their numbers in the specimen.
+inline std::vector<MotionOfParticle> motions_of(const ParticleState& state,
+                                                const std::vector<std::int32_t>& particles) {
+  std::vector<MotionOfParticle> out;
+  out.reserve(particles.size());
+  for (const std::int32_t particle : particles) {
+    const auto i = static_cast<std::size_t>(particle);
+    const Vec3d &u = state.displacement[i], &turn = state.rotation[i];
+    out.push_back({u.x, u.y, u.z, turn.x, turn.y, turn.z});
+  }
+  return out;
+}
+
 /// Measurements of a run at a whole step.
 struct Observation {
   std::int64_t step = 0;
@@ -186,6 +202,12 @@ class Stepper {
 
   /// Returns the current motion of all particles, specimen order.
   virtual ParticleState particles() const = 0;
+
+  /// Returns the current motion of some particles, given by their numbers in the specimen. Copies less than
+  /// particles().
+  virtual std::vector<MotionOfParticle> motions(const std::vector<std::int32_t>& of) const {
+    return motions_of(particles(), of);
+  }
 
   /// Returns the current forces and deformation of all contacts. `network`: the one that the stepper was made of.
   /// \throws RunError for backend reference.

@@ -127,6 +127,19 @@ class StepperImpl final : public Stepper {
     return out;
   }
 
+  std::vector<MotionOfParticle> motions(const std::vector<std::int32_t>& of) const override {
+    exec_.use_device();
+    exec_.gather();
+    const std::vector<double> u = exec_.displacements();
+    std::vector<MotionOfParticle> out;
+    out.reserve(of.size());
+    for (const std::int32_t particle : of) {
+      const double* ub = &u[static_cast<std::size_t>(layout_.body_of(particle)) * displacement_words];
+      out.push_back({ub[0], ub[1], ub[2], ub[4], ub[5], ub[6]});
+    }
+    return out;
+  }
+
   ContactState contacts(const ContactNetwork& network) const override {
     exec_.use_device();
     exec_.gather();

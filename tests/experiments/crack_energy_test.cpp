@@ -61,7 +61,7 @@ TEST_F(CrackEnergy, RisesToTheFractureEnergyOfTheFacet) {
   const std::string table = read(out("out") / "monotonic.csv");
   EXPECT_HAS(table,
              "kinetic_j,cracked_points,broken_points,crack_energy_j,viscous_energy_j,elastic_energy_j,"
-             "friction_energy_j,kinetic_energy_j,work_j,damping_energy_j\n");
+             "friction_energy_j,kinetic_energy_j,work_j,damping_energy_j,poisson_ratio\n");
   EXPECT_HAS(results_table(result), "5 of 5 contact points that can break are broken; 5 have begun to crack");
   const auto all = nlohmann::json::parse(read(out("out") / "summary.json"));
   const auto last = all.at("results").at(0).at("points").back();

@@ -194,6 +194,27 @@ TEST(EvaluateCyclic, OnlyTheLastCyclesCount) {
   EXPECT_GT(std::abs(evaluate_cyclic(samples, 20, 2).fit.e_star_pa / modulus - 1), 1e-3);
 }
 
+// The lateral strain is measured at every tenth sample. Drift of both strains does not change the ratio.
+TEST(EvaluateCyclic, PoissonsRatioComesFromTheMeasuredSamples) {
+  const double lag = -4 * degree;  // of the contraction behind the strain
+  const auto drift = [](double x) { return 0.05 * x; };
+  Signal signal;
+  std::vector<ResponseSample> samples = signal.samples({}, drift);
+  EXPECT_FALSE(evaluate_cyclic(samples, signal.frequency, 2).poisson_ratio);
+  const CyclicResult without = evaluate_cyclic(samples, signal.frequency, 2);
+  for (std::size_t k = 0; k < samples.size(); k += 10) {
+    const double x = static_cast<double>(k) / signal.per_cycle;
+    samples[k].lateral_strain = -0.3 * strain_amplitude * (-std::sin(2 * pi * x + lag) + 0.2 * x - 0.1);
+  }
+  const CyclicResult found = evaluate_cyclic(samples, signal.frequency, 2);
+  ASSERT_TRUE(found.poisson_ratio);
+  // the fit is exact for these signals; rounding is amplified by its condition number, which is below 100
+  EXPECT_NEAR(std::abs(*found.poisson_ratio), 0.3, 1e-12);
+  EXPECT_NEAR(std::arg(*found.poisson_ratio), lag, 1e-12);
+  EXPECT_EQ(found.fit.e_star_pa, without.fit.e_star_pa) << "other results keep their bits";
+  EXPECT_EQ(found.fit.phase_deg, without.fit.phase_deg);
+}
+
 TEST(EvaluateCyclic, TooLittleIsAnError) {
   const auto refused = [](std::span<const ResponseSample> samples, double frequency, int fit_cycles) {
     try {

@@ -188,8 +188,9 @@ TEST_F(History, AColumnIsTheClosedFormOfItsLaw) {
         compare(std::get<experiments::SteppedResponse>(result.found).points);
       else
         compare(std::get<experiments::SpectrumResponse>(result.found).points);
-      EXPECT_HAS(read(out("out") / "history.csv"), stepped ? "\ntime_s,strain,stress_pa,error,bottom_pa,kinetic_j\n"
-                                                           : "\ntime_s,strain,stress_pa,error\n");
+      EXPECT_HAS(read(out("out") / "history.csv"),
+                 stepped ? "\ntime_s,strain,stress_pa,error,bottom_pa,kinetic_j,poisson_ratio\n"
+                         : "\ntime_s,strain,stress_pa,error\n");
       EXPECT_HAS(results_table(result), "stress (MPa)");
       fs::remove_all(out("out"));
     }

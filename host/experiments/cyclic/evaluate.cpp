@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "macadam/error.hpp"
 #include "macadam/results.hpp"
@@ -66,6 +68,19 @@ std::pair<double, double> peak(std::span<const ResponseSample> cycle, double sig
   return {m - 0.25 * (l - r) * shift, cycle[best].time_s + shift * (cycle[1].time_s - cycle[0].time_s)};
 }
 
+/// Returns Poisson's ratio by fits of both strains to those samples that have a lateral strain.
+std::optional<std::complex<double>> ratio_of(std::span<const ResponseSample> samples, double frequency) {
+  std::vector<ResponseSample> measured;
+  std::ranges::copy_if(samples, std::back_inserter(measured),
+                       [](const ResponseSample& s) { return std::isfinite(s.lateral_strain); });
+  if (measured.size() < 5) return {};
+  const auto lateral = fit(std::span<const ResponseSample>(measured), frequency,
+                           [](const ResponseSample& s) { return s.lateral_strain; });
+  const auto axial =
+      fit(std::span<const ResponseSample>(measured), frequency, [](const ResponseSample& s) { return s.strain; });
+  return -lateral.value / axial.value;
+}
+
 }  // namespace
 
 CyclicResult evaluate_cyclic(std::span<const ResponseSample> samples, double frequency, int fit_cycles) {
@@ -102,6 +117,7 @@ CyclicResult evaluate_cyclic(std::span<const ResponseSample> samples, double fre
   const Fundamental stress_fit = fit(last, frequency, stress);
   out.fit = from_phasors(fit(last, frequency, strain).value, stress_fit.value);
   out.fit_rms = stress_fit.rms / std::abs(stress_fit.value);
+  out.poisson_ratio = ratio_of(last, frequency);
 
   const auto cycle = window(1, 0);
   const auto [strain_max, t_strain] = peak(cycle, +1, strain);

@@ -17,7 +17,7 @@ namespace {
 /// Returns the result of cycles that could not be completed: all numbers are NaN.
 CyclicResult without_result() {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {{none, none}, {none, none}, none, none, none};
+  return {{none, none}, {none, none}, none, none, none, {}};
 }
 
 }  // namespace
@@ -39,6 +39,7 @@ SteppedFrequency finished_frequency(const Scene& scene, const Plan& whole, std::
   static_cast<experiments::Frequency&>(f) =
       frequency_of(scene, frequency, scene.materials.temperature, plan.density_scaling, cyclic.fit, seconds);
   f.cyclic = cyclic;
+  f.poisson_ratio = cyclic.poisson_ratio;
   f.dt_s = plan.loading.dt();
   f.cycles = plan.cycles;
   f.start = plan.start;

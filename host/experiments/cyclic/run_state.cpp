@@ -39,7 +39,7 @@ namespace {
 
 constexpr const char *plan_text = "plan", *samples_array = "samples", *motion_prefix = "motion of frequency ",
                      *cracks_prefix = "cracks of frequency ";
-constexpr std::size_t sample_words = 4;
+constexpr std::size_t sample_words = 5;
 
 }  // namespace
 
@@ -56,9 +56,10 @@ RunState to_run_state(Checkpoint checkpoint, const std::filesystem::path& file) 
     const auto* values = std::get_if<std::vector<double>>(&array.values);
     if (!values) damaged("array " + array.name + " in another precision");
     if (array.name == samples_array) {
+      if (values->size() % sample_words != 0) damaged("array " + array.name + " of another kind");
       for (std::size_t i = 0; i + sample_words <= values->size(); i += sample_words) {
         const double* word = &(*values)[i];
-        out.samples.push_back({word[0], word[1], word[2], word[3]});
+        out.samples.push_back({word[0], word[1], word[2], word[3], word[4]});
       }
     }
     for (std::size_t i = 0; i < out.cracks.size(); ++i) {
@@ -86,9 +87,9 @@ void add_to(Checkpoint& out, const RunState& at, double seconds_running) {
   out.texts[plan_text] = plan.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   std::vector<double> samples;
   for (const ResponseSample& s : at.samples) {
-    samples.insert(samples.end(), {s.frequency_hz, s.time_s, s.strain, s.stress_pa});
+    samples.insert(samples.end(), {s.frequency_hz, s.time_s, s.strain, s.stress_pa, s.lateral_strain});
   }
-  out.arrays.push_back({samples_array, "Hz, s, 1, Pa", std::move(samples)});
+  out.arrays.push_back({samples_array, "Hz, s, 1, Pa, 1", std::move(samples)});
   for (std::size_t i = 0; i < at.cracks.size(); ++i) {
     if (at.cracks[i].events.empty()) continue;
     out.arrays.push_back({cracks_prefix + std::to_string(i), "1, 1, 1, s, m, m", to_numbers(at.cracks[i].events)});

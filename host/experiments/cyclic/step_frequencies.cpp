@@ -15,6 +15,7 @@
 #include "host/run/step_settings.hpp"
 #include "host/run/skips.hpp"
 #include "host/harmonic/law_stiffness.hpp"
+#include "host/network/free_sides.hpp"
 #include "host/files/result_files.hpp"
 #include "host/experiments/cyclic/finished_frequency.hpp"
 #include "host/experiments/cyclic/run_state.hpp"
@@ -38,6 +39,17 @@ namespace {
 constexpr double block_share = 0.02;
 /// Number of times per cycle at which broken contact points are counted. Reading them takes longer than a step.
 constexpr std::int64_t looks_per_cycle = 50;
+/// Least number of times per cycle at which the lateral strain is measured, if there are so many samples. The fit needs
+/// 16; copying the displacements takes longer than a step on a device.
+constexpr std::int64_t lateral_per_cycle = 20;
+
+/// Returns the number of samples from one measurement of the lateral strain to the next. It divides the samples of a
+/// cycle, so that the measurements of a cycle are evenly spaced.
+std::int64_t between_lateral(std::int64_t per_cycle) {
+  std::int64_t out = std::max<std::int64_t>(1, per_cycle / lateral_per_cycle);
+  while (per_cycle % out != 0) --out;
+  return out;
+}
 
 /// Returns the options that the steppers of all frequencies have in common.
 StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
@@ -93,7 +105,11 @@ class Steps : public PlannedExperiment {
         inertia_(inertia),
         at_(std::move(at)),
         devices_(scene.solver.devices),
-        owns_checkpoint_(resumed) {}
+        owns_checkpoint_(resumed) {
+    if (scene.network.lateral_walls) return;
+    sides_.emplace(prepared.specimen, prepared.tessellation);
+    if (!sides_->known()) sides_.reset();
+  }
 
   /// Makes the first stepper. The stepper is made before any file is changed, so that all files stay as they were if
   /// the stepper refuses the scene.
@@ -274,7 +290,12 @@ class Steps : public PlannedExperiment {
     const auto looks = [=, active = cracks.active()](std::int64_t k) {
       return active && (k % between_looks == 0 || k % per_cycle == 0);
     };
-    course.looks_at_stepper = cracks.active();
+    // the lateral strain is measured only in the cycles that are fitted
+    const std::int64_t lateral_from = course.last - p.fit_cycles * per_cycle, between = between_lateral(per_cycle);
+    const auto has_lateral = [=, last = course.last, known = sides_.has_value()](std::int64_t k) {
+      return known && k > lateral_from && (last - k) % between == 0;
+    };
+    course.uses_stepper = [=](std::int64_t k) { return looks(k) || has_lateral(k); };
     course.ended = [this, i] { return at_.cracks[i].rupture.has_value(); };
     course.taken = [=](std::int64_t k) { return k >= kept || k % per_cycle == 0 || looks(k); };
     course.take = [=, this, &p, &cracks](std::int64_t k, const Observation& now) {
@@ -284,6 +305,7 @@ class Steps : public PlannedExperiment {
       // in tension the particles pull the top wall down, so the force on the wall is negative
       at_.samples.push_back({p.loading.frequency, now.time, now.top_displacement() / gauge_length(specimen),
                              -now.top_force() / section_area(specimen)});
+      if (has_lateral(k)) at_.samples.back().lateral_strain = lateral_strain();
       if (writer) writer->add(line_of(at_.samples.back()));
     };
     course.shown = [=, this, &p](std::int64_t step, double steps_a_second) {
@@ -293,6 +315,11 @@ class Steps : public PlannedExperiment {
     };
     course.content = content;
     return course;
+  }
+
+  /// Returns the lateral strain at the stepper's present step.
+  double lateral_strain() const {
+    return -sides_->contraction(stepper_->motions(sides_->particles())) / gauge_length(prepared_.specimen);
   }
 
   void finish(std::size_t i, RunResult& result) {
@@ -321,6 +348,7 @@ class Steps : public PlannedExperiment {
   bool may_move_ = true;              ///< whether the run may move to other devices
   std::unique_ptr<Stepper> stepper_;  ///< stepper of the running frequency or of the first one
   bool used_ = false;                 ///< whether the stepper has run a frequency
+  std::optional<FreeSides> sides_;    ///< empty if a side is held or has no cell
   std::optional<LineWriter> cracks_writer_;
   std::size_t samples_read_ = 0;  ///< number of samples of finished frequencies
   bool owns_checkpoint_;

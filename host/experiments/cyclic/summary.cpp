@@ -58,8 +58,15 @@ Json begun(const Frequency& f, const char* method, double residual, const Scene&
   return out;
 }
 
+void add_poisson_ratio(const Frequency& f, Json& out) {
+  if (!f.poisson_ratio) return;
+  out["poisson_ratio"] = std::abs(*f.poisson_ratio);
+  out["poisson_phase_deg"] = std::arg(*f.poisson_ratio) * 180 / std::numbers::pi;
+}
+
 Json stepped_json(const SteppedFrequency& f, const Scene& scene) {
   Json out = begun(f, "explicit", f.residual(), scene);
+  add_poisson_ratio(f, out);
   out["e_star_peaks_pa"] = f.cyclic.peaks.e_star_pa;
   out["phase_peaks_deg"] = f.cyclic.peaks.phase_deg;
   out["change_e_star"] = f.cyclic.change_e_star;
@@ -82,10 +89,7 @@ Json frequency_json(const HarmonicFrequency& f, const Scene& scene) {
   Json out = begun(f, "harmonic", f.residual, scene);
   out["e_star_bottom_pa"] = f.bottom.e_star_pa;
   out["phase_bottom_deg"] = f.bottom.phase_deg;
-  if (f.poisson_ratio) {
-    out["poisson_ratio"] = std::abs(*f.poisson_ratio);
-    out["poisson_phase_deg"] = std::arg(*f.poisson_ratio) * 180 / std::numbers::pi;
-  }
+  add_poisson_ratio(f, out);
   out["iterations"] = f.iterations;
   out["linear"] = to_string(f.linear);
   if (scene.output.sensitivities) {

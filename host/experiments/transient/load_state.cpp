@@ -31,7 +31,7 @@ namespace {
 
 constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks",
                      *unstepped_array = "unstepped", *ledger_array = "energies", *stresses_array = "stresses";
-constexpr std::size_t point_words = 19 + pair_types;
+constexpr std::size_t point_words = 20 + pair_types;
 
 /// Returns the numbers of a relaxation in one list: its error, the long-term modulus, then modulus and time of each
 /// unit.
@@ -95,8 +95,9 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
                             w[7],
                             static_cast<std::int64_t>(w[8]),
                             {static_cast<std::int64_t>(w[9]), w[10], w[11], {}},
-                            {w[12], w[13], w[14], w[15], w[16], w[17], w[18]}});
-      std::copy_n(w + 19, pair_types, out.points.back().cracks.cracked_area_m2.begin());
+                            {w[12], w[13], w[14], w[15], w[16], w[17], w[18]},
+                            w[19]});
+      std::copy_n(w + 20, pair_types, out.points.back().cracks.cracked_area_m2.begin());
     }
   }
   if (out.state.empty()) damaged("no state");
@@ -107,15 +108,30 @@ void add_to(Checkpoint& out, const LoadState& at) {
   out.texts[plan_text] = nlohmann::json(at).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   std::vector<double> points;
   for (const SteppedPoint& p : at.points) {
-    points.insert(points.end(),
-                  {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error,
-                   static_cast<double>(p.broken_points), static_cast<double>(p.cracks.cracked), p.cracks.crack_energy_j,
-                   p.cracks.friction_energy_j, p.energies.work_j, p.energies.elastic_j, p.energies.viscous_j,
-                   p.energies.crack_j, p.energies.friction_j, p.energies.kinetic_j, p.energies.damping_j});
+    points.insert(points.end(), {p.time_s,
+                                 p.strain,
+                                 p.stress_pa,
+                                 p.ratio,
+                                 p.top_pa,
+                                 p.bottom_pa,
+                                 p.kinetic_j,
+                                 p.error,
+                                 static_cast<double>(p.broken_points),
+                                 static_cast<double>(p.cracks.cracked),
+                                 p.cracks.crack_energy_j,
+                                 p.cracks.friction_energy_j,
+                                 p.energies.work_j,
+                                 p.energies.elastic_j,
+                                 p.energies.viscous_j,
+                                 p.energies.crack_j,
+                                 p.energies.friction_j,
+                                 p.energies.kinetic_j,
+                                 p.energies.damping_j,
+                                 p.poisson_ratio});
     points.insert(points.end(), p.cracks.cracked_area_m2.begin(), p.cracks.cracked_area_m2.end());
   }
   out.arrays.push_back(
-      {points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, then 9 energies J, 6 areas m2", std::move(points)});
+      {points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, then 9 energies J, 1, 6 areas m2", std::move(points)});
   out.arrays.push_back({ledger_array, "J, J, s, J, then m, N, and chains", at.ledger.numbers()});
   if (!at.stresses.empty()) {
     std::vector<double> stresses;

@@ -20,6 +20,7 @@
 #include "host/run/step_settings.hpp"
 #include "host/run/skips.hpp"
 #include "host/files/result_files.hpp"
+#include "host/network/free_sides.hpp"
 #include "host/run/phases.hpp"
 #include "macadam/error.hpp"
 
@@ -68,7 +69,11 @@ class SteppedLoad : public PlannedExperiment {
         cracks_(scene, prepared, at_.cracks),
         ledger_(prepared.network, scene.laws, inertia_, at_.plan.density_scaling, at_.plan.dt,
                 at_.plan.damping_kind != Damping::none, std::exchange(at_.ledger, {})),
-        owns_checkpoint_(resumed) {}
+        owns_checkpoint_(resumed) {
+    if (scene.network.lateral_walls) return;
+    sides_.emplace(prepared.specimen, prepared.tessellation);
+    if (!sides_->known()) sides_.reset();
+  }
 
   /// Makes the stepper. The stepper is made before any file is changed, so that all files stay as they were if the
   /// stepper refuses the scene.
@@ -239,7 +244,8 @@ class SteppedLoad : public PlannedExperiment {
     return fmt::format("{},{}", csv_line(words, p), columns().line(p));
   }
   SteppedColumns columns() const {
-    return {test_.by_stress, cracks_.active(), cracks_.sums(), at_.plan.damping_kind != Damping::none};
+    return {test_.by_stress, cracks_.active(), cracks_.sums(), at_.plan.damping_kind != Damping::none,
+            sides_.has_value()};
   }
 
   /// Returns whether the largest stress is recorded: only in a strength test, in which the strain grows and contact
@@ -295,7 +301,7 @@ class SteppedLoad : public PlannedExperiment {
     course.take = [this, add](std::int64_t k, const Observation& now) {
       if (k > 0) add(point(now));
     };
-    course.looks_at_stepper = true;  // point() computes the kinetic energy from it
+    course.uses_stepper = [](std::int64_t) { return true; };  // point() computes the kinetic energy from it
     if (!quasi_static_ && (measures_peak() || cracks_.sums())) {
       course.between = [this](const Observation& now) {
         if (measures_peak()) follow_peak(now);
@@ -326,8 +332,12 @@ class SteppedLoad : public PlannedExperiment {
     out.strain = now.top_displacement() / gauge_length(prepared_.specimen);
     out.top_pa = -now.top_force() / area;  // in tension the particles pull the top wall down: negative force
     out.bottom_pa = now.wall_force[wall_index(wall_z_lo)].z / area;
-    out.kinetic_j = at_.plan.density_scaling * kinetic_energy(stepper_->particles(), inertia_);
     const double none = std::numeric_limits<double>::quiet_NaN();
+    const ParticleState particles = stepper_->particles();
+    out.kinetic_j = at_.plan.density_scaling * kinetic_energy(particles, inertia_);
+    out.poisson_ratio = sides_ && out.strain != 0
+                            ? sides_->contraction(motions_of(particles, sides_->particles())) / now.top_displacement()
+                            : none;
     if (test_.by_stress) {
       out.stress_pa = load;
       out.ratio = test_.when.release && now.time > *test_.when.release + 0.5 * at_.plan.dt ? none : out.strain / load;
@@ -394,6 +404,7 @@ class SteppedLoad : public PlannedExperiment {
   std::shared_ptr<const Drive> drive_;
   std::unique_ptr<Stepper> stepper_;
   const QuasiStaticStepper* quasi_static_ = nullptr;  ///< `stepper_`, if the method is quasi-static
+  std::optional<FreeSides> sides_;                    ///< empty if a side is held or has no cell
   CrackWatch cracks_;
   EnergyLedger ledger_;
   std::vector<laws::PointCrack> end_cracks_;  // of the contact points, at the last point of the result

@@ -39,6 +39,7 @@ std::string SteppedColumns::head() const {
   if (energies) out += ",cracked_points";
   if (broken) out += ",broken_points";
   if (energies) each_energy(damping, [&](const char* name, double Energies::*) { out += fmt::format(",{}", name); });
+  if (sides) out += ",poisson_ratio";
   return out;
 }
 
@@ -50,6 +51,7 @@ std::string SteppedColumns::line(const SteppedPoint& p) const {
   if (energies) {
     each_energy(damping, [&](const char*, double Energies::*member) { out += fmt::format(",{}", p.energies.*member); });
   }
+  if (sides) out += std::isfinite(p.poisson_ratio) ? fmt::format(",{}", p.poisson_ratio) : ",";
   return out;
 }
 

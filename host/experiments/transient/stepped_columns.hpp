@@ -15,6 +15,7 @@ struct SteppedColumns {
   bool broken = false;    ///< broken points
   bool energies = false;  ///< cracked points and energies
   bool damping = false;   ///< energy that damping takes
+  bool sides = false;     ///< Poisson's ratio, if the sides are free
 
   /// Return the names of the columns and their values at a point.
   /// @{

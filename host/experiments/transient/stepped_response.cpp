@@ -161,6 +161,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
       point["top_pa"] = p.top_pa;
       point["bottom_pa"] = p.bottom_pa;
       point["kinetic_j"] = p.kinetic_j;
+      if (!found.confined) point["poisson_ratio"] = std::isfinite(p.poisson_ratio) ? Json(p.poisson_ratio) : Json();
       if (found.cracks) point["broken_points"] = p.broken_points;
       if (found.cracks && found.cracks->sums) {
         point["cracked_points"] = p.cracks.cracked;

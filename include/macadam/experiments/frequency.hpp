@@ -26,9 +26,12 @@ struct Frequency {
   std::optional<double> temperature_c;  ///< empty if the scene has none
   Stiffness stiffness;                  ///< from the reaction of the top wall
   bool confined = false;                ///< whether the sides were held; the modulus is then a confined one
-  double density_scaling = 1;           ///< density scaling of the inertia in this result; 0: no inertia
-  double seconds = 0;                   ///< wall time of the solution
-  std::string fault;                    ///< the reason if the result cannot be right; otherwise empty
+  /// Complex Poisson's ratio (lateral contraction over axial extension); empty if the sides are held or if no cell
+  /// touches one of them.
+  std::optional<std::complex<double>> poisson_ratio = {};
+  double density_scaling = 1;  ///< density scaling of the inertia in this result; 0: no inertia
+  double seconds = 0;          ///< wall time of the solution
+  std::string fault;           ///< the reason if the result cannot be right; otherwise empty
 };
 
 /// Result of a solution in the frequency domain.
@@ -36,8 +39,6 @@ struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
   ModulusParts parts;   ///< parts of E*; |E*| and φ follow from the sum of the parts
   Stiffness bottom;     ///< from the reaction of the bottom wall
-  /// Complex Poisson's ratio (lateral contraction over axial extension); empty if the sides are held.
-  std::optional<std::complex<double>> poisson_ratio;
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
   /// Force of the springs that hold free rigid motions, divided by the wall's reaction; nearly 0 in a correct solution.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ struct SteppedPoint : ResponsePoint {
   std::int64_t broken_points = 0;  ///< number of broken contact points; 0 if no law can break
   CrackSums cracks = {};           ///< zero if no law has a crack
   Energies energies = {};          ///< zero if no law has a crack
+  /// Minus the mean lateral strain over the strain; NaN if the strain is 0, or if a side is held or has no cell.
+  double poisson_ratio = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The largest stress of a test in the direction of its load; it may lie between two points of the result.
