@@ -56,6 +56,16 @@ def add(page: Page, folders: list[Folder]) -> None:
             page.figure(grains, words, "the aggregates in the specimen", third=True, raster=True)
 
 
+def picture(folder: Folder, what: str) -> Any:
+    """Returns the figure "block", "section" or "aggregates" of a folder that has a specimen."""
+    box, paint = box_of(folder), colours_of(folder)
+    if what == "block":
+        return _block(folder, box, paint)
+    if what == "section":
+        return _section(folder, box, paint)[0]
+    return spheres(folder.specimen, box, paint, directions_of_view(), HEIGHT)[0]
+
+
 # Returns the edges of the box [m]; without a summary, the edges of the volume that contains the spheres.
 def box_of(folder: Folder) -> np.ndarray:
     edges = folder.summary.get("box_m")
