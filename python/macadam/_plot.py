@@ -2,6 +2,7 @@
 """Pictures of results and specimens, in the look of the report. They need matplotlib (the extra `report`)."""
 from __future__ import annotations
 
+import importlib
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -87,7 +88,7 @@ def _view(specimen: _core.Specimen) -> Any:
     """Shows the particles with PyVista, coloured by phase, in a window or in the notebook. Raises InputError if PyVista is
     not installed."""
     try:
-        import pyvista
+        pyvista = importlib.import_module("pyvista")
     except ImportError:
         raise _core.InputError("what: found '3d' without the Python package PyVista, expected that it is installed: "
                                "pip install 'macadam[fields]'") from None

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import _core
 
 _KEPT = ("step", "time", "dt")  # numbers of a snapshot that save() writes beside the arrays
+_MOTION = ("displacement", "rotation", "velocity", "spin")  # its arrays of the particles
 _PREFIX = "state/"  # in a file, begins the names of the stepper's own arrays
 
 
@@ -40,10 +41,10 @@ class Snapshot:
 
     def save(self, file: str | PathLike[str]) -> None:
         """Writes the snapshot to a file of NumPy (.npz), which load() reads."""
-        numbers: dict[str, Any] = {name: np.array(getattr(self, name)) for name in _KEPT}
-        motion = {name: getattr(self, name) for name in ("displacement", "rotation", "velocity", "spin")}
+        held: dict[str, Any] = {name: np.array(getattr(self, name)) for name in (*_KEPT, *_MOTION)}
+        held |= {_PREFIX + name: array for name, array in self.arrays.items()}
         with open(file, "wb") as out:
-            np.savez_compressed(out, **numbers, **motion, **{_PREFIX + k: v for k, v in self.arrays.items()})
+            np.savez_compressed(out, **held)
 
     @classmethod
     def load(cls, file: str | PathLike[str]) -> Snapshot:
@@ -54,7 +55,7 @@ class Snapshot:
         except ValueError as error:
             raise _core.InputError(f"{fspath(file)}: found {error}, expected a snapshot (.npz)") from None
         arrays = {k.removeprefix(_PREFIX): v for k, v in held.items() if k.startswith(_PREFIX)}
-        missing = [name for name in (*_KEPT, "displacement", "rotation", "velocity", "spin") if name not in held]
+        missing = [name for name in (*_KEPT, *_MOTION) if name not in held]
         if missing or not arrays:
             raise _core.InputError(f"{fspath(file)}: found no {missing[0] if missing else 'state'}, expected a snapshot")
         return cls(int(held["step"]), float(held["time"]), float(held["dt"]), held["displacement"], held["rotation"],
@@ -88,8 +89,8 @@ class Stepper(_core.Stepper):
     def snapshot(self) -> Snapshot:
         """Returns a copy of the complete state: restore() continues from it, bit for bit."""
         now, motion = self.observe(), self.particles()
-        parts = (np.array(getattr(motion, name)) for name in ("displacement", "rotation", "velocity", "spin"))
-        return Snapshot(now.step, now.time, self.dt, *parts, self.state())
+        parts = {name: np.array(getattr(motion, name)) for name in _MOTION}
+        return Snapshot(step=now.step, time=now.time, dt=self.dt, arrays=self.state(), **parts)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Sets the state that snapshot() returned, of this stepper or one of the same specimen, backend and options.

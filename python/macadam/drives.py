@@ -61,10 +61,9 @@ class Cyclic(_core.Cyclic):
         if (steps_per_period is None) == (dt is None):
             found = "neither" if dt is None else "both"
             raise InputError(f"steps_per_period, dt: found {found}, expected one of them")
-        if dt is not None:
-            steps_per_period = _steps_of_period(frequency, dt)
-        super().__init__(amplitude, frequency, steps_per_period, ramp_steps)
-        self._given = {"amplitude": amplitude, "frequency": frequency, "steps_per_period": steps_per_period,
+        steps = steps_per_period if steps_per_period is not None else _steps_of_period(frequency, dt or 0)
+        super().__init__(amplitude, frequency, steps, ramp_steps)
+        self._given = {"amplitude": amplitude, "frequency": frequency, "steps_per_period": steps,
                        "ramp_steps": ramp_steps}
 
     __repr__, __reduce__ = _repr, _reduce

@@ -2,6 +2,7 @@
 // simulation.cpp  Binds `macadam run`: runs a scene's experiment and writes its files into a folder.
 #include "macadam/simulation.hpp"
 
+#include <fmt/format.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>

@@ -238,7 +238,7 @@ void bind_specimen(nb::module_& m) {
       .def(
           "plot",
           [](const nb::object& self, const std::optional<std::string>& what) {
-            return nb::any(nb::module_::import_("macadam._plot").attr("plot_specimen")(self, what));
+            return nb::borrow<nb::any>(nb::module_::import_("macadam._plot").attr("plot_specimen")(self, what));
           },
           nb::arg("what") = nb::none(),
           "Returns a matplotlib figure, which a notebook shows. what: \"block\" (the default), \"section\" or "

@@ -52,7 +52,7 @@ def test_texts_of_objects_have_numbers(result: mc.Result, specimen: mc.Specimen)
     first = result.table.iloc[0]
     assert repr(result).startswith(f"<macadam.Result cyclic: |E*| {first.e_star_pa:.4g} Pa, phase {first.phase_deg:.3g} degrees at 1 Hz to ")
     assert "<table" in result._repr_html_() and f"{first.e_star_pa:.5g}" in result._repr_html_()
-    fit = mc.fit({"frequency_hz": [1, 10], "e_star_pa": [1e9, 2e9], "phase_deg": [40, 30]}, units=1, flow=False)
+    fit = mc.fit({"frequency_hz": [0.1, 1, 10, 100], "e_star_pa": [1e9, 2e9, 4e9, 7e9], "phase_deg": [40, 35, 30, 20]}, units=1)
     assert repr(fit).startswith("<macadam.Fit kelvin: ")
     dt = mc.critical_step(specimen, density_scaling=1e6) / 2
     boundary = mc.Boundary().move("+z", "z", mc.drives.Ramp(1e-6, 50, dt=dt))

@@ -48,6 +48,7 @@ def add(page: Page, folders: list[Folder]) -> None:
     if not found:
         return
     page.section("Stiffness modulus |E*| and phase angle φ")
+    tables.add_seeds(page, scatter(found))
     tables.add(page, [f for f in runs if f.by_frequency], error)
     page.figure(over_frequency(found), _caption(found), "|E*| and phase angle over frequency")
     if len({(c.folder.label, f) for c in found for f in c.frequency}) > 1:
