@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ._result import Result
 
 #: What plot_result() draws, by the kind of the test, and what plot_specimen() draws.
-OF_FREQUENCY = ("modulus", "cole_cole", "black")
+OF_FREQUENCY = ("modulus", "cole_cole", "black", "master_curve")
 OF_TIME = ("history",)
 OF_SPECIMEN = ("block", "section", "aggregates", "3d")
 
@@ -30,12 +30,17 @@ def _chosen(what: str | None, choices: tuple[str, ...]) -> str:
 
 def plot_result(result: Result, what: str | None = None) -> Any:
     """Returns a figure of a result; `Result.plot` describes the arguments."""
-    from .report import histories, look, modulus
+    from .report import histories, look, loops, modulus
     from .report.folders import read_all
     folder = read_all([result.folder])[0]
     with look.style():
         if folder.by_frequency:
             chosen, curves = _chosen(what, OF_FREQUENCY), modulus.curves([folder])
+            if chosen == "master_curve":
+                if any(r.get("reduced_frequency_hz") is None for r in folder.by_frequency):
+                    raise _core.InputError("what: found 'master_curve' for results without a reduced frequency, expected laws "
+                                           "that all have the same shift, and several temperatures")
+                return loops.master_curve(folder)[0]
             if chosen == "modulus":
                 return modulus.over_frequency(curves)
             figure = (modulus.cole_cole if chosen == "cole_cole" else modulus.black)(curves)

@@ -176,7 +176,8 @@ class Result:
     def plot(self, what: str | None = None) -> Any:
         """Returns a matplotlib figure of the results, which a notebook shows; `figure.savefig(file)` writes it.
 
-        what: for a test over frequencies "modulus" (|E*| and φ over the frequency, the default), "cole_cole" or "black";
+        what: for a test over frequencies "modulus" (|E*| and φ over the frequency, the default), "cole_cole",
+        "black" or, with several temperatures, "master_curve";
         for a test over time "history" (the default). Needs matplotlib: pip install 'macadam[report]'.
         """
         return importlib.import_module("macadam._plot").plot_result(self, what)

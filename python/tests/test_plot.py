@@ -18,7 +18,7 @@ def result(specimen: mc.Specimen) -> mc.Result:
     return mc.harmonic(specimen, frequencies=[1, 10])
 
 
-@pytest.mark.parametrize("what", [None, *OF_FREQUENCY])
+@pytest.mark.parametrize("what", [None, *OF_FREQUENCY[:3]])
 def test_a_result_is_drawn_with_its_numbers(result: mc.Result, what: str | None) -> None:
     figure = result.plot(what)
     assert figure._repr_png_().startswith(PNG)
@@ -26,6 +26,15 @@ def test_a_result_is_drawn_with_its_numbers(result: mc.Result, what: str | None)
         drawn = figure.axes[0].lines[0]
         assert np.array_equal(drawn.get_xdata(), result.table.frequency_hz)
         assert np.allclose(drawn.get_ydata(), 1e-9 * result.table.e_star_pa, rtol=1e-12)  # GPa
+
+
+def test_a_master_curve_has_its_reference_temperature(scene: mc.Scene, result: mc.Result) -> None:
+    shift = {"shift": "wlf", "C1": 15, "C2": 122, "reference_temperature": 20}
+    laws = [c | (shift if c["law"] == "generalised_kelvin" else {}) for c in scene.as_dict()["contacts"]]
+    swept = mc.sweep(mc.Scene(scene, contacts=laws), frequencies=[1, 10], temperatures=[10, 20, 30])
+    assert swept.plot("master_curve").axes[0].get_xlabel() == "reduced frequency (Hz) at 20 °C"
+    with pytest.raises(mc.InputError, match="what: found 'master_curve' for results without a reduced frequency"):
+        result.plot("master_curve")
 
 
 def test_a_test_in_time_is_drawn(specimen: mc.Specimen) -> None:
@@ -42,7 +51,7 @@ def test_a_specimen_is_drawn(specimen: mc.Specimen, what: str | None) -> None:
 
 
 def test_wrong_pictures_are_refused(result: mc.Result, specimen: mc.Specimen) -> None:
-    with pytest.raises(mc.InputError, match="what: found 'x', expected one of modulus, cole_cole, black"):
+    with pytest.raises(mc.InputError, match="what: found 'x', expected one of modulus, cole_cole, black, master_curve"):
         result.plot("x")
     with pytest.raises(mc.InputError, match="what: found 'x', expected one of block, section, aggregates, 3d"):
         specimen.plot("x")

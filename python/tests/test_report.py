@@ -307,7 +307,7 @@ def test_commands_of_the_page(tmp_path: Path, no_pictures) -> None:
     shutil.copytree(make("harmonic"), tmp_path / "results/harmonic")
     code = [line[4:] for line in page.splitlines() if line.startswith("    ")]
     commands = [line for line in code if line.startswith("macadam ")]
-    assert len(commands) == 2 and len(code) == 5
+    assert len(commands) == 3 and len(code) == 6
     for line in commands:
         subprocess.run(run_as(line), cwd=tmp_path, check=True, env=ENVIRONMENT)
     for name in ("report.html", "both.html"):
