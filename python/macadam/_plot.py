@@ -103,7 +103,7 @@ def _view(specimen: _core.Specimen) -> Any:
         specimen.write(file, arrays={"mastic": specimen.phase.astype(np.int32)})
         particles = fields._read(file, -1)
     plotter = pyvista.Plotter()
-    for phase, colour in ((0, "#b58a5a"), (1, phases.MASTIC)):
+    for phase, colour in ((0, phases.AGGREGATE), (1, phases.MASTIC)):
         part = fields._selected_part(particles, np.asarray(particles.point_data["mastic"]) == phase, True)
         if part.n_points:
             plotter.add_mesh(fields._shapes(part), color=colour, smooth_shading=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import sys
 
 import numpy as np
 import pytest
@@ -55,6 +56,12 @@ def test_wrong_pictures_are_refused(result: mc.Result, specimen: mc.Specimen) ->
         result.plot("x")
     with pytest.raises(mc.InputError, match="what: found 'x', expected one of block, section, aggregates, 3d"):
         specimen.plot("x")
+
+
+def test_the_view_in_space_names_the_package_that_it_needs(specimen: mc.Specimen, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pyvista", None)  # importing it raises ImportError
+    with pytest.raises(mc.InputError, match="found '3d' without the Python package PyVista"):
+        specimen.plot("3d")
 
 
 def test_texts_of_objects_have_numbers(result: mc.Result, specimen: mc.Specimen) -> None:
