@@ -25,9 +25,10 @@ if "OMP_WAIT_POLICY" not in os.environ and "GOMP_SPINCOUNT" not in os.environ:
 #: The public names of the package, by the module that defines them.
 _HOMES = {
     "_core": ("Error", "InputError", "RunError", "InterruptedError", "DivergenceError", "info", "experiments", "pair_names",
-              "Specimen", "Contacts", "Cells", "Section", "Boundary", "Drive", "FieldSeries", "Stepper", "Step", "Observation",
+              "Specimen", "Contacts", "Cells", "Section", "Boundary", "Drive", "FieldSeries", "Step", "Observation",
               "ParticleState", "ContactState", "HarmonicSolver", "SteadyState", "StartState", "steady_start",
               "Spectrum", "PronySeries", "CreepSeries", "spectrum", "evaluate_cyclic", "critical_step", "__version__"),
+    "_stepper": ("Stepper", "Snapshot"),
     "_scene": ("Scene",),
     "_specimen": ("specimen",),
     "_simulation": ("run", "test", "harmonic", "sweep", "relaxation", "creep", "monotonic"),
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
     from ._calibration import Calibration, calibrate
     from ._core import (Boundary, Cells, Contacts, ContactState, CreepSeries, DivergenceError, Drive, Error,
                         FieldSeries, HarmonicSolver, InputError, Observation, ParticleState,
-                        PronySeries, RunError, Section, Specimen, Spectrum, StartState, SteadyState, Step, Stepper,
+                        PronySeries, RunError, Section, Specimen, Spectrum, StartState, SteadyState, Step,
                         critical_step, evaluate_cyclic, experiments, info, pair_names, spectrum, steady_start)
     from ._core import InterruptedError as InterruptedError
     from ._fit import Fit, fit
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from ._scene import Scene
     from ._simulation import creep, harmonic, monotonic, relaxation, run, sweep, test
     from ._specimen import specimen
+    from ._stepper import Snapshot, Stepper
     from .mixture.driver import mixture
     from .report.document import report
     from .study.driver import study

@@ -51,6 +51,11 @@ class Calibration:
     def __str__(self) -> str:
         return self._text
 
+    def __repr__(self) -> str:
+        found = [f"{p['name']} {p['value']:.4g}{' ' + p['unit'] if p['unit'] else ''} ± {p['standard_deviation']:.2g}"
+                 for p in self.json["parameters"]]
+        return f"<macadam.Calibration: {', '.join(found)}>"
+
 
 def calibrate(scene: SceneLike, target: Data, free: Sequence[str], *,
               bounds: Mapping[str, tuple[float, float]] | None = None,

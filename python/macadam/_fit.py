@@ -87,6 +87,12 @@ class Fit:
     def __str__(self) -> str:
         return self._text
 
+    def __repr__(self) -> str:
+        errors = self.json.get("errors") or {}
+        rms = [f"{100 * errors['e_star_rms']:.3g} % of |E*|"] if errors.get("e_star_rms") is not None else []
+        rms += [f"{errors['phase_rms_deg']:.3g} degrees"] if errors.get("phase_rms_deg") is not None else []
+        return f"<macadam.Fit {self.json['model']}: {len(self.json['parameters'])} parameters, rms {', '.join(rms) or 'unknown'}>"
+
 
 def fit(data: Data | None = None, *, parameters: str | PathLike[str] | None = None, model: str = "kelvin",
         units: int | None = None, most_units: int = 12, criterion: str = "aicc", flow: bool | None = None,
@@ -102,6 +108,11 @@ def fit(data: Data | None = None, *, parameters: str | PathLike[str] | None = No
     ("aicc", "bic") chooses it, up to `most_units`. flow: whether the chain has a dashpot in series. shift: "none",
     "wlf", "arrhenius" or "free". reference_temperature: [°C]. poisson: Poisson's ratio, to convert a column g_star_pa.
     out: a folder for the files.
+
+        >>> import macadam as mc
+        >>> law = mc.fit("examples/laws/mastic.csv", shift="wlf", units=4)
+        >>> law.law["law"], len(law.law["E"])
+        ('generalised_kelvin', 4)
     """
     if (data is None) == (parameters is None):
         raise _core.InputError(f"what to fit: found {'nothing' if data is None else 'both data and parameters'}, expected "

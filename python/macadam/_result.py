@@ -2,6 +2,7 @@
 """Results: the folder of a run, whose files are read when they are first used."""
 from __future__ import annotations
 
+import html
 import importlib
 import json
 import shutil
@@ -43,6 +44,14 @@ class Result:
 
     `folder` is the folder that was given, or a temporary one that is removed together with this object; save() copies
     it. A pickled result contains the files if the folder is temporary, otherwise only the folder's name.
+
+        >>> import macadam as mc
+        >>> result = mc.relaxation("examples/demo/scene.toml", times=[0.01, 1], points_per_decade=1,
+        ...                        specimen={"box": ["12 mm", "12 mm", "15 mm"]})
+        >>> result.table.time_s.tolist()
+        [0.01, 0.1, 1.0]
+        >>> result.save("results/relaxation").name
+        'relaxation'
     """
 
     def __init__(self, scene: Scene, specimen: _core.Specimen | None, out: str | PathLike[str] | None,
@@ -158,10 +167,20 @@ class Result:
         """The backend that ran: cpu, cuda or reference."""
         return self._run.backend
 
-    def report(self, file: str | PathLike[str]) -> Path:
-        """Writes a report of the folder, one HTML file: `macadam report`."""
-        importlib.import_module("macadam.report").report(self.folder, file)
+    def report(self, file: str | PathLike[str], *, figures: str | PathLike[str] | None = None) -> Path:
+        """Writes a report of the folder, one HTML file: `macadam report`. figures: a folder into which each figure is
+        written too, as SVG, PDF, PNG and CSV."""
+        importlib.import_module("macadam.report").report(self.folder, file, figures=figures, scene=self.scene.text)
         return Path(file)
+
+    def plot(self, what: str | None = None) -> Any:
+        """Returns a matplotlib figure of the results, which a notebook shows; `figure.savefig(file)` writes it.
+
+        what: for a test over frequencies "modulus" (|E*| and φ over the frequency, the default), "cole_cole",
+        "black" or, with several temperatures, "master_curve";
+        for a test over time "history" (the default). Needs matplotlib: pip install 'macadam[report]'.
+        """
+        return importlib.import_module("macadam._plot").plot_result(self, what)
 
     def save(self, folder: str | PathLike[str]) -> Path:
         """Copies the folder of the results to `folder` and returns the copy's path."""
@@ -171,4 +190,26 @@ class Result:
         return self._run.text
 
     def __repr__(self) -> str:
-        return f"<macadam.Result {self.scene.kind}, {self.solver}, {self.folder}>"
+        return f"<macadam.Result {self.scene.kind}: {self._numbers()}; {self.backend}, {self.folder}>"
+
+    def _repr_html_(self) -> str:
+        table = self.table.to_html(max_rows=12, index=False, float_format=lambda x: f"{x:.5g}")
+        return f"<p>{html.escape(repr(self))}</p>{table}"
+
+    def _numbers(self) -> str:
+        """Returns the most important numbers: modulus and phase at the first and the last frequency, or strength, or the
+        first and the last value over time."""
+        rows = self.summary.get("results") or [{}]
+        if "e_star_pa" in rows[0]:
+            ends = rows if len(rows) == 1 else (rows[0], rows[-1])
+            at = [f"|E*| {r['e_star_pa']:.4g} Pa, phase {r['phase_deg']:.3g} degrees at {r['frequency_hz']:g} Hz"
+                  + (f", {r['temperature_c']:g} °C" if r.get("temperature_c") is not None else "") for r in ends]
+            return " to ".join(at)
+        if rows[0].get("strength_pa") is not None:
+            return f"strength {rows[0]['strength_pa']:.4g} Pa at a strain of {rows[0]['strain_at_peak']:.4g}"
+        points = rows[0].get("points") or []
+        for key in ("modulus_pa", "secant_pa", "compliance_1_pa", "stress_pa"):
+            ends = [p for p in points if p.get(key) is not None]
+            if ends:
+                return " to ".join(f"{key} {p[key]:.4g} at {p['time_s']:g} s" for p in (ends[0], ends[-1]))
+        return "no results"

@@ -86,6 +86,10 @@ class Scene(_core.Scene):
     this file. By default the name is "scene" and the folder is the working folder.
 
     Raises InputError with the command's message. The message names the line in the file, unless a key is overridden.
+
+        >>> import macadam as mc
+        >>> mc.Scene("examples/demo/scene.toml", **{"contacts.M-A.delta": 1.1}, loading={"frequencies": [10]})
+        <macadam.Scene examples/demo/scene.toml: cyclic, explicit>
     """
 
     def __init__(self, source: str | PathLike[str] | Mapping[str, Any] | _core.Scene, *,

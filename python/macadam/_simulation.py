@@ -131,6 +131,11 @@ def harmonic(scene: SceneLike, frequencies: Sequence[Number] | Number | None = N
     inertia: include the particles' inertia.
     sensitivities: compute derivatives with respect to every parameter of the laws, in `sensitivities` of the result.
     The other arguments are those of run().
+
+        >>> import macadam as mc
+        >>> result = mc.harmonic("examples/demo/scene.toml", [1, 10], specimen={"box": ["12 mm", "12 mm", "15 mm"]})
+        >>> result.table.frequency_hz.tolist(), bool(result.table.e_star_pa.is_monotonic_increasing)
+        ([1.0, 10.0], True)
     """
     changed: dict[str, Any] = dict(overrides)
     given, made = _scene_and_specimen(scene, specimen, changed)

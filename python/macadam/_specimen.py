@@ -31,6 +31,14 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
     out: a folder to write specimen.csv, aggregates.csv, summary.json and so on into, as the command does.
     sections: planes ("x=0.025", "z=40 mm") whose cross sections are written into `out`.
     progress: called with a stage and the fraction of it that is done, 0 to 1.
+
+        >>> import macadam as mc
+        >>> law = {"law": "elastic", "E": "10 GPa"}
+        >>> scene = {"contacts": [{"pair": "M-M", **law}, {"pair": "M-W", **law}], "materials": {"mastic": {"density": 2400}},
+        ...          "loading": {"kind": "cyclic", "frequencies": [10]}}
+        >>> mc.specimen(scene, particles={"centre": [[5e-4, 5e-4, 5e-4], [5e-4, 5e-4, 1.5e-3]], "radius": [5e-4, 5e-4],
+        ...                               "box": [1e-3, 1e-3, 2e-3]})
+        <macadam.Specimen: 2 particles, 3 contacts, box 1 × 1 × 2 mm>
     """
     if particles is not None:
         return _specimen_of_particles(scene, particles)

@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes of aggregates: closed triangulated surfaces (docs/shapes.md, docs/filling.md). `macadam shapes …`"""
+"""Shapes of aggregates: closed triangulated surfaces (docs/shapes.md, docs/filling.md). `macadam shapes …`
+
+    >>> from macadam import shapes
+    >>> ball = shapes.icosahedron(0.01)
+    >>> bool(shapes.check(ball)), shapes.measure(ball).volume < 4.19e-6
+    (True, True)
+"""
 from __future__ import annotations
 
 from collections.abc import Iterable

@@ -38,10 +38,30 @@ void require_positive(const char* name, double value, const char* unit) {
     throw InputError(fmt::format("{}: found {}, expected a number above 0 {}", name, value, unit));
 }
 
+/// Returns the boundary as text: the driven axes of walls, and the numbers of fixed and loaded particles.
+std::string text_of(const Boundary& b) {
+  std::string out = "<macadam.Boundary:";
+  bool any = false;
+  const auto add = [&](const std::string& words) { out += (any ? ", " : " ") + words, any = true; };
+  for (std::size_t wall = 0; wall < b.wall.size(); ++wall) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const DrivenBy by = b.wall[wall].axis[axis].by;
+      if (by == DrivenBy::rest) continue;
+      const bool is_force = by == DrivenBy::force;
+      add(fmt::format("wall {} {} along {}", wall_names[wall], is_force ? "loaded" : "moved", "xyz"[axis]) +
+          (is_force ? fmt::format(" with {:.4g} kg", b.wall[wall].mass) : ""));
+    }
+  }
+  if (!b.fixed.empty()) add(fmt::format("{} fixed particles", b.fixed.size()));
+  if (!b.body_force.empty()) add(fmt::format("forces on {} particles", b.body_force.size()));
+  return out + (any ? ">" : " all walls at rest>");
+}
+
 void bind_boundary(nb::module_& m) {
   nb::class_<Boundary>(m, "Boundary",
                        "Loads and constraints of a specimen. The walls are \"-x\" \"+x\" \"-y\" \"+y\" \"-z\" \"+z\".")
       .def(nb::init<>())
+      .def("__repr__", &text_of)
       .def(
           "move",
           [](Boundary& b, const std::string& wall, const std::string& axis, std::shared_ptr<Drive> drive) -> Boundary& {

@@ -2,6 +2,7 @@
 // simulation.cpp  Binds `macadam run`: runs a scene's experiment and writes its files into a folder.
 #include "macadam/simulation.hpp"
 
+#include <fmt/format.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -120,6 +121,11 @@ nb::list skips_of(const RunResult& result) {
 
 void bind_simulation(nb::module_& m) {
   nb::class_<StepView>(m, "Step", "State of a run at one step, for a callback.")
+      .def("__repr__",
+           [](const StepView& s) {
+             return fmt::format("<macadam.Step: step {}, {:.6g} s, strain {:.4g}, stress {:.4g} Pa>", s.now.step,
+                                s.now.time, s.strain(), s.stress());
+           })
       .def_ro("frequency_hz", &StepView::frequency_hz, "Frequency of a cyclic test [Hz]; 0 for other tests.")
       .def_prop_ro("step", [](const StepView& s) { return s.now.step; })
       .def_prop_ro(

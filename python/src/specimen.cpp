@@ -236,6 +236,14 @@ void bind_specimen(nb::module_& m) {
            "arrays: "
            "additional arrays for viewers, by name, with one row per particle, contact or polygon.")
       .def(
+          "plot",
+          [](const nb::object& self, const std::optional<std::string>& what) {
+            return nb::borrow<nb::any>(nb::module_::import_("macadam._plot").attr("plot_specimen")(self, what));
+          },
+          nb::arg("what") = nb::none(),
+          "Returns a matplotlib figure, which a notebook shows. what: \"block\" (the default), \"section\" or "
+          "\"aggregates\"; \"3d\" shows the particles with PyVista in a window or in the notebook.")
+      .def(
           "section",
           [](const Prepared& p, const std::string& plane) {
             return cut(p.made.specimen, p.made.tessellation, read_section_plane(plane, p.made.specimen.box));

@@ -3,6 +3,7 @@
 // phase angle from samples of stress and strain.
 #include "macadam/spectrum.hpp"
 
+#include <fmt/format.h>
 #include <nanobind/stl/complex.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -71,6 +72,11 @@ nb::dict evaluate(const ArrayLike& times, const ArrayLike& strains, const ArrayL
 
 void bind_series(nb::module_& m) {
   nb::class_<PronySeries>(m, "PronySeries", "Relaxation modulus as a sum of Maxwell units.")
+      .def("__repr__",
+           [](const PronySeries& s) {
+             return fmt::format("<macadam.PronySeries: {} units, E(0) {:.4g} Pa, E(inf) {:.4g} Pa>", s.units.size(),
+                                s.instantaneous(), s.long_term);
+           })
       .def_ro("long_term", &PronySeries::long_term, "E(∞) [Pa]; 0 for a fluid.")
       .def_prop_ro("instantaneous", &PronySeries::instantaneous, "E(0) [Pa].")
       .def_prop_ro(
@@ -93,6 +99,11 @@ void bind_series(nb::module_& m) {
           "stiffness", [](const PronySeries& s, std::complex<double> at) { return s.stiffness(at); }, nb::arg("s"),
           "Returns E*(s) [Pa] for motions e^(s·t); s = 2πi·f for a frequency f.");
   nb::class_<CreepSeries>(m, "CreepSeries", "Creep compliance as a chain of Kelvin units with a spring and a dashpot.")
+      .def("__repr__",
+           [](const CreepSeries& s) {
+             return fmt::format("<macadam.CreepSeries: {} units, J(0) {:.4g} 1/Pa, fluidity {:.4g} 1/(Pa s)>",
+                                s.units.size(), s.instantaneous, s.fluidity);
+           })
       .def_ro("instantaneous", &CreepSeries::instantaneous, "J(0) [1/Pa].")
       .def_ro("fluidity", &CreepSeries::fluidity, "1/η [1/(Pa s)]; 0 for a solid.")
       .def_prop_ro(
@@ -120,6 +131,11 @@ void bind_spectrum(nb::module_& m) {
   bind_series(m);
   const SpectrumOptions usual;
   nb::class_<Spectrum>(m, "Spectrum", "Relaxation and creep functions of a specimen, and their errors.")
+      .def("__repr__",
+           [](const Spectrum& s) {
+             return fmt::format("<macadam.Spectrum: {} units, E(0) {:.4g} Pa, error {:.2g}>", s.relaxation.units.size(),
+                                s.relaxation.instantaneous(), s.error);
+           })
       .def_ro("relaxation", &Spectrum::relaxation)
       .def_ro("creep", &Spectrum::creep)
       .def_ro("error", &Spectrum::error, "Estimate of the largest relative error of E(t).")

@@ -3,12 +3,22 @@
 #include <fmt/format.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "macadam/stepper.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 
 namespace macadam::python {
 namespace {
+
+/// Returns the length of the longest of these vectors; 0 if there are none.
+double longest(const std::vector<Vec3d>& vectors) {
+  double out = 0;
+  for (const Vec3d& v : vectors) out = std::max(out, norm(v));
+  return out;
+}
 
 View<double> of_walls(const std::array<Vec3d, wall_count>& a) { return view(&a.front().x, {a.size(), 3}); }
 
@@ -35,6 +45,13 @@ void bind_states(nb::module_& m) {
       .def_prop_ro("top_displacement", &Observation::top_displacement, "Displacement of the top wall along z [m].")
       .def_prop_ro("top_force", &Observation::top_force, "Force on the top wall along z [N].");
   nb::class_<ParticleState>(m, "ParticleState", "Motion of all particles, in the specimen's order.")
+      .def("__len__", [](const ParticleState& s) { return s.displacement.size(); })
+      .def("__repr__",
+           [](const ParticleState& s) {
+             return fmt::format(
+                 "<macadam.ParticleState: {} particles, displacement up to {:.4g} m, velocity up to {:.4g} m/s>",
+                 s.displacement.size(), longest(s.displacement), longest(s.velocity));
+           })
       .def_prop_ro(
           "displacement", [](const ParticleState& s) { return view(s.displacement); },
           "Displacement since the start [m], (n, 3).")
@@ -54,6 +71,12 @@ void bind_states(nb::module_& m) {
           "moment", [](const ParticleState& s) { return view(s.moment); },
           "Sum of moments about the centre [N m], (n, 3).");
   nb::class_<ContactState>(m, "ContactState", "Forces and deformation of all contacts, in the network's order.")
+      .def("__len__", [](const ContactState& s) { return s.force.size(); })
+      .def("__repr__",
+           [](const ContactState& s) {
+             return fmt::format("<macadam.ContactState: {} contacts, force up to {:.4g} N>", s.force.size(),
+                                longest(s.force));
+           })
       .def_prop_ro(
           "force", [](const ContactState& s) { return view(s.force); },
           "Force on the first particle at the facet's centroid [N], (n, 3).")

@@ -71,8 +71,8 @@ def refusals(specimen):
     flat = r"found numbers of shape \(2, 1\), expected numbers of shape \(n,\)"
     column = [[1.0], [2.0]]
     return [
-        (lambda: mc.drives.Table(1e-6, column, [1, 2]), f"times: {flat}"),
-        (lambda: mc.drives.Table(1e-6, [1, 2], [1, 2, 3]), r"values: found numbers of shape \(3,\), expected .*\(2,\)"),
+        (lambda: mc.drives.Table([1, 2], column, dt=1e-6), f"times: {flat}"),
+        (lambda: mc.drives.Table([1, 2, 3], [1, 2], dt=1e-6), r"values: found numbers of shape \(3,\), expected .*\(2,\)"),
         (lambda: mc.Boundary().fix(column), f"particles: {flat}"),
         (lambda: mc.Boundary().fix([0.5]), "particles: found 0.5 in row 0, expected whole numbers"),
         (lambda: mc.Boundary().body_force(np.ones(n)), r"force: found numbers of shape .*expected .*\(n, 3\)"),
@@ -102,7 +102,7 @@ def test_every_function_names_the_argument_of_wrong_shape(specimen):
 def test_lists_and_columns_serve_as_well(specimen):
     table = pd.DataFrame({"t": [0.0, 1e-6], "u": [0.0, 1e-9]})
     # The tolerance covers rounding in the interpolation.
-    assert mc.drives.Table(1e-6, table.t, table.u).value(1) == pytest.approx(1e-9, rel=1e-12)
+    assert mc.drives.Table(table.u, table.t, dt=1e-6).value(1) == pytest.approx(1e-9, rel=1e-12)
     assert mc.HarmonicSolver(specimen).solve(np.array([10], np.float32))[0].frequency_hz == 10
     assert mc.harmonic(specimen, np.int64(10)).table.frequency_hz[0] == 10
     assert list(mc.harmonic(specimen, frequencies=pd.Series([10.0, 20.0])).table.frequency_hz) == [10, 20]

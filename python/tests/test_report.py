@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import macadam.report.__main__ as command
@@ -171,6 +172,45 @@ def test_seeds_of_one_scene_have_a_mean_and_a_scatter(tmp_path: Path, no_picture
     assert said and float(said[1]) >= 0.98 * 100 * scatter  # the page shows the largest scatter of all frequencies
 
 
+def test_seeds_have_a_table_of_mean_and_deviation(tmp_path: Path, no_pictures) -> None:
+    folders = [make("harmonic", seed) for seed in (1, 2)]
+    plain = report(folders, tmp_path / "r.html", figures=tmp_path / "figures").read_text(encoding="utf-8")
+    e_star = np.array([[r["e_star_pa"] for r in json.loads((f / "summary.json").read_text())["results"]] for f in folders])
+    means = pd.read_csv(tmp_path / "figures/means.csv")
+    assert np.allclose(means.e_star_pa, e_star.mean(0), rtol=1e-14)
+    assert np.allclose(means.e_star_deviation_pa, e_star.std(0, ddof=1), rtol=1e-9)
+    assert "Mean of 2 seeds: mean ± standard deviation of single specimens." in plain
+    assert f"{1e-9 * e_star.mean(0)[0]:.2f} ± " in plain  # four digits of some 11.5 GPa
+
+
+def test_figures_are_written_in_every_form(tmp_path: Path) -> None:
+    out = tmp_path / "figures"
+    page = report(make("harmonic"), tmp_path / "r.html", figures=out).read_text(encoding="utf-8")
+    names = sorted({p.stem for p in out.glob("figure-*")})
+    assert len(names) == page.count("<figcaption>") and all((out / f"{n}.{end}").is_file() for n in names for end in ("svg", "pdf", "png"))
+    for file in out.glob("*.png"):
+        width = int.from_bytes(file.read_bytes()[16:20], "big")  # of a PNG's header
+        assert abs(width - 1800) <= 1  # matplotlib rounds the width down
+    assert (out / "captions.txt").read_text(encoding="utf-8").count("Figure ") >= len(names)
+    table = pd.read_csv(next(out.glob("*e-and-phase-angle-over-frequency.csv")))
+    results = json.loads((make("harmonic") / "summary.json").read_text())["results"]
+    assert list(table[table.panel == 1].x) == [r["frequency_hz"] for r in results]
+    assert np.allclose(table[table.panel == 1].y, [1e-9 * r["e_star_pa"] for r in results], rtol=1e-12)  # GPa
+    assert len(pd.read_csv(out / "sensitivities.csv")) == sum(len(r["sensitivities"]) for r in results)
+    bars = pd.read_csv(next(out.glob("*sensitivities-of-e-and-phase-angle.csv")))
+    assert "M-A.E_m" in set(bars.name)
+
+
+def test_the_methods_have_laws_scene_and_version(tmp_path: Path, no_pictures) -> None:
+    page = report(make("harmonic"), tmp_path / "r.html").read_text(encoding="utf-8")
+    version = json.loads((make("harmonic") / "summary.json").read_text())["macadam"]
+    assert f"The computations were made with Macadam {version}." in page
+    assert "E_m = 1.115e+10, C_m = 2.515e+09" in page and "The steady state was solved in the frequency domain" in page
+    assert "[specimen.mastic]" in page and "was when this report was written" in page
+    other = report(make("harmonic"), tmp_path / "s.html", scene="[specimen]\nbox = [1, 1, 1]\n").read_text(encoding="utf-8")
+    assert "box = [1, 1, 1]" in other and "[specimen.mastic]" not in other
+
+
 def test_folders_of_one_name_are_told_apart(tmp_path: Path, no_pictures) -> None:
     for parent in "ab":
         shutil.copytree(make("harmonic"), tmp_path / parent / "same")
@@ -267,7 +307,7 @@ def test_commands_of_the_page(tmp_path: Path, no_pictures) -> None:
     shutil.copytree(make("harmonic"), tmp_path / "results/harmonic")
     code = [line[4:] for line in page.splitlines() if line.startswith("    ")]
     commands = [line for line in code if line.startswith("macadam ")]
-    assert len(commands) == 2 and len(code) == 5
+    assert len(commands) == 3 and len(code) == 6
     for line in commands:
         subprocess.run(run_as(line), cwd=tmp_path, check=True, env=ENVIRONMENT)
     for name in ("report.html", "both.html"):

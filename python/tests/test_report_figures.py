@@ -64,7 +64,7 @@ def test_a_size_class_has_one_colour_in_all_specimens_of_a_report(tmp_path: Path
         ]
     )
     coarse, fine = phases.of_sieves(4.75, 9.5), phases.of_sieves(2, 4.75)
-    first, second = (specimen._colours(f)(np.arange(n)) for f, n in zip(folders, (2, 3)))
+    first, second = (specimen.colours_of(f)(np.arange(n)) for f, n in zip(folders, (2, 3)))
     assert np.allclose(first, [phases.shaded(coarse, 0), phases.shaded(fine, 1)])  # the shade depends on the body
     assert np.allclose(second[1:], [phases.shaded(coarse, 1), phases.shaded(fine, 2)])
 

@@ -61,7 +61,7 @@ def test_samples_of_ones_own_are_evaluated():
 
 def test_a_table_of_the_same_values_is_the_same_drive(specimen, dt):
     ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=50)
-    table = mc.drives.Table(dt, np.arange(201) * dt, ramp.values(0, 201))
+    table = mc.drives.Table(ramp.values(0, 201), np.arange(201) * dt, dt=dt)
     assert np.allclose(table.values(0, 300), ramp.values(0, 300), rtol=1e-12)
     a, b = stepper(specimen, ramp), stepper(specimen, table)
     a.advance(150)
@@ -167,13 +167,13 @@ def test_wrong_drives_and_walls(specimen, dt):
     ramp = mc.drives.Ramp(height=1e-6, dt=dt)
     for call, message in ((lambda: mc.Boundary().move("top", "z", ramp), r'wall: found "top"'),
                           (lambda: mc.Boundary().move("+z", "w", ramp), "axis"),
-                          (lambda: mc.drives.Table(dt, [0.0, 1.0, 0.5], [0.0, 1.0, 2.0]), "row 3"),
-                          (lambda: mc.drives.Table(dt, [0.0], [0.0]), "at least two"),
-                          (lambda: mc.drives.Table(0, [0.0, 1.0], [0.0, 1.0]), "dt: found 0"),
-                          (lambda: mc.drives.Cyclic(1e-6, 10, 0), "steps_per_period: found 0"),
-                          (lambda: mc.drives.Cyclic(1e-6, 0, 10), "frequency: found 0"),
-                          (lambda: mc.drives.Ramp(1e-6, -dt), "dt: found -"),
-                          (lambda: mc.drives.Haversine(1e-6, dt, 0), "pulse_steps: found 0"),
+                          (lambda: mc.drives.Table([0.0, 1.0, 2.0], [0.0, 1.0, 0.5], dt=dt), "row 3"),
+                          (lambda: mc.drives.Table([0.0], [0.0], dt=dt), "at least two"),
+                          (lambda: mc.drives.Table([0.0, 1.0], [0.0, 1.0], dt=0), "dt: found 0"),
+                          (lambda: mc.drives.Cyclic(1e-6, 10, steps_per_period=0), "steps_per_period: found 0"),
+                          (lambda: mc.drives.Cyclic(1e-6, 0, steps_per_period=10), "frequency: found 0"),
+                          (lambda: mc.drives.Ramp(1e-6, dt=-dt), "dt: found -"),
+                          (lambda: mc.drives.Haversine(1e-6, 0, dt=dt), "pulse_steps: found 0"),
                           (lambda: stepper(specimen, ramp, blocks=0.0), "blocks: found 0"),
                           (lambda: stepper(specimen, ramp).advance(-1), "-1 steps"),
                           (lambda: stepper(specimen, ramp).set_velocities(np.zeros((3, 3)), np.zeros((3, 3))), "velocity: found")):

@@ -28,5 +28,8 @@ def stepped(specimen: mc.Specimen) -> float:
     pull = mc.drives.Haversine(height=1e-6, dt=dt, pulse_steps=100)
     stepper = mc.Stepper(specimen, mc.Boundary().move("+z", "z", pull), backend="cpu")
     stepper.advance(10)
+    kept: mc.Snapshot = stepper.snapshot()
+    stepper.restore(kept)
+    specimen.plot("section").savefig("section.png")
     mc.run(specimen, on_step=look, every=100)
     return stepper.observe().top_force

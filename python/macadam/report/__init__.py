@@ -20,10 +20,18 @@ __all__ = ["ReportError", "report"]
 
 # The module's type. It makes `macadam.report(...)` callable, and imports the other names when they are first used.
 class _Callable(types.ModuleType):
-    def __call__(self, dirs: str | Path | Iterable[str | Path], out: str | Path, title: str | None = None) -> Path:
+    def __call__(
+        self,
+        dirs: str | Path | Iterable[str | Path],
+        out: str | Path,
+        title: str | None = None,
+        *,
+        figures: str | Path | None = None,
+        scene: str | None = None,
+    ) -> Path:
         from macadam.report.document import report
 
-        return report(dirs, out, title)
+        return report(dirs, out, title, figures=figures, scene=scene)
 
     def __getattr__(self, name: str) -> Any:
         if name not in __all__:

@@ -20,9 +20,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("dirs", nargs="+", metavar="DIR", help="folder of results; several are shown side by side")
     parser.add_argument("--out", default="report.html", metavar="FILE", help="file to write (default: report.html)")
     parser.add_argument("--title", help="title of the page (default: the names of the folders)")
+    parser.add_argument(
+        "--figures",
+        metavar="DIR",
+        help="also write each figure into this folder: SVG, PDF, PNG of 1,800 pixels and, if it has curves, CSV",
+    )
     options = parser.parse_args(arguments)
     try:
-        print(report(options.dirs, options.out, options.title))
+        print(report(options.dirs, options.out, options.title, figures=options.figures))
     except ReportError as error:
         print(f"macadam report: {error}", file=sys.stderr)
         return 2

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from macadam.report import look
 from macadam.report.folders import Folder
@@ -52,6 +53,20 @@ def add(page: Page, folders: list[Folder]) -> None:
             page.heading(folder.label)
         _shares(page, folder)
         _sensitivities(page, folder)
+    if sensitive:
+        page.data("sensitivities", pd.DataFrame(_rows_of_sensitivities(sensitive)))
+
+
+def _rows_of_sensitivities(folders: list[Folder]) -> list[dict[str, Any]]:
+    """Returns one row per folder, temperature, frequency and parameter: the change of |E*| [Pa] and of the phase angle
+    [degrees] per unit of the parameter's natural logarithm."""
+    return [
+        {"folder": f.label, "temperature_c": r.get("temperature_c"), "frequency_hz": r["frequency_hz"], "e_star_pa": r["e_star_pa"]}
+        | {key: s[key] for key in ("parameter", "d_e_star_pa", "d_phase_deg")}
+        for f in folders
+        for r in f.by_frequency
+        for s in r.get("sensitivities") or []
+    ]
 
 
 # Draws the number of contacts of each type.
@@ -188,6 +203,9 @@ def _sensitivities(page: Page, folder: Folder) -> None:
         f"{_at(ends[-1])}.",
         "sensitivities of |E*| and phase angle",
     )
+    head = [f"{what}, {_at(r)}" for r in ends for what in ("|E*| (%)", "φ (°)")]
+    table = [[n, *(look.number(float(v), 3) for e in effects for v in e.get(n, (0, 0)))] for n in names]
+    page.table(["10 % more of", *head], table, "The changes of the figure as numbers.")
 
 
 def _at_first_temperature(results: list[dict[str, Any]]) -> list[dict[str, Any]]:

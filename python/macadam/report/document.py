@@ -10,7 +10,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from macadam.report import contacts, cracks, decisions, fields, fits, histories, look, loops, mixture, modulus, scans, specimen
+from macadam.report import contacts, cracks, decisions, fields, fits, histories, look, loops, methods, mixture, modulus, scans, specimen
+from macadam.report.export import Export
 from macadam.report.folders import Folder, ReportError, read_all
 from macadam.report.page import Page
 
@@ -25,21 +26,34 @@ _KINDS = {
 }
 
 
-def report(dirs: str | Path | Iterable[str | Path], out: str | Path, title: str | None = None) -> Path:
+def report(
+    dirs: str | Path | Iterable[str | Path],
+    out: str | Path,
+    title: str | None = None,
+    *,
+    figures: str | Path | None = None,
+    scene: str | None = None,
+) -> Path:
     """Writes one self-contained HTML file about the contents of the result folders.
 
     dirs: one folder, or several, which are shown side by side. out: the file; its folder is made if needed. title:
-    title of the page. Returns the file. Raises ReportError if a folder is not a results folder, or a file in it cannot
-    be read."""
+    title of the page. figures: a folder into which each figure is written too, as SVG, PDF, PNG of 1,800 pixels and, if it
+    has curves, CSV. scene: the text of the scene of a single folder; without it, the scene's file is read if it is found.
+    Returns the file. Raises ReportError if a folder is not a results folder, or a file in it cannot be read."""
     folders = read_all([dirs] if isinstance(dirs, (str, Path)) else list(dirs))
+    if scene is not None and len(folders) == 1:
+        folders[0].scene_text = scene
+    export = None if figures is None else Export(Path(figures))
     with look.style():
-        page = _page(folders)
+        page = _page(folders, export)
+    if export:
+        export.write_captions()
     return write(page, out, title or _title(folders), _subtitle(folders))
 
 
 # Returns the page with the sections of all modules. A section without content is not shown.
-def _page(folders: list[Folder]) -> Page:
-    page = Page(len(folders) > 1)
+def _page(folders: list[Folder], export: Export | None = None) -> Page:
+    page = Page(len(folders) > 1, export)
     _overview(page, folders)
     mixture.add(page, folders)
     specimen.add(page, folders)
@@ -53,6 +67,7 @@ def _page(folders: list[Folder]) -> Page:
     scans.add(page, folders)
     decisions.add_decisions(page, folders)
     decisions.add_run(page, folders)
+    methods.add(page, folders)
     if page.left_out:
         page.section("Left out of this report")
         page.table(["folder", "what", "why"], page.left_out, words=3)

@@ -45,6 +45,7 @@ class Folder:
     label: str = ""
     colour: str = look.COLOURS[0]
     summary: dict[str, Any] = field(default_factory=dict)
+    scene_text: str | None = None  # the scene that was computed, if the caller knows it
 
     def has(self, name: str) -> bool:
         return (self.path / name).is_file()

@@ -21,15 +21,21 @@ def add(page: Page, folders: list[Folder]) -> None:
     with_points = [f for f in folders if f.kind == "run" and f.in_time and f.in_time.get("points")]
     kinds = {f.in_time["kind"] for f in with_points}
     for kind in [*(k for k in _DRAWINGS if k in kinds), *sorted(kinds - {*_DRAWINGS})]:
-        title, draw = _DRAWINGS.get(kind, (kind.capitalize(), _any_test))
         found = [f for f in with_points if f.in_time["kind"] == kind]
+        title = _DRAWINGS[kind][0] if kind in _DRAWINGS else kind.capitalize()
         page.section(title)
-        figure, words = draw(found)
+        figure, words = drawing(found)
         page.figure(figure, words + _error_note(found), f"curves of {title.lower()}")
     series = [f for f in folders if f.kind == "run" and f.in_time and (f.in_time.get("prony") or {}).get("units")]
     if series:
         page.section("Viscoelastic constants of the mixture")
         page.figure(_spectrum(series), _spectrum_caption(series), "Prony series")
+
+
+def drawing(found: list[Folder]) -> tuple[Any, str]:
+    """Draws the tests in time of these folders, which are of one kind and have points. Returns figure and caption."""
+    kind = found[0].in_time["kind"]
+    return (_DRAWINGS[kind][1] if kind in _DRAWINGS else _any_test)(found)
 
 
 def _points(folder: Folder, *keys: str) -> list[np.ndarray]:

@@ -63,9 +63,19 @@ def style() -> Any:
     return matplotlib.rc_context(_RC)
 
 
+class ShownFigure(Figure):
+    """A matplotlib figure that a notebook shows when it is the value of a cell. pyplot is not needed."""
+
+    def _repr_png_(self) -> bytes:
+        data = io.BytesIO()
+        with style():
+            self.savefig(data, format="png", dpi=110)
+        return data.getvalue()
+
+
 def figure(width: float, height: float, rows: int = 1, columns: int = 1, **more: Any) -> tuple[Any, Any]:
     """Returns a matplotlib figure, width and height in inches, and its axes. It needs no window and no display."""
-    made = Figure(figsize=(width, height), layout="constrained")
+    made = ShownFigure(figsize=(width, height), layout="constrained")
     return made, made.subplots(rows, columns, **more)
 
 

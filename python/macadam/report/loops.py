@@ -103,6 +103,14 @@ def _add_master_curve(page: Page, folder: Folder) -> None:
         words = "reduced frequencies are missing, because the laws do not all have the same shift"
         page.leave_out(folder.label, "master curve", words)
         return
+    page.figure(*master_curve(folder), "master curve")
+
+
+def master_curve(folder: Folder) -> tuple[Any, str]:
+    """Draws |E*| and phase angle over the reduced frequency, and the shift over the temperature. Returns figure and
+    caption. All results of the folder have a reduced frequency."""
+    rows = folder.by_frequency
+    temperatures = sorted({r["temperature_c"] for r in rows})
     factor, unit = look.modulus_unit(r["e_star_pa"] for r in rows)
     figure, (left, middle, right) = look.figure(look.WIDE, 2.7, 1, 3, width_ratios=[3, 3, 2])
     shifts = []
@@ -113,22 +121,41 @@ def _add_master_curve(page: Page, folder: Folder) -> None:
         left.plot(f, [factor * r["e_star_pa"] for r in of], "o", color=colour, ms=3.2, label=f"{t:g} °C")
         middle.plot(f, [r["phase_deg"] for r in of], "o", color=colour, ms=3.2)
         shifts.append(of[0]["log10_a_T"])
+    line = sorted(rows, key=lambda r: r["reduced_frequency_hz"])
+    along = [r["reduced_frequency_hz"] for r in line]
+    for axes, up in ((left, [factor * r["e_star_pa"] for r in line]), (middle, [r["phase_deg"] for r in line])):
+        axes.plot(along, up, "-", color="#b9bec6", lw=1, zorder=1)
+    reference = _reference_temperature(temperatures, shifts)
     right.plot(temperatures, shifts, "o-", color=look.INK, ms=3.2)
     left.set(xscale="log", yscale="log", ylabel=f"|E*| ({unit})")
     middle.set(xscale="log", ylabel="phase angle φ (°)")
     right.set(xlabel="temperature (°C)", ylabel="log₁₀ of the shift a$_T$")
     for axes in (left, middle):
-        axes.set_xlabel("reduced frequency (Hz)")
+        axes.set_xlabel("reduced frequency (Hz)" + ("" if reference is None else f" at {reference}"))
         decades(axes.xaxis, 5)
     decades(left.yaxis)
     figure.legend(loc="outside lower center", ncols=len(temperatures))
     low, high = (pick(r["e_star_pa"] for r in rows) for pick in (min, max))
     ends = [pick(r["reduced_frequency_hz"] for r in rows) for pick in (min, max)]
-    page.figure(
-        figure,
-        f"Master curve of {folder.label}: the frequencies of each temperature multiplied by its shift a_T. "
+    return figure, (
+        f"Master curve of {folder.label}: the frequencies of each temperature multiplied by its shift a_T"
+        + ("" if reference is None else f"; the reference temperature, where a_T is 1, is {reference}")
+        + ". "
         f"Over {look.number(float(np.log10(ends[1] / ends[0])), 2)} decades |E*| goes from {look.modulus(low)} to "
         f"{look.modulus(high)}. Dots of neighbouring "
-        "temperatures lie on one curve if the shift is valid for the whole specimen.",
-        "master curve",
+        "temperatures lie on one curve if the shift is valid for the whole specimen. The line connects all dots."
     )
+
+
+def _reference_temperature(temperatures: list[float], shifts: list[float]) -> str | None:
+    """Returns the temperature at which log10 of the shift is 0, as text: one of the temperatures, or "about" a value from
+    linear interpolation between two of them. Returns None if it is outside the temperatures."""
+    for temperature, shift in zip(temperatures, shifts, strict=True):
+        if abs(shift) < 1e-9:
+            return f"{temperature:g} °C"
+    order = np.argsort(shifts)
+    low, high = shifts[order[0]], shifts[order[-1]]
+    if not low <= 0 <= high:
+        return None
+    between = float(np.interp(0, np.array(shifts)[order], np.array(temperatures, float)[order]))
+    return f"about {between:.0f} °C"

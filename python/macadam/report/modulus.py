@@ -61,12 +61,13 @@ def add(page: Page, folders: list[Folder]) -> None:
     if not found:
         return
     page.section("Stiffness modulus |E*| and phase angle φ")
+    tables.add_seeds(page, scatter(found))
     tables.add(page, [f for f in runs if f.by_frequency], error)
-    page.figure(_over_frequency(found), _caption(found), "|E*| and phase angle over frequency")
+    page.figure(over_frequency(found), _caption(found), "|E*| and phase angle over frequency")
     if len({(c.folder.label, f) for c in found for f in c.frequency}) > 1:
-        page.figure(_cole_cole(found), _cole_cole_caption(found), "Cole–Cole diagram", third=True)
+        page.figure(cole_cole(found), _cole_cole_caption(found), "Cole–Cole diagram", third=True)
         page.figure(
-            _black(found),
+            black(found),
             "Black diagram: |E*| over the phase angle. The diagram does not show frequency, so "
             "curves of different temperatures coincide if a shift of frequency makes one master curve of them."
             + _colour_note(found),
@@ -127,8 +128,8 @@ def decades(axis: Any, largest_number: int = 9) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-# Draws |E*| and phase angle over frequency, with error bars and the means over seeds.
-def _over_frequency(found: list[Curve]) -> Any:
+def over_frequency(found: list[Curve]) -> Any:
+    """Draws |E*| and phase angle over frequency, with error bars and the means over seeds."""
     factor, unit = look.modulus_unit(e for c in found for e in c.e_star)
     figure, (left, right) = look.figure(look.WIDE, 2.7, 1, 2)
     for c in found:
@@ -203,7 +204,8 @@ def _parts(c: Curve) -> tuple[np.ndarray, np.ndarray]:
     return c.e_star * np.cos(np.radians(c.phase)), c.e_star * np.sin(np.radians(c.phase))
 
 
-def _cole_cole(found: list[Curve]) -> Any:
+def cole_cole(found: list[Curve]) -> Any:
+    """Draws the loss modulus over the storage modulus."""
     factor, unit = look.modulus_unit(e for c in found for e in c.e_star)
     figure, axes = look.figure(look.THIRD, 2.2)
     for c in found:
@@ -225,7 +227,8 @@ def _cole_cole_caption(found: list[Curve]) -> str:
     )
 
 
-def _black(found: list[Curve]) -> Any:
+def black(found: list[Curve]) -> Any:
+    """Draws |E*| over the phase angle."""
     factor, unit = look.modulus_unit(e for c in found for e in c.e_star)
     figure, axes = look.figure(look.THIRD, 2.2)
     for c in found:

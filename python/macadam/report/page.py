@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from macadam.report import look
+from macadam.report.export import Export
 
 # The browser may load nothing from elsewhere and run no script. So the page will look the same
 # in ten years.
@@ -25,8 +26,9 @@ class _Section:
 class Page:
     """A page with sections in the order in which they were begun. Empty sections are not written."""
 
-    def __init__(self, several: bool = False) -> None:
+    def __init__(self, several: bool = False, export: Export | None = None) -> None:
         self.several = several  # whether the page has several folders; if so, each block shows the name of its folder
+        self.export = export  # writes figures and tables also as files of their own; None: they are only on the page
         self._sections: list[_Section] = []
         self._figures = 0
         self.left_out: list[tuple[str, str, str]] = []  # entries left out of the page: folder, what, why
@@ -44,6 +46,8 @@ class Page:
     def figure(self, made: Any, caption: str, alt: str, third: bool = False, raster: bool = False) -> None:
         """Adds a matplotlib figure with a numbered caption. third: a third of the width, so that three consecutive
         figures stand side by side. raster: embed as PNG."""
+        if self.export:
+            self.export.figure(made, self._figures + 1, caption, alt, raster)
         width, height = made.get_size_inches()
         share = 100 if third else round(100 * width / look.WIDE)
         self._picture(
@@ -57,6 +61,15 @@ class Page:
     def picture(self, source: str, caption: str, alt: str) -> None:
         """Adds an existing picture. source: a data URL, which contains the whole picture."""
         self._picture(source, caption, alt, "whole given", "")
+
+    def data(self, name: str, table: Any) -> None:
+        """Writes a table of pandas as `name`.csv beside the exported figures; does nothing if figures are not exported."""
+        if self.export:
+            self.export.table(name, table)
+
+    def preformatted(self, words: str) -> None:
+        """Adds text with its own line breaks, such as a scene."""
+        self._add(f'<pre class="scroll">{escape(words)}</pre>')
 
     def _picture(self, source: str, caption: str, alt: str, kind: str, size: str) -> None:
         self._figures += 1

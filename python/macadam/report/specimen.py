@@ -21,6 +21,7 @@ MOST = 8  # largest number of folders whose specimens are drawn
 HEIGHT = 3.0  # height of each of the three pictures [inches]
 SAWN = 0.22  # fraction of each edge that is removed in the picture of the block
 PIXELS = 420  # pixels along the longest edge of the box
+FINE = 1200  # the same, if the figures are also written as files of their own
 Paint = Callable[[np.ndarray], np.ndarray]  # returns the colours of rows of specimen.csv
 
 
@@ -42,18 +43,29 @@ def add(page: Page, folders: list[Folder]) -> None:
         if len(drawn) > 1:
             page.heading(folder.label)
         box, paint = box_of(folder), colours_of(folder)
+        pixels = FINE if page.export else PIXELS
         page.figure(
-            _block(folder, box, paint),
+            _block(folder, box, paint, pixels),
             f"The specimen, {look.percent(SAWN, 2)} sawn off the front, the right and the top. " + _legend_words(folder),
             "the specimen as a block",
             third=True,
             raster=True,
         )
-        section, words = _section(folder, box, paint)
+        section, words = _section(folder, box, paint, pixels)
         page.figure(section, words, "a section of the specimen", third=True, raster=True)
         if (folder.specimen["phase"] == "aggregate").any():
             grains, words = spheres(folder.specimen, box, paint, directions_of_view(), HEIGHT)
             page.figure(grains, words, "the aggregates in the specimen", third=True, raster=True)
+
+
+def picture(folder: Folder, what: str) -> Any:
+    """Returns the figure "block", "section" or "aggregates" of a folder that has a specimen."""
+    box, paint = box_of(folder), colours_of(folder)
+    if what == "block":
+        return _block(folder, box, paint)
+    if what == "section":
+        return _section(folder, box, paint)[0]
+    return spheres(folder.specimen, box, paint, directions_of_view(), HEIGHT)[0]
 
 
 # Returns the edges of the box [m]; without a summary, the edges of the volume that contains the spheres.
@@ -119,11 +131,13 @@ def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarra
         bound *= 4
 
 
-def plane_of(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Paint) -> np.ndarray:
+def plane_of(
+    folder: Folder, box: np.ndarray, axis: int, value: float, paint: Paint, pixels: int = PIXELS
+) -> np.ndarray:
     """Returns the picture of the cells in the plane axis = value. Columns and rows are the two other axes in their
     order, from low to high."""
     u, v = [k for k in range(3) if k != axis]
-    step = box.max() / PIXELS
+    step = box.max() / pixels
     nu, nv = max(1, round(box[u] / step)), max(1, round(box[v] / step))
     centre = folder.specimen[["x", "y", "z"]].to_numpy(float)[:, [u, v, axis]] - [0, 0, value]
     along = [(np.arange(n) + 0.5) * box[k] / n for n, k in ((nu, u), (nv, v))]
@@ -141,7 +155,7 @@ def plane_of(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pa
     return picture
 
 
-def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
+def _section(folder: Folder, box: np.ndarray, paint: Paint, pixels: int = PIXELS) -> tuple[Any, str]:
     """Draws the first cross section that the program wrote or, if it wrote none, one through the middle. Returns figure
     and caption."""
     written = sorted(folder.path.glob("section_*.csv"))
@@ -164,7 +178,7 @@ def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
         where, source = corners[0, axis], f"Cells as the program cut them ({written[0].name})."
     else:
         axis, (u, v) = 1, (0, 2)
-        picture = plane_of(folder, box, axis, box[axis] / 2, paint)
+        picture = plane_of(folder, box, axis, box[axis] / 2, paint, pixels)
         axes.imshow(picture, origin="lower", extent=(0, 1e3 * box[u], 0, 1e3 * box[v]), interpolation="antialiased")
         where, source = 1e3 * box[axis] / 2, "The cells of the particles fill the section."
     axes.set(xlim=(0, 1e3 * box[u]), ylim=(0, 1e3 * box[v]), xlabel=f"{'xyz'[u]} (mm)", ylabel=f"{'xyz'[v]} (mm)")
@@ -193,7 +207,7 @@ def directions_of_view() -> np.ndarray:
     return np.array([right, np.cross(towards, right), towards])
 
 
-def _block(folder: Folder, box: np.ndarray, paint: Paint) -> Any:
+def _block(folder: Folder, box: np.ndarray, paint: Paint, pixels: int = PIXELS) -> Any:
     """Draws the block that is left after the fraction SAWN is removed from the three visible sides. The drawing
     consists of three pictures of cells, each sheared to the direction of view, in the outline of the box."""
     turn = directions_of_view()
@@ -205,7 +219,7 @@ def _block(folder: Folder, box: np.ndarray, paint: Paint) -> Any:
     last = np.array([(1 - SAWN) * box[0], box[1], (1 - SAWN) * box[2]])
     for axis, value, light in ((1, first[1], 0.95), (0, last[0], 0.74), (2, last[2], 1.12)):
         u, v = [k for k in range(3) if k != axis]
-        picture = plane_of(folder, box, axis, value, paint)
+        picture = plane_of(folder, box, axis, value, paint, pixels)
         rows, columns = picture.shape[:2]
         at = [
             round(x * n / e)

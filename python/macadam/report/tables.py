@@ -7,10 +7,12 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from macadam.report import look
 from macadam.report.folders import Folder
 from macadam.report.page import Page
+from macadam.report.scatter import Seeds
 
 ROWS = 40  # largest number of rows of a table; a longer one is cut
 ABREAST = 3  # largest number of folders that one table shows side by side
@@ -29,6 +31,35 @@ def add(page: Page, folders: list[Folder], error: Error) -> None:
             _by_temperature(page, folder)
         else:
             _one(page, folder, error)
+
+
+def add_seeds(page: Page, groups: list[Seeds]) -> None:
+    """Adds a table of mean and standard deviation over seeds for each group, and writes their numbers as means.csv."""
+    parts = []
+    for seeds in groups:
+        factor, unit = look.modulus_unit(seeds.e_star)
+        columns = (seeds.frequency, seeds.e_star, seeds.e_scatter, seeds.phase, seeds.phase_scatter)
+        rows = [
+            [
+                f"{f:.4g}",
+                f"{look.number(factor * float(e))} ± {look.number(factor * float(s), 2)}",
+                look.number(100 * float(s / e), 2),
+                f"{look.number(float(phase))} ± {look.number(float(scatter), 2)}",
+            ]
+            for f, e, s, phase, scatter in zip(*columns, strict=True)
+        ]
+        page.table(
+            ["f (Hz)", f"|E*| ({unit})", "deviation of |E*| (%)", "φ (°)"],
+            rows,
+            f"{seeds.label[:1].upper()}{seeds.label[1:]}: mean ± standard deviation of single specimens.",
+            words=0,
+        )
+        names = ("frequency_hz", "e_star_pa", "e_star_deviation_pa", "phase_deg", "phase_deviation_deg")
+        part = pd.DataFrame(dict(zip(names, columns, strict=True)))
+        part.insert(0, "of", seeds.label)
+        parts.append(part)
+    if parts:
+        page.data("means", pd.concat(parts))
 
 
 def _temperatures(folder: Folder) -> list[float]:

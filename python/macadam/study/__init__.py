@@ -12,6 +12,10 @@ import types
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import concurrent.futures
+    from collections.abc import Callable
+    from pathlib import Path
+
     from macadam.study.driver import Study, study
     from macadam.study.errors import StudyError
 
@@ -20,10 +24,31 @@ __all__ = ["Study", "StudyError", "study"]
 
 # The module's type. It makes `macadam.study(...)` callable, and imports the other names when they are first used.
 class _Callable(types.ModuleType):
-    def __call__(self, *arguments: Any, **more: Any) -> Study:
+    def __call__(
+        self,
+        source: str | Path | dict[str, Any],
+        out: str | Path,
+        *,
+        executor: concurrent.futures.Executor | None = None,
+        on: str | None = None,
+        workers: int | None = None,
+        program: str | None = None,
+        retry_failed: bool = False,
+        progress: Callable[[int, int, int], None] | None = None,
+    ) -> Study:
+        """Computes a study; macadam.study.study describes the arguments."""
         from macadam.study.driver import study
 
-        return study(*arguments, **more)
+        return study(
+            source,
+            out,
+            executor=executor,
+            on=on,
+            workers=workers,
+            program=program,
+            retry_failed=retry_failed,
+            progress=progress,
+        )
 
     def __getattr__(self, name: str) -> Any:
         if name not in __all__:
