@@ -6,7 +6,7 @@ target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall
 # A value of an enumeration that a list of names or cases leaves out is an error, never another value's name
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror=switch>)
 # A product followed by a sum is rounded twice, with every compiler, option and processor, so that results have the same
-# bits everywhere. Otherwise gcc and clang would use fused multiply-add where the processor has it, each in different
+# bits everywhere. Otherwise gcc and clang would use fused multiply-add if the processor supports it, each in different
 # places.
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
 # Eigen's own threads would split sums according to the number of threads, so results would depend on this number. The
@@ -38,7 +38,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 if(MACADAM_SANITIZE)
   target_compile_options(macadam_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE};${MACADAM_CHECKS}>")
-  # The library's functions must call the library's own copies of templates, not those of a program built without
+  # The library's functions must call the library's own copies of templates, not the copies of a program built without
   # sanitizers.
   target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE} -Wl,-Bsymbolic-functions)
   # Without this definition, Eigen would pad allocations in files that are compiled with the address sanitizer but not

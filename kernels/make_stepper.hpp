@@ -12,8 +12,8 @@ namespace macadam {
 /// Makes a stepper like make_stepper(), for the laws of the user's own list: `Any` is a std::variant<…>. The program
 /// compiles the kernels for these laws: one of its files includes kernels/make_cpu.hpp before it calls this function.
 /// `on_device`: the program also has the kernels for devices, in one CUDA file with `#include <kernels/make_cuda.hpp>`
-/// and MACADAM_CUDA_STEPPER(P, Any). `compiled`: the precisions in which the program has kernels; if none is named, all
-/// three. A program with fewer precisions compiles faster.
+/// and MACADAM_CUDA_STEPPER(P, Any). `compiled`: the precisions in which the program has kernels; if no precision is
+/// named, all three of them. A program with fewer precisions compiles faster.
 ///
 /// \throws the same as make_stepper(), and InputError for a precision or a backend that the program does not have.
 template <class Any, bool on_device = false, Precision... compiled>

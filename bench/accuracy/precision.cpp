@@ -58,8 +58,8 @@ class List {
   }
 
   /// Adds runs with stiffened contacts. Densities are scaled such that a cycle has the given number of steps. Stiffer
-  /// contacts have a shorter critical step, so with the same number of steps the masses, and with them the effect of
-  /// inertia on the result, would be larger. Therefore runs with the stiffest contacts have more steps.
+  /// contacts have a shorter critical step, so with the same number of steps the masses would be larger, and so would
+  /// be the effect of inertia on the result. Therefore runs with the stiffest contacts have more steps.
   void stiffer() {
     const auto add_stiff = [&](const char* scene, const char* what, double factor, std::int64_t steps) {
       Case& c = add(scene, "AM1", 20, steps);

@@ -37,7 +37,7 @@ void add_lengths(const Size& n, int i, int j, const Interval& part, float factor
     to[n.element(i, j, k)] += factor * float(std::min(high, k + 1.0) - std::max(low, double(k)));
 }
 
-/// The numbers of the bodies above each voxel of the plane z = 0.
+/// Returns, for each voxel of the plane z = 0, the indices of the bodies whose bounding boxes lie above the voxel.
 std::vector<std::vector<std::size_t>> bodies_of_columns(const Size& n, double voxel, const std::vector<Body>& bodies) {
   std::vector<std::vector<std::size_t>> out(std::size_t(n.x) * n.y);
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -52,8 +52,9 @@ struct Sphere {
   unsigned char phase;  ///< 0 mastic, 1 rock, 2 void
 };
 
-/// Returns the spheres whose Laguerre cells may hold a point within `reach` of a point. The difference of the power
-/// distances to two spheres changes by 2·(distance of their centres)·reach at most.
+/// Returns the spheres whose Laguerre cells may contain points within the distance `reach` of the point `at`. Over this
+/// distance the difference between the power distances to two spheres changes by at most 2·(distance of their
+/// centres)·reach.
 std::vector<Sphere> candidates(const std::vector<Sphere>& spheres, const Point& at, double reach) {
   std::vector<double> power(spheres.size());
   for (std::size_t s = 0; s < spheres.size(); ++s) {
@@ -89,8 +90,8 @@ PhaseFractions mastic_in(const Point& box, double voxel) {
   const auto count = [&](int axis) {
     const double n = std::round(box[std::size_t(axis)] / voxel);
     if (!(n >= 1 && n < 1e5) || std::abs(n * voxel - box[std::size_t(axis)]) > 1e-6 * box[std::size_t(axis)])
-      throw std::runtime_error(
-          fmt::format("found an edge of {} m, expected a multiple of the voxel's {} m", box[std::size_t(axis)], voxel));
+      throw std::runtime_error(fmt::format("found an edge of {} m, expected a multiple of the voxel's edge, {} m",
+                                           box[std::size_t(axis)], voxel));
     return int(n);
   };
   out.size = {count(0), count(1), count(2)};
@@ -144,7 +145,7 @@ PhaseFractions of_cells(const std::string& file, const Point& box, double voxel)
   }
   auto out = mastic_in(box, voxel);
   const Size n = out.size;
-  constexpr int block = 4;  // voxels that share their candidates
+  constexpr int block = 4;  // edge of a block of voxels with one list of candidates, in voxels
   const double half_diagonal = std::sqrt(3.0) / 2 * voxel;
   const auto blocks = [](int voxels) { return (voxels + block - 1) / block; };
 #pragma omp parallel for schedule(dynamic) collapse(2)

@@ -32,17 +32,18 @@ void place_bodies(PhaseFractions& to, double voxel, const std::vector<Body>& roc
 /// Returns the bodies of a file of balls: columns x,y,z,radius [m]. \throws std::runtime_error naming the line.
 std::vector<Body> read_balls(const std::string& file);
 
-/// Returns the bodies of a file of aggregates: columns body,shape,size,x,y,z,qw,qx,qy,qz in any order, and others. A
-/// shape is the name of a file in the folder `library`, without its ending. It is centred at the centroid of its
-/// volume, scaled so that its intermediate dimension is `size` [m], rotated by the quaternion, and moved to x,y,z [m].
-/// The shape `sphere` has the diameter `size` and needs no quaternion. \throws std::runtime_error naming the line.
+/// Returns the bodies of a file of aggregates: columns body,shape,size,x,y,z,qw,qx,qy,qz in any order; other columns
+/// are ignored. A shape is the name of a file in the folder `library`, without its ending. It is centred at the
+/// centroid of its volume, scaled so that its intermediate dimension is `size` [m], rotated by the quaternion, and
+/// moved to x,y,z [m]. The shape `sphere` has the diameter `size` and needs no quaternion. \throws std::runtime_error
+/// naming the line.
 std::vector<Body> read_aggregates(const std::string& file, const std::string& library);
 
 /// Returns the fractions of the Laguerre cells of a specimen file: each cell has the phase of its sphere. Cut voxels
 /// are sampled at 6 × 6 × 6 points. \throws std::runtime_error as mastic_in(), and for files that cannot be read.
 PhaseFractions of_cells(const std::string& file, const Point& box, double voxel);
 
-/// Returns two layers normal to an axis: the one with larger coordinates is rock.
+/// Returns a layer of mastic and a layer of rock, both normal to an axis; the rock has the larger coordinates.
 PhaseFractions of_layers(int axis, const Point& box, double voxel);
 
 }  // namespace macadam::continuum

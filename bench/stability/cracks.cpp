@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // cracks.cpp  Steps specimens whose contacts crack under conditions in which an unstable scheme would gain energy:
-// faces that chatter, walls that reverse, fracture energies just above the least one, and large ratios of stiffness.
+// faces that chatter, walls that reverse, fracture energies just above the smallest allowed one, and large ratios of
+// stiffness.
 #include <algorithm>
 #include <cmath>
 
@@ -14,8 +15,8 @@ namespace {
 
 constexpr double alpha = 0.3;
 
-/// Returns an elastic law that cracks at a strain of 1e-4, with `times` the least fracture energy of contacts of length
-/// `d`.
+/// Returns an elastic law that cracks at a strain of 1e-4. Its fracture energy is `times` the smallest one that is
+/// allowed for contacts of length `d`.
 laws::Cracked<laws::Elastic> cracked(double modulus, double d, double times) {
   laws::Crack crack{1e-4 * modulus, 1, 1.5e-4 * modulus, 1, 0.5, 0.5};
   const double least = crack.least_fracture_energy(modulus, alpha, d);
@@ -29,7 +30,7 @@ double longest(const ContactNetwork& network) {
   return out;
 }
 
-/// Returns the settings that laws with cracks accept: their states are double.
+/// Returns the settings whose states have double precision, which laws with cracks require.
 std::vector<Setting> settings_of_cracks(Effort effort) {
   std::vector<Setting> out;
   for (const Setting& setting : settings()) {
@@ -57,8 +58,9 @@ Vec3d momentum(const test::TestScene& scene, const ParticleState& state, double&
   return out;
 }
 
-/// Kicks a free assembly so that contacts crack, close and slide at random. Damage and friction only take energy, and
-/// forces are in pairs. `ratio`: modulus of the contacts between aggregates over that of the mastic.
+/// Kicks a free assembly so that contacts crack, close and slide at random. Damage and friction only take energy, so
+/// the energy must not grow. Forces come in opposite pairs, so the momentum must not change. `ratio`: modulus of the
+/// contacts between aggregates, divided by the modulus of the contacts between mastic particles.
 void chatter_rows(Rows& rows, const Setting& setting, double ratio, std::int64_t steps) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;
@@ -75,7 +77,7 @@ void chatter_rows(Rows& rows, const Setting& setting, double ratio, std::int64_t
   StepperOptions options = by_points(0);
   options.dt = 0.8 * critical_step(scene.network, scene.laws, scene.inertia, options).dt;
   const auto stepper = make(setting, scene, options);
-  // Strains of some 1e-3: the speed of the stiffest waves times this number
+  // Velocities of 1e-3 times the speed of waves in the softest contacts give strains of some 1e-3
   shake(*stepper, scene, 1e-3 * std::sqrt(soft / 2000));
   EnergyLedger ledger(scene.network, scene.laws, scene.inertia, 1, options.dt, false);
   double size = 0;
@@ -93,9 +95,9 @@ void chatter_rows(Rows& rows, const Setting& setting, double ratio, std::int64_t
   const std::string name = fmt::format("27 free particles, moduli in the ratio 1:{:g}", ratio);
   rows.push_back({name, setting.name(), "points that have cracked", 1, 1e9, "otherwise nothing is tested",
                   static_cast<double>(cracked_points)});
-  rows.push_back({name, setting.name(), "energy of springs and motion at the end, of the start", 0, 1,
+  rows.push_back({name, setting.name(), "energy of springs and motion, end / start", 0, 1,
                   "cracks and friction only take energy", energy() / start});
-  rows.push_back({name, setting.name(), "drift of the momentum, of the sum of its sizes", 0,
+  rows.push_back({name, setting.name(), "drift of the momentum / sum of the momenta of the particles", 0,
                   10 * setting.rounding() * std::sqrt(static_cast<double>(steps)),
                   "forces are in pairs; rounding adds up like a random walk", drift});
 }
@@ -173,7 +175,8 @@ void reversal_rows(Rows& rows, const Setting& setting, int cycles, std::int64_t 
   const std::string name = fmt::format("bar of four cubes, {} cycles of opening and closing", cycles);
   rows.push_back({name, setting.name(), "energy of the middle contact after two cycles / (G_f·A)", 1e-3, 1,
                   "the crack has opened but is not separated", first / bar.facet_energy});
-  rows.push_back({name, setting.name(), "growth of this energy in the other cycles, of itself", -1e-6, 1e-2,
+  rows.push_back({name, setting.name(), "energy of the middle contact, after all cycles / after two cycles − 1", -1e-6,
+                  1e-2,
                   "damage never falls, and grows only beyond the largest opening, to which vibrations add little; the "
                   "stored part follows the opening at the sample",
                   last / first - 1});

@@ -18,7 +18,8 @@ namespace macadam {
 
 namespace {
 
-/// Returns the device with this number. \throws InputError, which lists the devices of the report, if there is none.
+/// Returns the device with this number. \throws InputError, which lists the devices of the report, if the report has no
+/// such device.
 const DeviceInfo& device_of(const BackendReport& report, int number) {
   std::string list, without_code;
   for (const DeviceInfo& d : report.devices) {

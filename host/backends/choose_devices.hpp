@@ -16,7 +16,7 @@ using IdleBeside = std::function<bool(int device, int first)>;
 
 /// Returns the devices that step a specimen with this number of contacts: the first of `devices` and, if several
 /// devices are worthwhile, further idle devices. If several are returned, `decision` is set to a sentence for the user.
-/// Returns an empty list if there are no devices.
+/// Returns an empty list on a machine without devices.
 DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& devices, const IdleBeside& idle_beside,
                           std::string& decision);
 /// Chooses as above among the devices of this machine.

@@ -15,7 +15,7 @@ namespace {
 
 Ranks* joined = nullptr;
 
-/// Returns the table of the plugin. If there is no usable plugin, returns nullptr and stores the reason in `why`.
+/// Returns the table of the plugin. Without a usable plugin, returns nullptr and stores the reason in `why`.
 const RanksPlugin* find(std::string& why) {
   const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
   return static_cast<const RanksPlugin*>(find_plugin(asked, why));

@@ -117,7 +117,8 @@ nlohmann::ordered_json relaxation_json(const PronySeries& series) {
 }  // namespace
 
 std::pair<double, double> History::range() const {
-  // the last tenth of a change before a time has little effect, so E at shorter times is not needed
+  // the last tenth of a load change before a time has little effect, so E at times shorter than this tenth is not
+  // needed
   double shortest = 0.1 * shortest_change, longest = 0;
   for (const double t : times) {
     for (const Ramp& r : ramps) {

@@ -24,7 +24,8 @@ struct History {
     double begin, duration;
   };
   std::vector<Ramp> ramps;
-  /// A shorter time in which the load changes much, if it does so within its ramps [s].
+  /// Shortest time in which the load changes much within a ramp [s]; infinite if no such time is shorter than the
+  /// ramps.
   double shortest_change = std::numeric_limits<double>::infinity();
 
   /// Returns the shortest and the longest time after a change of the load at which the relaxation of the specimen must

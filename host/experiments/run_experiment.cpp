@@ -29,7 +29,7 @@ Planned plan_experiment(const Scene& scene, const Preparation& prepared, const W
 
 namespace {
 
-/// Returns f(result), or `nothing` if there is no result.
+/// Returns f(result), or `nothing` without a result.
 template <class T, class F>
 T of_found(const ExperimentResult& found, T nothing, F&& f) {
   return std::visit(

@@ -123,7 +123,7 @@ FieldMesh cell_mesh(const Specimen& specimen, const Tessellation& tessellation,
   return out;
 }
 
-// Facets and contacts are both in the order of (a, b), and every contact has a facet.
+// Facets and contacts are both in the order of (a, b), and each contact has exactly one facet.
 FieldMesh crack_mesh(const Tessellation& tessellation, const ContactNetwork& network, const FactsTable& laws) {
   FieldMesh out;
   out.shape = Shape::polygons;

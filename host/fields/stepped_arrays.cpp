@@ -33,7 +33,7 @@ Vec3d turned_normal(const Specimen& specimen, const Contact& c, const std::vecto
   return (1 / norm(line)) * line;
 }
 
-/// Means of the cracks of the points of a contact over its facet: opening, slip [m], damage, crack energy [J/m²].
+/// Opening [m], slip [m], damage and crack energy [J/m²] of a contact: means over the points of its facet.
 using MeanCrack = std::array<double, 4>;
 
 MeanCrack mean_crack(const ContactNetwork& network, const Contact& contact, const ContactState& state) {

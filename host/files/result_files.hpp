@@ -39,7 +39,7 @@ class OutputFile {
   int file_;
 };
 
-/// A table that grows during a run. Each line is written to the file as soon as it is added.
+/// A table that grows during a run. Each line is written to the file when it is added.
 class LineWriter {
  public:
   /// Starts a new file with `head`, its first lines. \throws RunError if the file cannot be opened.

@@ -46,8 +46,8 @@ PairStiffness pair_stiffness(const LawTable& laws, Complex s);
 // Deleted so that ω cannot be passed in place of iω.
 PairStiffness pair_stiffness(const LawTable& laws, double) = delete;
 
-/// Returns the stiffness of a contact in opening and bending, and in slip and twist without α [Pa]: that of its law, or
-/// of its law in series with rock.
+/// Returns the stiffness of a contact in opening and bending, and in slip and twist without α [Pa]: the stiffness of
+/// its law, or of its law in series with rock.
 std::array<Complex, 2> contact_stiffness(const Contact& contact, const PairStiffness& stiffness);
 
 /// Returns the six relative displacements of a contact (Eq. 8 about x0) if the particles move by `motion` and the top
@@ -84,8 +84,8 @@ class ContactOperator {
   /// Returns the loads on both ends of a contact with relative displacements `u`.
   static Load contact_load(const Contact& contact, const PairStiffness& stiffness, const std::array<Complex, 6>& u);
 
-  /// Does what wall_loads() does, in a network whose cells resist changes of volume: the cells at the wall press on
-  /// their neighbours.
+  /// Returns the result of wall_loads() for a network whose cells resist changes of volume. In such a network the cells
+  /// at the wall press on their neighbours.
   Loads wall_loads_of_cells(const PairStiffness& stiffness) const;
 
   const ContactNetwork& network_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cell_volumes.cpp  Applies the rule "volumetric". Lengths are those of the rule "series", converted from E to 2μ of
-// each phase. A facet that is not a contact is free: its opening follows from zero stress on it, which reduces λ of its
-// cell.
+// cell_volumes.cpp  Applies the rule "volumetric". Contacts get the lengths of the rule "series", converted from the
+// modulus E to 2μ of each phase. A facet that is not a contact is free: its opening follows from zero stress on it,
+// which reduces λ of its cell.
 #include "host/network/cell_volumes.hpp"
 
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ void apply_volumetric(ContactNetwork& network, const Specimen& specimen, const T
   for (Contact& c : network.contacts) {
     if (c.pair == PairType::inner || c.pair == PairType::aw) {
       c.length *= of_rock;
-    } else if (c.pair == PairType::aa) {  // λ + 2μ and μ of the film are in length and α already
+    } else if (c.pair == PairType::aa) {  // length and α already contain λ + 2μ and μ of the film
       c.series *= of_rock;
     } else {
       c.length *= of_mastic;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cell_volumes.hpp  Gives contacts their lengths, and cells their resistance to a change of volume, by the rule
+/// \file cell_volumes.hpp  Sets the lengths of contacts and the resistance of cells to changes of volume by the rule
 /// "volumetric" (docs/model/contacts.md, section 26).
 #pragma once
 

@@ -74,8 +74,8 @@ double absorbed_of(const MixDesign& design, const Portion& all, double binder) {
   return absorbed;
 }
 
-/// Returns the air voids as a fraction of the bulk volume: the given value or, if none is given, the value that follows
-/// from the measured bulk density.
+/// Returns the air voids as a fraction of the bulk volume: the given value or, without a given value, the value that
+/// follows from the measured bulk density.
 double air_voids_of(const MixDesign& design, double maximum_density) {
   if (design.air_voids) return *design.air_voids;
   const double bulk = *design.bulk_density, voids = 1 - bulk / maximum_density;  // EN 12697-8
@@ -161,7 +161,7 @@ void merge_small_classes(SpecimenSpec& spec, double solid) {
     if (to == spec.aggregate.size()) {
       to = k;
       while (to > 0 && *spec.aggregate[to - 1].volume_fraction == 0) --to;
-      if (to == 0) continue;  // there is no other class
+      if (to == 0) continue;  // this class is the only one
       --to;
     }
     *spec.aggregate[to].volume_fraction += *small.volume_fraction;

@@ -69,7 +69,7 @@ struct Point {
     out.shear = trial_shear;
     out.friction = Vector2d::Zero();
     if (stiffness_shear == 0) return out;
-    // Shear: a slider acts in parallel with the cohesive spring, and bears what the spring does not.
+    // Shear: a slider acts in parallel with the cohesive spring, and bears the remaining shear stress.
     const double mu = crack.residual_friction +
                       (crack.friction - crack.residual_friction) * cohesive_stress(crack, y) / crack.tensile_strength;
     const Vector2d kept = trial_shear - shear_secant(y) * slip_before;  // on the slider if it does not move

@@ -74,7 +74,8 @@ ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
 
 template <class Chain>
 ReferenceLaw read(const laws::Cracked<Chain>& law, const std::string& pair) {
-  require(law.instantaneous() > 0, pair, "modulus", law.instantaneous(), "a positive modulus, because it has a crack");
+  require(law.instantaneous() > 0, pair, "modulus", law.instantaneous(),
+          "a positive modulus, because the law has a crack");
   return with_crack(read(static_cast<const Chain&>(law), pair), law.crack, pair);
 }
 

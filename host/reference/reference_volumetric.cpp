@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reference_volumetric.cpp  W = Σ ½·A_J·Δuᵀ·κ·Δu over the contact points + Σ ½·2μ/h·A·w² over the free facets + Σ
-// ½·λ·V·θ² over the cells. Every term is a stiffness times the square of a row that is linear in the unknowns, so K is
-// a sum of outer products of such rows.
+// reference_volumetric.cpp  Computes the stiffness matrix K from the energy W = Σ ½·A_J·Δuᵀ·κ·Δu over the contact
+// points + Σ ½·2μ/h·A·w² over the free facets + Σ ½·λ·V·θ² over the cells. Every term is a stiffness times the square
+// of a row that is linear in the unknowns, so K is a sum of outer products of such rows.
 #include "host/reference/reference_volumetric.hpp"
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@ namespace macadam::reference {
 namespace {
 
 using Complex = std::complex<double>;
-/// A linear form: factors of the unknowns that it contains.
+/// A sum of unknowns times factors: the factor of each unknown, by the index of the unknown.
 using Row = std::map<Eigen::Index, Complex>;
 
 Complex two_mu(const PhaseModuli& m) { return m.E / (1 + m.poisson_ratio); }
@@ -38,7 +38,7 @@ class Assembly {
     std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> contact_of;
     for (std::size_t c = 0; c < network_.contacts.size(); ++c)
       contact_of[{network_.contacts[c].a, network_.contacts[c].b}] = c;
-    std::vector<std::pair<const Facet*, std::int32_t>> free;  // a facet and a particle at it
+    std::vector<std::pair<const Facet*, std::int32_t>> free;  // a facet and the particle on one of its sides
     for (const Facet& f : tessellation.facets) {
       if (contact_of.contains({f.a, f.b})) continue;
       if (f.a < particles) free.emplace_back(&f, f.a);
@@ -85,7 +85,7 @@ class Assembly {
     return out;
   }
 
-  /// Adds the springs of a contact, and its parts of the two dilatations.
+  /// Adds the springs of a contact to K, and its contributions to the dilatations of the two cells.
   void add_contact(const Contact& contact, double in_rock) {
     const ReferenceContact geometry = make_reference_contact(network_, contact, 0);
     const double d = contact.distance, outside = d - in_rock;

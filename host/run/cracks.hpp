@@ -35,7 +35,7 @@ class CrackWatch {
   /// Returns whether the scene has laws with a crack, so that look() also sums damage and energies.
   bool sums() const { return found_.sums.has_value(); }
   /// Adds an event for each point that has broken since the last call. Returns the events of this call. `state`: the
-  /// present one, from read_contact_state().
+  /// present state, from read_contact_state().
   std::vector<experiments::CrackEvent> look(const ContactState& state, double time);
   /// Returns whether contacts with at least one intact point join the top wall to the bottom wall or to a wall at the
   /// sides. Returns true also if the walls were not joined when the test began. All processes of a run must call this

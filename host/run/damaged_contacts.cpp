@@ -32,7 +32,7 @@ void write_damage(const std::filesystem::path& out, const Preparation& prepared,
   const ContactNetwork& network = prepared.network;
   LineWriter writer(out / damage_file,
                     fmt::format("# contacts that have begun to crack, at t = {} s; opening, slip and damage are means "
-                                "over the facet, x, y, z its centroid\n"
+                                "over the facet, and (x, y, z) is the centroid of the facet\n"
                                 "contact,a,b,pair,x,y,z,nx,ny,nz,area_m2,opening_m,slip_m,damage,energy_j,friction_j,"
                                 "cracked_points,points",
                                 time_s));

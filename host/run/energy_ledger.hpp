@@ -46,7 +46,8 @@ class EnergyLedger {
   void observe(const Observation& now);
   /// Returns the energies now and adds the dissipation of the dashpots since the last sample. `contacts`: the present
   /// state, in points form; without chains (backend reference), the energies of springs and dashpots are NaN. `cracks`:
-  /// the sums at the same time. If the steps are damped, their damping is the remainder of the balance.
+  /// the sums over the cracks at the same time. If the steps are damped, the energy that damping takes is the remainder
+  /// of the balance.
   experiments::Energies sample(const Observation& now, const ContactState& contacts, const ParticleState& particles,
                                const experiments::CrackSums& cracks);
 

@@ -21,10 +21,10 @@ double largest(const ErrorEstimate& error);
 /// Returns |k*(ω)| of a law [Pa]; for a law without complex stiffness, the largest stiffness that it ever has.
 double stiffness_at(const Law& law, double omega);
 
-/// Returns the smallest and the largest stiffness of the contacts at a frequency [Pa]: force over area and strain along
-/// the line of centres, by normal or, with `shear`, also by shear motion. Without rock in series it is |k*(ω)| of the
-/// laws, times the ratio of shear to normal stiffness for shear. The length of each contact and its rock in series are
-/// taken into account.
+/// Returns the smallest and the largest stiffness of the contacts at a frequency [Pa]: force per area, divided by the
+/// strain along the line of centres. Shear motion is included only if `shear` is true. The normal stiffness without
+/// rock in series is |k*(ω)| of the law; the shear stiffness is α times as large. The length of each contact and its
+/// rock in series are taken into account.
 std::pair<double, double> stiffness_range(const Scene& scene, const ContactNetwork& network, double omega,
                                           bool shear = false);
 

@@ -75,7 +75,7 @@ std::string words_of(const ModelErrorOfRun& of) {
         where);
   return fmt::format(
       "error of the model: {}: such networks differed by up to {:.2g} % of |E*| and {:.2g} degrees from the continuum, "
-      "which is known to {:.2g} %; the numerical error comes in addition",
+      "whose |E*| has an uncertainty of {:.2g} %; the numerical error comes in addition",
       where, 100 * of.error->e_star, of.error->phase_deg, 100 * of.error->uncertainty);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file model_error.hpp  Gives the error of the model: how far contact networks with rule "series" were from the
-/// continuum in docs/model-error.md. This error is there beside the numerical error, whatever the settings of a run
-/// are.
+/// continuum in docs/model-error.md. This error adds to the numerical error and does not depend on the settings of a
+/// run.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace macadam {
 
-/// Largest difference of the networks of a study from the continuum, over their divisions into spheres.
+/// Largest difference between the networks of a study and the continuum, over all sphere packings that the study used
+/// for one structure.
 struct ModelError {
   double e_star = 0;       ///< of |E*|, relative
   double uncertainty = 0;  ///< of the continuum's |E*| itself, relative

@@ -17,6 +17,8 @@ namespace {
 
 /// The remaining time of a run is predicted after this many seconds.
 constexpr double first_seconds = 3;
+/// No stepper takes more samples than this in one call.
+constexpr std::int64_t most_samples = 64;
 
 }  // namespace
 
@@ -70,8 +72,7 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
   // only an observation, and they follow one another at a constant distance: the distance of sample k from the current
   // step.
   const auto alike = [&](std::int64_t k) {
-    // no stepper takes more than 64 samples in one call
-    const std::int64_t most = every > 0 ? 0 : 64;
+    const std::int64_t most = every > 0 ? 0 : most_samples;
     const std::int64_t distance = course.step_of(k) - step;
     std::int64_t n = 0;
     while (n < most && k + n < course.last && !needs_stepper(k + n) && course.taken(k + n + 1) &&
@@ -87,6 +88,15 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
     while ((every > 0 || between > 0) && step < to) {
       std::int64_t next = to;
       for (const std::int64_t n : {every, between}) next = n > 0 ? std::min(next, (step / n + 1) * n) : next;
+      if (every == 0 && next - step == between) {  // these observations follow one another at a constant distance
+        const std::int64_t more = std::min(most_samples, (to - step) / between) - 1;
+        for (const Sample& sample : pieces.sample(step, next, more, look)) {
+          step = sample.now.step;
+          course.between(sample.now);
+        }
+        look(step);
+        continue;
+      }
       pieces.advance(step, next, look);
       if (every > 0 && next % every == 0) watcher_.stepped(stepper, course.frequency);
       if (between > 0 && next % between == 0) course.between(stepper.observe());

@@ -18,7 +18,7 @@ constexpr Rule in_joules{[](double v) { return v >= 1; },
 constexpr Rule coefficient{[](double v) { return v >= 0 && v <= 5; },
                            "a coefficient of friction from 0 to 5, not an angle"};
 
-/// Stores the point of the bilinear curve. \throws InputError if the curve does not fall to zero behind it.
+/// Stores the kink of the bilinear curve. \throws InputError if the curve does not fall from the kink to zero.
 void set_kink(const Section& section, const std::vector<double>& kink, Crack& crack) {
   const auto refuse = [&](const std::string& expected) {
     section.refuse("kink", fmt::format("[{}]", fmt::join(kink, ", ")), expected);

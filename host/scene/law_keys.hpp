@@ -19,8 +19,8 @@ namespace macadam::scene {
 using laws::ValueKind;
 using laws::ValueNeed;
 
-/// The explanations of the values of a law, each with its key. A law of all.hpp without a list of its own does not
-/// compile, so it cannot get the words of another law.
+/// The keys of each law, and the explanations of their values. A law of all.hpp without such a list is a compile error,
+/// so that no law gets the explanations of another law.
 /// @{
 using KeyText = std::pair<std::string_view, const char*>;
 template <class L>

@@ -23,7 +23,7 @@ std::string span_of(double low, double high, const char* unit) {
                      : fmt::format("from {:.4g} to {:.4g} {}", low, high, unit);
 }
 
-/// Returns the lowest and the highest of some temperatures; empty if there are none.
+/// Returns the lowest and the highest temperature of a scene; empty if the scene gives no temperature.
 std::optional<std::pair<double, double>> temperatures_used(const Scene& scene) {
   std::vector<double> all = temperatures_of(scene.experiment);
   if (scene.materials.temperature) all.push_back(*scene.materials.temperature);
@@ -38,11 +38,11 @@ namespace scene {
 
 std::vector<Key> RangeKeys::keys() {
   return {{"valid_frequencies", Need::optional, into(frequencies_, frequency, positive),
-           "lowest and highest frequency at the reference temperature between which the law holds; a run outside of it "
-           "warns",
+           "lowest and highest frequency at the reference temperature between which the law holds; a run outside of "
+           "this range warns",
            "the law holds everywhere"},
           {"valid_temperatures", Need::optional, into(temperatures_, temperature, celsius),
-           "lowest and highest temperature between which the law holds; a run outside of it warns",
+           "lowest and highest temperature between which the law holds; a run outside of this range warns",
            "the law holds everywhere"}};
 }
 
@@ -85,7 +85,7 @@ std::pair<double, double> frequencies_used(const Experiment& experiment) {
 std::vector<std::string> law_range_warnings(const Scene& scene) {
   const auto [low, high] = scene::frequencies_used(scene.experiment);
   const auto temperatures = temperatures_used(scene);
-  std::vector<std::pair<std::string, std::string>> found;  // what is outside, and the pairs of such laws
+  std::vector<std::pair<std::string, std::string>> found;  // text about a range, and the pairs to which it applies
   const auto add = [&](const std::string& what, std::size_t pair) {
     const std::string name = to_string(static_cast<PairType>(pair));
     for (auto& [words, pairs] : found) {

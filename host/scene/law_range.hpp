@@ -12,7 +12,8 @@
 namespace macadam::scene {
 
 /// The keys of a law's range, `valid_frequencies` and `valid_temperatures`. keys() returns the keys, which are read
-/// together with other keys of a section and must not outlive this object. After that, range() returns the range.
+/// together with other keys of a section and must not outlive this object. After the keys have been read, range()
+/// returns the range.
 class RangeKeys {
  public:
   std::vector<Key> keys();

@@ -21,8 +21,8 @@ Reader box_into(Domain& box) {
   return {read, {"list of three numbers", &length, positive.words}};
 }
 
-/// Returns the name of the domain of `[specimen]` before its other keys are read, because it decides which of them
-/// give the dimensions. Refuses dimensions of another domain.
+/// Returns the name of the domain of `[specimen]` before its other keys are read, because the domain decides which keys
+/// give the dimensions. Refuses the keys of another domain.
 std::string domain_of(const Section& section) {
   const std::vector<std::string> names = domains::shape_names();
   std::string name = names.front();
@@ -60,12 +60,12 @@ std::vector<Key> keys_of_domain(const Section& section, double& diameter, double
        round,
        {[&](const Value& value) { diameter = value.number(length, positive); }, {"number", &length, positive.words}},
        "diameter of a cylinder, whose vertical axis passes through x = y = diameter/2",
-       "only a cylinder has it"},
+       "only for a cylinder"},
       {"height",
        round,
        {read_height, {"number", &length, positive.words}},
        "height of a cylinder",
-       "only a cylinder has it"}};
+       "only for a cylinder"}};
 }
 
 }  // namespace macadam::scene

@@ -95,23 +95,24 @@ void read_mastic(const Section& section, Need need, ContactRule rule, const Read
   std::vector<Law> empty;
   list_linear_laws(names, empty);
   std::optional<double> from_file;
-  std::vector<Key> keys{density_key(materials.mastic, need),
-                        {"law",
-                         Need::optional,
-                         {[](const Value&) {}, {"one of"}},
-                         "law of the mastic, for rules \"series\" and \"volumetric\"; it determines the other keys",
-                         without_law},
-                        {"from",
-                         Need::optional,
-                         {[&](const Value& value) {
-                            require_rule(section, rule);
-                            from_file = read_source(value, reading, phases);
-                          },
-                          {"text"}},
-                         "in place of law, the file that gives the law of the mastic: another scene, whose specimen is "
-                         "the mastic; law.toml of macadam fit; or kelvin.csv of a run",
-                         "none"},
-                        poisson_key(materials.mastic_poisson_ratio, "that of the file in from; required with law")};
+  std::vector<Key> keys{
+      density_key(materials.mastic, need),
+      {"law",
+       Need::optional,
+       {[](const Value&) {}, {"one of"}},
+       "law of the mastic, for rules \"series\" and \"volumetric\"; it determines the other keys",
+       without_law},
+      {"from",
+       Need::optional,
+       {[&](const Value& value) {
+          require_rule(section, rule);
+          from_file = read_source(value, reading, phases);
+        },
+        {"text"}},
+       "in place of law, the file that gives the law of the mastic: another scene, whose specimen is "
+       "the mastic; law.toml of macadam fit; or kelvin.csv of a run",
+       "none"},
+      poisson_key(materials.mastic_poisson_ratio, "the value in the file of from; required with law")};
   const auto name = section.find("law");
   if (!name) {
     section.read(keys);
@@ -185,7 +186,7 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   const bool file = scene.specimen.file.has_value(), mastic = phases.mastic.has_value(),
              rock = phases.rock_modulus.has_value();
   require(scene.specimen.mastic.has_value() || (file && !rock), mastic, "mastic",
-          "law = \"generalised_kelvin\" or \"elastic\", and poisson_ratio, or with from");
+          "law = \"generalised_kelvin\" or \"elastic\" and poisson_ratio, or with the key from");
   require(!scene.specimen.aggregate.empty(), rock, "aggregate", "law = \"elastic\" and E");
   scene.mastic_source = phases.source;
   const auto set = [&](PairType pair, const Law& law, const laws::Shift& shift) {

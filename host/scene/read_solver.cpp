@@ -53,7 +53,7 @@ DeviceList read_devices(const Value& value, int most) {
   return out;
 }
 
-/// Refuses the keys of time steps with increments. \throws InputError
+/// Refuses the keys that apply only to time steps, in a scene that is solved by increments. \throws InputError
 void refuse_steps(const Section& section) {
   for (const char* key :
        {"density_scaling", "safety", "time_step", "damping_kind", "damping", "form", "inertia", "linear", "device"}) {
@@ -103,11 +103,12 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
                                          {"harmonic", SolverMethod::harmonic},
                                          {"quasi_static", SolverMethod::quasi_static}}),
         "step the test in time, solve it in the frequency domain, or follow it by increments without inertia",
-        "cyclic: \"explicit\"; other tests: \"harmonic\", or with cracks \"quasi_static\" unless a key for inertia "
-        "or damping is given"},
+        "cyclic: \"explicit\"; other tests: \"harmonic\", or with cracks \"quasi_static\", or \"explicit\" if a key "
+        "for inertia or damping is given"},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error),
-        "largest error: of |E*| (relative) and of phi [rad], for which the program chooses and reports the settings "
-        "that are not given; method \"quasi_static\": of the stress, for which it chooses the increments",
+        "largest relative error of |E*| and largest error of phi [rad]; the program chooses and reports the settings "
+        "that are not given so that the errors are smaller. Method \"quasi_static\": largest error of the stress, "
+        "relative to the largest stress; the program chooses the increments accordingly",
         "none; method \"quasi_static\": 0.001"},
        {"density_scaling",
         Need::optional,
@@ -172,7 +173,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
   }
   if (spec.method == SolverMethod::quasi_static && stepping_of(experiment) != experiments::Stepping::if_asked) {
     section.refuse("method", fmt::format("\"quasi_static\" with kind = \"{}\" in [loading]", kind_of(experiment)),
-                   "\"explicit\" or \"harmonic\"; a cyclic load by increments is kind = \"history\" with a sine");
+                   "\"explicit\" or \"harmonic\"; for a cyclic load by increments, use kind = \"history\" with drive = "
+                   "\"cyclic\"");
   }
   if (spec.method == SolverMethod::quasi_static) refuse_steps(section);
   if (spec.inertia && spec.method == SolverMethod::explicit_) {

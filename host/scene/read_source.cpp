@@ -20,7 +20,7 @@ std::filesystem::path one_name(const std::filesystem::path& file) {
   return error ? file.lexically_normal() : out;
 }
 
-/// Refuses a scene that leads back to itself. The message names all files on the way.
+/// Refuses a scene that leads back to itself. The message names all files of the circle.
 void require_no_circle(const Value& value, const ReadingFile& reading, const std::filesystem::path& file) {
   std::string way = file.string();
   for (const ReadingFile* outer = &reading; outer; outer = outer->outer) {
@@ -37,10 +37,11 @@ auto read_inside(const Value& value, F&& f) {
   try {
     return f();
   } catch (const InputError& refused) { fault = refused.what(); }
-  value.refuse("a file that is refused: " + fault, "a scene or law that is right by itself");
+  value.refuse("a file that is refused: " + fault, "a scene or law that is valid by itself");
 }
 
-/// Takes the law of the mastic from a scene, at its reference temperature, until the scene's specimen is solved.
+/// Takes the law of the mastic in another scene, at its reference temperature, as the provisional law until the
+/// specimen of that scene is solved.
 std::optional<double> take_scene(const Value& value, const ReadingFile& reading, PhaseLaws& phases) {
   auto inner = read_inside(value, [&] { return std::make_shared<Scene>(read_inner_scene(reading)); });
   constexpr auto mm = static_cast<std::size_t>(PairType::mm);
@@ -98,7 +99,7 @@ std::optional<double> take_law(const Value& value, const ReadingFile& reading, c
   }
   if (found != 1)
     value.refuse(fmt::format("{} with {} laws", reading.file.string(), found),
-                 "a scene, or a file with one law, as law.toml of macadam fit is");
+                 "a scene, or a file with one law, such as law.toml of macadam fit");
   const bool linear = std::visit([]<class L>(const L&) { return series_law<L>; }, *phases.mastic);
   if (!linear)
     value.refuse(fmt::format("{} with a law that can break", reading.file.string()),
@@ -146,11 +147,12 @@ void take_chain(const Value& value, const std::filesystem::path& file, PhaseLaws
       law.E.push_back(spring), law.C.push_back(dashpot);
     }
   }
-  if (!maxwell) refuse("no row maxwell", "the chain of a specimen, as relaxation and creep write it");
+  if (!maxwell) refuse("no row maxwell", "the chain of a specimen, as tests of kind relaxation and creep write it");
   constexpr int most = laws::GeneralisedKelvin::max_units;
   if (law.units() > most)
     refuse(fmt::format("{} Kelvin units", law.units()),
-           fmt::format("at most {}; the scene of that specimen in from gives a chain of at most {} units", most, most));
+           fmt::format("at most {}; if from names the scene of that specimen instead, the chain has at most {} units",
+                       most, most));
   law.alpha = 1;
   phases.mastic = std::move(law);
 }

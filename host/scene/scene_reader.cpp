@@ -67,14 +67,13 @@ void read_network(const Section& section, NetworkSpec& spec) {
                   "area moments of a contact: from its points, from its polygon, or from one point at the centroid"});
   keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
                   "whether the four sides are walls too; |E*| is then a confined modulus"});
-  keys.push_back(
-      {"rule", Need::optional,
-       into<ContactRule>(spec.rule, {{"centres", ContactRule::centres},
-                                     {"series", ContactRule::series},
-                                     {"volumetric", ContactRule::volumetric}}),
-       "stiffness of a contact: from the law of its pair and the distance of the centres; from the laws of "
-       "mastic and rock in series along the line between the centres; or in series, with the Poisson's ratios "
-       "of mastic and rock"});
+  keys.push_back({"rule", Need::optional,
+                  into<ContactRule>(spec.rule, {{"centres", ContactRule::centres},
+                                                {"series", ContactRule::series},
+                                                {"volumetric", ContactRule::volumetric}}),
+                  "how the stiffness of a contact is computed. \"centres\": from the law of its pair and the distance "
+                  "of the centres; \"series\": from the laws of mastic and rock, in series along the line between the "
+                  "centres; \"volumetric\": as \"series\", with the Poisson's ratios of mastic and rock"});
   keys.push_back({"void_cells", Need::optional,
                   into<VoidCells>(spec.void_cells, {{"volume", VoidCells::volume}, {"spheres", VoidCells::spheres}}),
                   "volume of the cell of a void: the volume of its sphere, or the larger volume that follows from its "

@@ -81,9 +81,9 @@ Scene read_inner_scene(const ReadingFile& reading);
 /// the scene that is being read. \throws InputError that names both files, also if scenes lead back to themselves.
 std::optional<double> read_source(const Value& value, const ReadingFile& reading, PhaseLaws& phases);
 
-/// Reads `[materials]`. `need` tells whether densities are required; they may be left out if they follow from a recipe.
-/// Stores the laws of the phases in `phases`. `reading` is the scene's file.
-/// With the rule "centres" such laws are refused. \throws InputError
+/// Reads `[materials]`. `need`: whether densities are required; they may be left out if they follow from a recipe.
+/// Stores the laws of the phases in `phases`. `reading` is the scene's file. With the rule "centres" such laws are
+/// refused. \throws InputError
 Materials read_materials(const Section& section, Need need, ContactRule rule, const ReadingFile& reading,
                          PhaseLaws& phases);
 
@@ -113,8 +113,9 @@ Experiment read_experiment(const Section& section);
 
 /// Returns the solver settings of a scene without `[solver]`.
 SolverSpec usual_solver(const Experiment& experiment);
-/// Chooses the method of a test with cracks that is stepped only if the scene asks for it, unless the scene gives the
-/// method: increments without inertia, or time steps if the scene has a key of time steps.
+/// Chooses the method if the scene gives none, the contacts can crack, and the test is one that takes time steps only
+/// on request. The method is then increments without inertia or, if the scene has a setting that only time steps use,
+/// time steps.
 void choose_method(SolverSpec& solver, const Experiment& experiment, const LawTable& laws);
 
 /// Reads `[solver]`. Density scaling and time step are checked against the experiment's frequencies.

@@ -10,9 +10,9 @@
 
 namespace macadam {
 
-/// Returns the scale of the stiffness of contacts of a pair [Pa], force over area and strain along the line of centres,
-/// for a law with the stiffness `k`. With rule "series" part of the line of centres is rock: half of it between mastic
-/// and aggregate, as between spheres of equal size, and nine tenths of it between two aggregates.
+/// Returns the scale of the stiffness of contacts of a pair [Pa], the force per area divided by the strain along the
+/// line of centres, for a law with the stiffness `k`. With rule "series" part of the line of centres is rock: half of
+/// it between mastic and aggregate, as between spheres of equal size, and nine tenths of it between two aggregates.
 inline double with_rock(const Scene& scene, PairType pair, double k) {
   if (scene.network.rule == ContactRule::centres || !scene.materials.rock_modulus) return k;
   const double rock = pair == PairType::ma ? 0.5 : pair == PairType::aa ? 0.9 : 0;

@@ -141,8 +141,9 @@ std::vector<double> forecast_contrasts(const Scene& scene, bool stepped) {
   const std::vector<double> frequencies = frequencies_of(scene.experiment);
   std::vector<double> out;
   if (scene.solver.method == SolverMethod::quasi_static) {
-    // A test takes some 100 increments with 3 linear systems each. One of them costs about as much as a solution in the
-    // frequency domain: it is real, but its tolerance is met again and again as cracks soften the specimen.
+    // A test takes some 100 increments with 3 linear systems each. A system takes about the time of a solution in the
+    // frequency domain. It has real instead of complex numbers, but it is solved several times as cracks soften the
+    // specimen.
     constexpr std::size_t systems = 300;
     out.assign(systems, contrast_at(scene.laws, 1 / load_test_of(scene).history.times.back()));
     return out;

@@ -126,7 +126,8 @@ class GrowingFolder {
   GrowingFolder(const GrowingFolder&) = delete;
   GrowingFolder& operator=(const GrowingFolder&) = delete;
   const fs::path& path() const { return path_; }
-  /// Gives the folder its final name. Returns whether the result is kept; if another command was faster, its result is.
+  /// Gives the folder its final name. Returns whether the result is kept; if another command was faster, the result of
+  /// that command is kept.
   bool keep() {
     std::error_code error;
     if (keeps_) fs::rename(path_, kept_, error);

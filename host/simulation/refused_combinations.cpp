@@ -13,7 +13,7 @@ namespace macadam {
 
 namespace {
 
-/// Refuses what the rule "volumetric" cannot compute. \throws InputError.
+/// Refuses scenes that cannot be computed with the rule "volumetric". \throws InputError.
 void require_volumetric(const Scene& scene) {
   const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
     throw InputError(scene.file.string(), 0, what, found, expected);

@@ -29,8 +29,8 @@ constexpr int at_once_on_a_device = 4;
 /// Number of specimens per device that are prepared at the same time. With a larger number, many specimens would share
 /// the cores and all of them would be ready late. With one, preparing a specimen could take longer than the steps of
 /// the previous specimen (bench/results/many.csv). With several devices, the first two specimens of each device are
-/// prepared one after the other with twice as many cores; otherwise the device would wait for its second specimen. One
-/// device is assumed until the devices are counted.
+/// prepared one after the other with twice the number of cores; otherwise the device would wait for its second
+/// specimen. One device is assumed until the devices are counted.
 constexpr int prepared_for_a_device = 2;
 
 /// Returns the devices that answer. On a device that does not answer, one scene after the other would fail.
@@ -186,7 +186,7 @@ class Pool {
   /// other scene when it ends.
   class Cores {
    public:
-    /// `most`: largest number of threads that the scene may use; 0: as many as the cores that it has reserved.
+    /// `most`: largest number of threads that the scene may use; 0: the number of cores that it has reserved.
     Cores(Pool& pool, bool first_of_scene, int most) : pool_(pool), most_(most) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;

@@ -19,7 +19,7 @@ std::string words_of(const RockReport& rock, const Specimen& specimen, ContactRu
 
 std::string words_of_air_voids(const Scene& scene) {
   if (!scene.recipe || !scene.specimen.mastic || scene.specimen.file) return {};
-  const double porosity = scene.specimen.mastic->porosity.value_or(0);  // of the volume beside the voids
+  const double porosity = scene.specimen.mastic->porosity.value_or(0);  // fraction of the volume outside the voids
   if (porosity < 1e-9) return {};
   return fmt::format(
       "air voids: {:.3g} % of the volume outside of voids is space between spheres, which the cells "

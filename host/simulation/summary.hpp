@@ -13,8 +13,8 @@ namespace macadam {
 std::string summary_json(const Scene& scene, const Preparation& preparation, const RunResult& result,
                          const std::string& status);
 
-/// Checks that the folder holds no run. \throws InputError if it holds a checkpoint, or a summary.json that is not that
-/// of a prepared specimen.
+/// Checks that the folder holds no run. \throws InputError if it holds a checkpoint, or a summary.json that does not
+/// belong to a prepared specimen.
 void require_no_run(const std::filesystem::path& out);
 
 }  // namespace macadam

@@ -22,8 +22,8 @@ class Decay {
   /// exponentials of the system, from the eigenvalues of one matrix whose size is the number of strains of dashpots.
   PronySeries all_units() const;
 
-  /// Returns the same force with fewer exponentials, for systems with very many dashpots. Its Laplace transform is that
-  /// of the system at six values of s per decade, and differs from it elsewhere by less than about 1e-10 of it.
+  /// Returns the same force with fewer exponentials, for systems with very many dashpots. The Laplace transform of this
+  /// force is exact at six values of s per decade; elsewhere its relative error is below about 1e-10.
   PronySeries few_units() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_spectrum.cpp  Collects the laws and matrices of a reduced model: those of the pair types and, for contacts
-// with rock in series, those of their classes.
+// reduced_spectrum.cpp  Collects the laws and matrices of a reduced model: one law and its matrices for each pair type
+// and, for contacts with rock in series, for each class of a pair type.
 #include "host/spectrum/reduced_spectrum.hpp"
 
 #include <algorithm>

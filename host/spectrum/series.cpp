@@ -161,9 +161,9 @@ InputError without_prony(const char* law, bool linear) {
 
 namespace {
 
-/// Returns the series of a law in order of rising times, with units of equal times joined and without units of
-/// modulus 0. \throws InputError naming
-/// the law if a unit or the long-term modulus is negative or not finite, or if the series is zero.
+/// Returns the series of a law in order of rising times, with units of equal times joined and without units of modulus
+/// 0. \throws InputError naming the law if a unit or the long-term modulus is negative or not finite, or if the series
+/// is zero.
 PronySeries in_order(PronySeries series, const char* law) {
   const auto refuse = [&](const std::string& found) {
     throw InputError("relaxation of a contact law", 0, std::string("prony() of law ") + law, found,

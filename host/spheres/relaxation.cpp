@@ -114,7 +114,7 @@ class Relaxation {
     return balls;
   }
 
-  /// Returns the mean radius of the mastic spheres or, if there is no mastic, of the aggregate spheres.
+  /// Returns the mean radius of the mastic spheres or, in a specimen without mastic, of the aggregate spheres.
   double mean_radius() const {
     const std::size_t from = first_mastic_ < s_.size() ? first_mastic_ : 0;
     double sum = 0;

@@ -65,7 +65,7 @@ std::optional<SpecimenFault> fault_of_arrays(const Specimen& s) {
   return std::nullopt;
 }
 
-/// Checks one sphere. `is_void` tells whether the sphere is one of the voids, which follow the particles.
+/// Checks one sphere. `is_void`: whether the sphere is one of the voids, which follow the particles.
 std::optional<SpecimenFault> fault_of_sphere(const Specimen& s, std::size_t i, bool is_void) {
   const Vec3d c = s.centre[i], l = s.box.size;
   const auto fault = [&](const char* what, std::string found, std::string expected) {

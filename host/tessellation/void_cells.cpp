@@ -12,8 +12,9 @@
 namespace macadam {
 namespace {
 
-constexpr double tolerance = 1e-3;  // largest difference between the volumes of a void and its cell, over the void's
-constexpr int most_rounds = 20;     // four to nine rounds are usual
+/// Largest difference between the volumes of a void and its cell, divided by the volume of the void.
+constexpr double tolerance = 1e-3;
+constexpr int most_rounds = 20;  // four to nine rounds are usual
 
 /// Returns the derivative of the volume of each void's cell with respect to its weight [m]. A facet moves by
 /// 1/(2·distance of the centres) per unit of weight; a wall does not move.
@@ -43,8 +44,9 @@ bool correct(const Specimen& specimen, const Tessellation& cells, std::vector<do
     const double missing = wanted - cells.cell_volume[specimen.size() + k];
     if (!(growth[k] > 0) || std::abs(missing) <= tolerance * wanted) continue;
     differs = true;
-    // A smaller cell needs no limit: its volume falls more slowly than the derivative says, except at a wall. A larger
-    // one could take the cell of a neighbour.
+    // If a cell must shrink, its weight may change without a limit, because the volume falls more slowly than the
+    // derivative predicts (except at a wall). A cell that grows without a limit could take the whole cell of a
+    // neighbour.
     weights[k] += std::min(missing / growth[k], radius * radius);
   }
   return differs;

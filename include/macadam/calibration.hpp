@@ -17,8 +17,8 @@
 
 namespace macadam {
 
-/// A parameter that may change: "M-A.delta", "M-M.E_1", "inner.E", "A-A.alpha"; with the rule "series", whose laws are
-/// those of the phases, "mastic.E_m" or "aggregate.E". The names are those of Sensitivity::parameter.
+/// A parameter that may change: "M-A.delta", "M-M.E_1", "inner.E", "A-A.alpha"; with the rule "series", which has one
+/// law for each phase, "mastic.E_m" or "aggregate.E". The names are those of Sensitivity::parameter.
 struct FreeParameter {
   std::string name;
   /// Bounds, in units of the parameter. Without bounds: four decades to either side of the scene's value; if a

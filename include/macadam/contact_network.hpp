@@ -57,7 +57,7 @@ struct NetworkSpec : FacetLimits {
   std::optional<VoidCells> void_cells =
       {};  ///< build_network() ignores it; empty: `spheres` for the rule "centres", else `volume`
 
-  /// Returns the volumes of the cells of voids that this network is made with.
+  /// Returns `void_cells` or, if it is empty, the choice that belongs to the rule.
   VoidCells cells_of_voids() const {
     return void_cells.value_or(rule == ContactRule::centres ? VoidCells::spheres : VoidCells::volume);
   }
@@ -91,7 +91,7 @@ struct Contact {
 /// section 26).
 struct CellStiffness {
   /// λ'·(1 + ν)²/(E·V) [1/m³], with the Poisson's ratio ν and the modulus E of the cell's phase, the volume V of the
-  /// cell, and λ' = λ reduced by the free facets of the cell. It is a number of the geometry and of ν.
+  /// cell, and λ' = λ reduced by the free facets of the cell. It depends only on the geometry and on ν.
   double weight = 0;
   PairType law = PairType::mm;  ///< the pair that has the law of the cell's phase: mm or inner
 };

@@ -45,8 +45,8 @@ struct CrossSection {
 };
 
 /// Cuts the domain by a plane. The section of a particle's cell is the section of the domain, clipped by the planes of
-/// equal power (weights R²) between the particle and its neighbours in the tessellation. If the plane contains a facet,
-/// the section of the cell above the plane is used.
+/// equal power (weights R²) between the particle and its neighbours in the tessellation. If a facet lies in the plane,
+/// the section of the cell above this facet is used.
 ///
 /// \throws InputError for a plane outside the bounding box.
 CrossSection cut(const Specimen& specimen, const Tessellation& tessellation, const SectionPlane& plane);

@@ -120,8 +120,9 @@ class FieldSeries {
 };
 
 /// Begins a series. `stem`: path of the file without its ending. No file exists before the first frame is added. With
-/// `until`, continues the series in an existing file, from which it removes the frames at this time and later; if there
-/// is no file, begins a new one. \throws InputError naming a file that exists but is not a series of this mesh.
+/// `until`, continues the series in an existing file, from which it removes the frames at this time and later; if the
+/// file does not exist, begins a new file. \throws InputError naming a file that exists but is not a series of this
+/// mesh.
 std::unique_ptr<FieldSeries> begin_fields(const std::filesystem::path& stem, FieldFormat format, FieldMesh mesh,
                                           std::optional<double> until = {});
 

@@ -176,16 +176,16 @@ struct Fit {
 /// point of the least squares has a finite misfit.
 Fit fit_modulus(const ModulusData& data, const FitOptions& options = {});
 
-/// A chain that stands for a curve of moduli.
+/// A chain that approximates a curve of moduli.
 struct CurveChain {
   laws::GeneralisedKelvin law;
   double largest_difference = 0;  ///< largest |E*_chain/E* − 1| at the points of the curve
 };
 
-/// Returns a chain of at most GeneralisedKelvin::max_units units that stands for a computed curve of moduli and phases
-/// without temperatures: the chain that replaces a 2S2P1D model of the curve or, if it differs by more than 2 % from
-/// the curve, the better of it and a chain that is fitted to the points. \throws InputError for data that cannot be
-/// fitted; RunError if neither way gives a chain.
+/// Returns a chain of at most GeneralisedKelvin::max_units units that approximates a computed curve of moduli and
+/// phases without temperatures. The chain is first derived from a 2S2P1D model of the curve. If this chain differs from
+/// the curve by more than 2 %, a second chain is fitted to the points of the curve, and the better of the two chains is
+/// returned. \throws InputError for data that cannot be fitted; RunError if no chain can be derived or fitted.
 CurveChain chain_of_curve(const ModulusData& curve);
 
 /// A point of the fitted curve at the reference temperature, with pointwise confidence limits.

@@ -32,7 +32,7 @@ FitReport report_of(const Fit& fit, std::optional<double> from, std::optional<do
 FitReport report_conversion(const ShiftedAnalogue& model, std::optional<double> from, std::optional<double> to,
                             double error);
 
-/// Returns law.toml and the text of a chain that stands for a curve (chain_of_curve()). The chain holds between the
+/// Returns law.toml and the text for a chain that approximates a curve (chain_of_curve()). The chain holds between the
 /// lowest and the highest frequency of the curve.
 FitReport report_of(const CurveChain& chain, const ModulusData& curve, const laws::Shift& shift = laws::NoShift{});
 

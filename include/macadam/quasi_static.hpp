@@ -18,7 +18,7 @@ namespace macadam {
 /// Options of a quasi-static solution.
 struct QuasiStaticOptions {
   /// Largest force that is out of balance, relative to the forces of the contacts (root mean square over particles).
-  double residual = 1e-9;
+  double residual = 1e-10;
   /// Largest number of passes of Newton's method per increment.
   int passes = 25;
   /// Systems with at most this number of unknowns are solved by factors of their matrix, larger ones by iterations.

@@ -32,9 +32,9 @@ struct ManyOptions {
   ///
   /// Two specimens per device are prepared and planned at a time. They share the cores; one core per device is left
   /// free if there are at least eight cores per device. With several devices, the first two specimens of each device
-  /// are prepared one after the other with twice as many cores, so that the device need not wait long. When a scene has
-  /// finished its tessellation, it keeps half of its cores, and waiting scenes get the other half. Without a device the
-  /// scenes have equal numbers of cores, unless [solver] threads says otherwise.
+  /// are prepared one after the other with twice the number of cores, so that the device need not wait long. When a
+  /// scene has finished its tessellation, it keeps half of its cores, and waiting scenes get the other half. Without a
+  /// device the scenes have equal numbers of cores, unless [solver] threads says otherwise.
   int at_once = 0;
   bool resume = false;  ///< continue from checkpoints, in folders that have them
   /// Called by one thread at a time, as are `warn` and `done`. `job`: position in the list. If `done` throws, no scene

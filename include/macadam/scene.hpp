@@ -72,7 +72,7 @@ struct MasticSource {
 enum class SolverMethod : std::uint8_t { explicit_, harmonic, quasi_static };
 /// Returns "explicit", "harmonic" or "quasi_static".
 const char* to_string(SolverMethod);
-/// Returns whether a method follows a test in time, step by step or increment by increment.
+/// Returns whether a method follows tests in time, by steps or by increments.
 constexpr bool is_stepped(SolverMethod method) { return method != SolverMethod::harmonic; }
 
 /// The section `[solver]` of a scene. Options that are empty are chosen by make_plan().

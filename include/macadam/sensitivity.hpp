@@ -49,16 +49,16 @@ std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable
 std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
                                        double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
 
-/// Returns the derivatives of |E*| and φ for motions e^(s·t) in a network whose laws are those of the phases (rules
-/// "series" and "volumetric"), at constant Poisson's ratios: with respect to every parameter of the mastic's law
-/// ("mastic.E_m"), which all pairs with this law have in common, to the modulus of the rock ("aggregate.E"), and to the
-/// density scaling if there is inertia.
+/// Returns the derivatives of |E*| and φ for motions e^(s·t) in a network with one law for each phase (rules "series"
+/// and "volumetric"), at constant Poisson's ratios. They are taken with respect to every parameter of the mastic's law
+/// ("mastic.E_m"), which all pairs with mastic share, to the modulus of the rock ("aggregate.E"), and to the density
+/// scaling if there is inertia.
 std::vector<Sensitivity> phase_sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
 std::vector<Sensitivity> phase_sensitivities(const ModulusParts&, const LawTable&,
                                              double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
 
-/// Returns whether the law of a pair is that of the mastic in a network with laws of phases. The law of the other
-/// pairs is that of the rock.
+/// Returns whether a pair has the law of the mastic in a network with one law for each phase. The other pairs have the
+/// law of the rock.
 constexpr bool is_of_mastic(PairType pair) { return pair != PairType::inner && pair != PairType::aw; }
 
 /// Returns the fraction of E* that each pair carries, by PairType: the component of the pair's part along E* (in the

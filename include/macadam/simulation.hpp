@@ -126,10 +126,10 @@ struct Watcher {
 
 /// Computes the law of the mastic, if the scene takes it from the specimen of another scene (Scene::mastic_source); for
 /// other scenes does nothing. The specimen is solved in the frequency domain over the reduced frequencies that the test
-/// of `scene` needs, and a chain of at most 16 Kelvin units that stands for its modulus becomes the law of the mastic,
-/// with the specimen's shift. The result is kept in a folder beside the other scene, under a digest of its content, and
-/// is then not computed again. run() and calibrate() call this function; callers that use Scene::laws by themselves
-/// must call it first. Returns the warnings about the other scene.
+/// of `scene` needs, and a chain of at most 16 Kelvin units that approximates the modulus of the specimen becomes the
+/// law of the mastic, with the specimen's temperature shift. The result is stored in a folder next to the other scene,
+/// named by a digest of that scene's content, so that it need not be computed again. run() and calibrate() call this
+/// function; callers that use Scene::laws by themselves must call it first. Returns the warnings about the other scene.
 ///
 /// \throws InputError, RunError with a message that names both scenes; InterruptedError.
 std::vector<std::string> compute_mastic_law(Scene& scene, const Watcher& watcher = {});
@@ -148,9 +148,9 @@ std::vector<std::string> compute_mastic_law(Scene& scene, const Watcher& watcher
 /// scene, but no other checkpoints. The first checkpoint of a run replaces any checkpoint that is already in the
 /// folder. Backend reference writes no checkpoints.
 ///
-/// With `resume`, the run continues from the checkpoint. Its results have the same bits as those of a run that was
-/// never interrupted. If the newest checkpoint is missing or damaged, there is a warning, and the run continues from
-/// the previous one.
+/// With `resume`, the run continues from the checkpoint. Its results have the same bits as the results of a run that
+/// was never interrupted. If the newest checkpoint is missing or damaged, there is a warning, and the run continues
+/// from the previous one.
 ///
 /// \throws InputError also for a checkpoint that is missing, damaged, or of another scene, version, backend or
 /// precision, and if another command is writing into the folder; InterruptedError; RunError (DivergenceError names

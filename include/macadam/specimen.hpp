@@ -168,8 +168,8 @@ struct SpecimenSpec {
   Domain box;  ///< region that the specimen fills
   std::uint64_t seed = 1;
   std::vector<AggregateClass> aggregate;  ///< in any order; placed largest first
-  std::vector<std::string> merged;        ///< a sentence per class of a recipe that was too small for the box
-  std::optional<ShapeSpec> shapes;        ///< empty: aggregates are single spheres
+  std::vector<std::string> merged;  ///< one sentence for each class of a recipe that had too little volume for the box
+  std::optional<ShapeSpec> shapes;  ///< empty: aggregates are single spheres
   std::optional<MasticSpec> mastic;
   std::optional<VoidSpec> voids;
   SizeLaw size_law = SizeLaw::log_uniform;

@@ -48,7 +48,8 @@ PronySeries prony_series(const Law& law);
 /// lie between the poles of E*(s). \throws InputError for a series whose moduli are all zero.
 CreepSeries creep_series(const PronySeries& relaxation);
 
-/// Returns the error for a law without the function prony(); it says what such a law lacks and how it can be used.
+/// Returns the error for a law without the function prony(). The error names the missing function and the methods with
+/// which the law can be used.
 InputError without_prony(const char* law, bool linear);
 
 /// Returns a law of Macadam's list that responds exactly as a series: `elastic` if the series has no units, otherwise
@@ -59,8 +60,8 @@ Law equivalent_law(const PronySeries& relaxation, double alpha, const char* name
 
 /// Returns laws of Macadam's list that respond exactly as these laws, which may belong to a list of the user's own
 /// program. Such laws can then be used wherever a LawTable is required: in spectrum_of(), in Harmonic, and in a Scene.
-/// \throws InputError naming the law if it is neither in Macadam's list nor has a function prony(); also as
-/// equivalent_law() does.
+/// \throws InputError naming the law if it is neither in Macadam's list nor has a function prony(); also under the
+/// conditions of equivalent_law().
 template <class... L>
 LawTable equivalent_laws(const std::array<std::optional<std::variant<L...>>, pair_types>& laws) {
   LawTable out;

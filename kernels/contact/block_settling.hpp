@@ -3,7 +3,7 @@
 /// equations (6.8) and (6.9) of docs/model/motion.md. A block is a number of steps during which contacts store only the
 /// change of their force. The CPU and the GPUs share this code.
 ///
-/// f is the force density of one displacement component of a contact. Within a block a contact stores only two numbers
+/// f is the force density of one displacement component of a contact. During a block a contact stores only two numbers
 /// per component, in single precision: δf, which is the change of f since the beginning of the block; and the sum, over
 /// the steps so far, of δf before the step and δf after it. `drift` is the constant D of (6.8): the effect that the
 /// states at the beginning of the block have on every step. The loads of the contacts at the beginning of the block are

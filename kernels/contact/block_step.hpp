@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file block_step.hpp  Takes one step within a block of steps, for one displacement component of a contact, by
-/// equation (6.8) of the model. Within a block, a contact stores only the change of its force. The CPU (cpu_group.hpp)
+/// equation (6.8) of the model. During a block, a contact stores only the change of its force. The CPU (cpu_group.hpp)
 /// and the tiles of a GPU (tile_step.hpp) share this code.
 #pragma once
 

@@ -37,7 +37,7 @@ constexpr int most_units_of() {
 
 /// Functor that steps the contacts of one group. Everything that may branch (form, geometry, law, units) is a template
 /// argument. `Units`: exact number of Kelvin units; 5 means at most five, all in registers; −1 means any number.
-/// `with_series`: whether the group may have contacts with rock in series; if false, there is no code for them.
+/// `with_series`: whether the group may have contacts with rock in series; if false, no code for them is compiled.
 template <class P, class LawStep, int Units, ContactForm form, Geometry geometry, bool with_series = true>
 struct ContactForces {
   using Policy = P;

@@ -24,7 +24,7 @@ constexpr void require_steppable(std::type_identity<std::variant<L...>>) {
   (static_cast<void>(Steppable<L>{}), ...);
 }
 
-/// The number of units for which a coupled law has code of its own; −1 if there is none.
+/// The number of units for which a coupled law has its own compiled code; −1 for a law without such code.
 template <class L>
 constexpr int known_units() {
   if constexpr (requires { L::known_units; })
@@ -68,7 +68,7 @@ struct NoFunctor {};
 template <class P, class L>
 inline constexpr bool suits_precision = !needs_double_law<L> || std::is_same_v<typename P::State, double>;
 
-/// Kinds of launches, each with kernels of its own, so that other kernels need no registers for what only they do.
+/// Kinds of launches. Each kind has separate kernels, so that a kernel needs no registers for the work of another kind.
 enum class LaunchKind {
   plain,   ///< no contact has rock in series
   series,  ///< some contacts have rock in series

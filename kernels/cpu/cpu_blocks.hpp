@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file cpu_blocks.hpp  Decides on the CPU whether steps are taken in blocks and when a block begins and ends, and
-/// stores the loads at the beginning of a block. Within a block, contacts store only changes of their forces.
+/// stores the loads at the beginning of a block. During a block, contacts store only changes of their forces.
 /// cpu_group.hpp takes the steps of one group of contacts within a block.
 #pragma once
 

@@ -121,7 +121,7 @@ template <class P, std::size_t width>
 struct CpuGroup {
   using R = typename P::Particle;
   virtual ~CpuGroup() = default;
-  /// Steps the packets first … end − 1 and adds their loads to `sums`. Within a block, it adds only the changes of the
+  /// Steps the packets first … end − 1 and adds their loads to `sums`. During a block, it adds only the changes of the
   /// loads since the block began.
   virtual void run(std::uint32_t first, std::uint32_t end, const MotionView<P>& motion, R* sums) = 0;
   /// Switches blocks on or off. Returns whether the group uses blocks; if not, its contacts are stepped one step at a

@@ -31,7 +31,7 @@ std::vector<R> inverse_masses(const Layout& layout, const Inertia& inertia, cons
   return out;
 }
 
-/// Returns the body forces of the particles, [particle][4] in device order [N]; empty if there are none.
+/// Returns the body forces of the particles, [particle][4] in device order [N]; empty without body forces.
 template <class R>
 std::vector<R> body_forces(const Layout& layout, const Boundary& boundary) {
   std::vector<R> out(boundary.body_force.empty() ? 0 : 4 * layout.particles(), R(0));

@@ -94,8 +94,8 @@ void require_boundary(std::size_t particles, const StepperOptions& options) {
   }
 }
 
-/// Checks that no contact whose law cannot have it has rock in series. The force of a coupled law also depends on the
-/// length, which must then equal the distance.
+/// Checks that the laws of all contacts with rock in series support such rock. The force of a coupled law also depends
+/// on the length, which must then equal the distance.
 void require_series(const ContactNetwork& network, const FactsTable& laws) {
   for (std::size_t c = 0; c < network.contacts.size(); ++c) {
     const Contact& contact = network.contacts[c];

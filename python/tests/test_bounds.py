@@ -9,14 +9,14 @@ from macadam.mixture.stiffening import bounds, bulk_and_shear
 import macadam as mc
 
 ROCK = 60e9
-# The bounds hold for an isotropic material, and a small specimen is not exactly isotropic. Where the bounds are closest,
-# at a ratio of moduli of 2, the seeds of bench/results/bounds.csv differ by up to 0.16 %, in boxes with 2.7 times this
-# volume.
+# The bounds hold for an isotropic material, and a small specimen is not exactly isotropic. The bounds are closest at a
+# ratio of moduli of 2. There the moduli of the seeds in bench/results/bounds.csv differ by up to 0.16 %, in boxes with 2.7
+# times the volume of the boxes here.
 TOLERANCE = 0.005
 
 
 def scene(content, ratio, poisson, seed):
-    """Returns the scene of a small specimen with this fraction of rock. poisson: of mastic and rock."""
+    """Returns the scene of a small specimen with this fraction of rock. poisson: Poisson's ratios of mastic and rock."""
     return mc.Scene(
         {
             "specimen": {
@@ -47,7 +47,7 @@ def test_young_s_modulus_is_within_the_bounds(seed):
         found = mc.harmonic(scene(content, ratio, poisson, seed)).summary
         rock = found["volume_fractions"]["aggregate_cells"]
         modulus = found["results"][0]["e_star_pa"] / (ROCK / ratio)
-        # a network with rule "series" has Poisson's ratio 0 in each phase; films of mastic alone use the scene's
+        # a network with rule "series" has Poisson's ratio 0 in each phase; only films use the ratios of the scene
         for nu, nu_rock in ((0.0, 0.0), poisson):
             mastic, aggregate = bulk_and_shear(1.0, nu), bulk_and_shear(ratio, nu_rock)
             if mastic[0] > aggregate[0]:

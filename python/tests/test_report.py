@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no program macadam: bui
 CASES = {
     "stepped": [
         "Decided by the program",
-        "the last stepped cycle",
+        "the last cycle computed with time steps",
         "Error bars",
         "geometry update",
         "stepping",
@@ -49,7 +49,7 @@ CASES = {
         "Strength of ",
         ", work of fracture ",
         "Cracks and energies",
-        "the energies that it became, one above the other",
+        "the energies into which it was converted, stacked",
         "facets in it that have begun to crack",
         "facets whose mean damage is above 0.5",
         "The sum of the energies differs from the work by at most",
@@ -106,7 +106,7 @@ def test_cells_of_a_plane_are_those_of_least_power_distance() -> None:
 
 def test_discs_cut_a_plane_in_chords() -> None:
     """A disc in the plane x = 0 with radius 2 and centre at a distance of 1 from the plane y = 3 has a chord of length
-    2·√3 along z. A disc parallel to the plane and a disc farther than its radius have none."""
+    2·√3 along z. A disc parallel to the plane has no chord, and neither has a disc that is farther away than its radius."""
     centre = np.array([[0.0, 2, 5], [0, 3, 0], [0, 0.9, 0]])
     normal = np.array([[1.0, 0, 0], [0, 1, 0], [1, 0, 0]])
     cuts, lines = cracks.chords(centre, normal, np.full(3, 4 * np.pi), 1, 3.0)

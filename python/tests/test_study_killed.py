@@ -46,7 +46,7 @@ def processes(driver: subprocess.Popen, folder: Path) -> list[psutil.Process]:
 
 
 def is_worker(process: psutil.Process) -> bool:
-    """Returns whether the process is a worker or a program that a worker runs. Parsl's manager is neither."""
+    """Returns whether the process belongs to the workers: a worker itself, or the program that it runs. Parsl's manager is neither."""
     try:
         line, above = " ".join(process.cmdline()), process.parent()
         if "macadam.study.manager" in line:  # the process that watches the manager

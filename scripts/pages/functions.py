@@ -105,7 +105,7 @@ class Aggregate:
 
 
 class One(Aggregate):
-    """one(x): the value of the only row. The query is refused if there is no row or more than one."""
+    """one(x): the value of the only row. The query is refused unless it has exactly one row."""
 
     def finalize(self):
         if len(self.found) != 1:

@@ -60,7 +60,7 @@ class Results:
         return call
 
     def load(self, name):
-        """Reads a file into the table of its name."""
+        """Reads the file `name` into the table with this name."""
         lines = path(name).read_text(encoding="utf-8").splitlines()
         if not name.endswith(".md"):
             lines = [line for line in lines if not line.startswith("#")]

@@ -323,7 +323,7 @@ SELECT s.*, 100 * (s.e_star_pa / r.e_star_pa - 1) AS e, 100 * (s.phase_deg / r.p
     WHEN 'ac14_ms_ico_coarse' THEN 'MS-Ico-coarse' ELSE 'MS-Ico-fine' END AS specimen
 FROM "series-paper.csv" s JOIN "series-paper.csv" r USING (seed, mix, reading, frequency_hz) WHERE r.scene = 'ac14_ss_am1';
 
-CREATE VIEW model_bounds AS  -- networks beside the bounds of Hashin and Shtrikman; above, below: distance from them (%), < 0 outside
+CREATE VIEW model_bounds AS  -- networks and the bounds of Hashin and Shtrikman; above, below: distance (%) above the lower and below the upper bound
 SELECT *, 100 * (e_over_mastic / lower - 1) AS above, 100 * (1 - e_over_mastic / upper) AS below,
   100 * (e_over_mastic / lower_zero - 1) AS above_zero, 100 * (1 - e_over_mastic / upper_zero) AS below_zero
 FROM "bounds.csv";

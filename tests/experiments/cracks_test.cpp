@@ -239,7 +239,7 @@ TEST_F(CracksOfATest, ACyclicTestInPiecesBreaksTheSamePoints) {
   }
 }
 
-/// Compression does not break bonds, so there is no rupture and no strength.
+/// Compression does not break bonds, so the result has neither rupture nor strength.
 TEST_F(CracksOfATest, CompressionBreaksNoBondAndReachesNoStrength) {
   const RunResult result =
       run(column(4, "kind = \"monotonic\"\nrate = -0.01\nstrain = -2e-4\npoints = 20\n"), out("out"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cylinder_modulus_test.cpp  Tests moduli of cylinders: of homogeneous ones, which are known, and of generated ones
-// against boxes.
+// cylinder_modulus_test.cpp  Tests moduli of cylinders: homogeneous cylinders, whose modulus is known, and generated
+// cylinders, which are compared with boxes.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -36,9 +36,9 @@ struct CylinderModulus : test::SceneFile {
   }
 };
 
-// With equal stiffness in all directions and ν = 0, uniform strain is a solution whatever the section is, so the
-// modulus is that of the material. The iterative solver leaves a residual of 1e-12 of the load, and the modulus is an
-// energy, so its error is below the residual times the square root of the condition number (about 1e2).
+// With equal stiffness in all directions and ν = 0, uniform strain is a solution for every shape of the section, so the
+// specimen has the modulus of the material. The iterative solver leaves a residual of 1e-12 of the load, and the
+// modulus is an energy, so its error is below the residual times the square root of the condition number (about 1e2).
 TEST_F(CylinderModulus, IsThatOfAHomogeneousMaterial) {
   const std::string phases =
       "[materials.aggregate]\ndensity = 2000\nlaw = \"elastic\"\nE = 2e10\npoisson_ratio = 0\n"
@@ -92,8 +92,8 @@ TEST_F(CylinderModulus, EveryTestOfOneSectionRuns) {
 }
 
 // Cylinders and boxes of equal volume from the same mix have the same modulus within the scatter of seeds. The moduli
-// of four seeds have a standard deviation of 0.7 % (boxes) and 1.3 % (cylinders), so the difference of the means has
-// one of 0.8 %; the tolerance is four times this.
+// of four seeds have a standard deviation of 0.7 % (boxes) and 1.3 % (cylinders), so the difference of the means has a
+// standard deviation of 0.8 %; the tolerance is four times this value.
 TEST(GeneratedCylinders, HaveTheModulusOfBoxes) {
   const double edge = 0.012, height = 0.013;
   const Domain cylinder = cylinder_domain(2 * edge / std::sqrt(std::numbers::pi), height), box{{edge, edge, height}};

@@ -58,9 +58,10 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-/// Returns the stress of the law at time t, as a sum over small steps of the strain. With n steps the error is of order
-/// (t/n/time)²/24 < 1e-8 in a straight part; a kink of the strain within a step adds less than (t/n)/time of this
-/// step's part, which is another 1/n: below 1e-8 with the kinks near multiples of t/n.
+/// Returns the stress of the law at time t, as a sum over small steps of the strain. With n steps the relative error is
+/// of order (t/n/time_1)²/24 < 1e-8 where the strain is straight. A step that contains a kink of the strain contributes
+/// about 1/n of the stress, with a relative error below (t/n)/time_1; this is below 1e-8 of the stress, because the
+/// kinks are near multiples of t/n.
 double law_stress(const std::function<double(double)>& strain, double t) {
   constexpr int n = 40000;
   double memory = 0, before = strain(0);
@@ -160,8 +161,9 @@ TEST_F(History, SlowUnitsAreSpringsAndFastUnitsDashpots) {
   }
 }
 
-/// Without time steps the error is that of the spectrum, 1e-5. With time steps, waves are damped to 2e-5, and damping
-/// and inertia delay the column by about 3 µs of 1 ms; the first samples have the larger part of it.
+/// Without time steps the only error is the error of the spectrum, 1e-5. With time steps, waves are damped to 2e-5, and
+/// damping and inertia delay the column by about 3 µs (the load changes within 1 ms); the delay affects the first
+/// samples most.
 TEST_F(History, AColumnIsTheClosedFormOfItsLaw) {
   for (const std::string method : {"harmonic", "explicit"}) {
     const bool stepped = method == "explicit";

@@ -141,7 +141,8 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
 }
 
-// With rock in series a contact is 1/(r + 1/k) times distance over length, whatever its law alone is.
+// With rock of compliance r in series, a contact with the law's stiffness k has the stiffness 1/(r + 1/k), times
+// distance over length.
 TEST_F(WithoutReference, TheStiffestContactHasRockInSeries) {
   Scene scene = read_scene(write_scene());
   Preparation prepared = prepare(scene);
@@ -152,8 +153,8 @@ TEST_F(WithoutReference, TheStiffestContactHasRockInSeries) {
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20), std::max(normal, slip), 1e-12 * normal);
 }
 
-// If a particle has no contacts, there is no harmonic solution with which a run can be checked. The specimens here are
-// so heavy that they are driven far above their resonance, so their results cannot be right.
+// If a particle has no contacts, a run cannot be checked against a harmonic solution. The specimens here are so heavy
+// that they are driven far above their resonance, so their results cannot be right.
 TEST_F(WithoutReference, ARunWithAToleranceFailsWhereItsResultCannotBeRight) {
   const std::string loose = "[network]\ngap_max = -0.2\n";
   for (const char* scaling : {"1e6", "1e7", "1e9"}) {

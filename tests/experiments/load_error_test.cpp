@@ -142,9 +142,9 @@ double largest_estimate(const Case& c, std::size_t row, double truth) {
   return 1.55 + 0.15 * truth;
 }
 
-// If a law is not linear, there is no solution without time steps, so the run estimates the error. Here bonds at the
-// walls could break but do not, so the true difference is known. The estimate must not be below the true difference,
-// and not far above it.
+// A law that is not linear has no solution without time steps, so the run estimates the error. Here bonds at the walls
+// could break but do not, so the true difference is known. The estimate must not be below the true difference, and not
+// far above it.
 TEST_F(LoadError, IsEstimatedWhereALawIsNotLinear) {
   const PronySeries e = exact_relaxation(scene(cases().front()));
   const std::string unbroken = "law = \"brittle_bond\"\nE = 1e10\nalpha = 0.1\ntensile_strength = 1e30\n";

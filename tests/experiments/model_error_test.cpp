@@ -44,7 +44,8 @@ TEST(ModelError, TheTableIsThatOfTheStudy) {
       const auto value = [&](const char* name) { return std::stod(r.at(name)); };
       const double rock = value("rock_nominal");
       const bool of_row =
-          m.rock < 0.3 ? rock < 0.3 : std::abs(rock - m.rock) < 0.01;  // 12 % (shapes) and 20 % together
+          m.rock < 0.3 ? rock < 0.3
+                       : std::abs(rock - m.rock) < 0.01;  // specimens with 12 % of rock (shapes) and 20 % share one row
       if ((value("void_nominal") > 0) != m.voids || !of_row || value("ratio") != m.ratio) continue;
       ++count;
       found.e_star = std::max(found.e_star, std::abs(value("error_percent")) / 100);

@@ -167,8 +167,8 @@ TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   EXPECT_TRUE(says(result, "from rest, although the scene asks for a steady start"));
 }
 
-// With one point per facet and fewer contacts, two particles can rotate freely. There is no harmonic solution, but time
-// stepping reaches a steady state, so the run can only estimate its error.
+// With one point per facet and fewer contacts, two particles can rotate freely. The harmonic solution does not exist,
+// but time stepping reaches a steady state, so the run can only estimate its error.
 TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};

@@ -84,7 +84,7 @@ def census(setting, library, arguments):
 
 
 def trial(setting, library, what, arguments, kind, at, expected):
-    """A run that fails keeps its last checkpoint. Resumed, it gives the same bits as a run without a fault."""
+    """A run that fails keeps its last checkpoint. The resumed run gives the same bits as an undisturbed one."""
     out, report = setting.clear(), setting.folder / "report.txt"
     report.unlink(missing_ok=True)
     outcome = setting.run(command(out, arguments), preloaded(library, report, kind, at))

@@ -12,7 +12,7 @@ from verdicts import callers
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 SURFACE = ROOT / "examples" / "icosahedron" / "icosahedron.off"
-TIMEOUT = 3600  # [s]; the commands take about 0.1 s, and only one that never ends takes this long
+TIMEOUT = 3600  # [s]; the commands take about 0.1 s; only a command that never ends reaches this limit
 
 CONTACTS = """
 [materials.aggregate]

@@ -4,6 +4,7 @@ import errno
 import os
 import resource
 import shutil
+import signal
 import subprocess
 import time
 
@@ -71,16 +72,23 @@ def folders(setting):
         good = outcome.code == 1 and str(out) in outcome.err and os.strerror(errno.EACCES) in outcome.err
         setting.report("read-only folder", command.name, [] if good else ["is not refused, or not why"], outcome)
     out.chmod(0o755)
-    # a folder that is removed while the command runs
-    for _ in range(20 if setting.long else 4):
+    # a folder that is removed while the command runs; the command is held meanwhile, so that it does not end before
+    removed = 0
+    while removed < (20 if setting.long else 4):
         out = setting.clear()
         child = subprocess.Popen([setting.program, *setting.stepped(out)], env=setting.environment, cwd=setting.folder,
                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         while not (out / "response.csv").exists() and child.poll() is None:
             time.sleep(0.002)
         time.sleep(setting.random.uniform(0, 0.2))
-        shutil.rmtree(out, ignore_errors=True)
-        shutil.rmtree(out, ignore_errors=True)  # the command may have created a file meanwhile
+        child.send_signal(signal.SIGSTOP)
+        if (out / "summary.json").exists() or child.poll() is not None:  # it has ended, or is about to
+            child.kill()
+            child.communicate()
+            continue
+        removed += 1
+        shutil.rmtree(out)
+        child.send_signal(signal.SIGCONT)
         try:
             _, err = child.communicate(timeout=TIMEOUT)
         except subprocess.TimeoutExpired:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests bench/continuum against exact solutions, with every kind of input: layers, placed surfaces, scans and voids.
-Compares `macadam ct modulus` with it.
+Also compares `macadam ct modulus` with bench/continuum.
 
 usage: continuum_test.py PROGRAM [MACADAM]; exit code 1 if something is wrong."""
 import cmath
@@ -192,7 +192,7 @@ def command(check, folder, macadam):
     expected = [row for row in rows if row["mixing"] == "extrapolated"]
     check.expect(len(found) == len(expected) == 2, f"ct modulus: {len(found)} and {len(expected)} results, expected 2")
     for a, b in zip(found, expected):
-        # Both programs stop at a residual of 1e-6, but they start from other displacements where no voxel is cut.
+        # Both programs stop at a residual of 1e-6, but they start from different displacements if no voxel is cut.
         near = [("e_star_pa", TOLERANCE * float(b["e_star_pa"])), ("phase_deg", 2e-6), ("poisson_ratio", 1e-6)]
         for name, tolerance in near:
             check.expect(abs(float(a[name]) - float(b[name])) <= tolerance, f"ct modulus: {name} {a[name]}, expected {b[name]}")

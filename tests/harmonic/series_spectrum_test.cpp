@@ -67,8 +67,8 @@ TEST(SeriesSpectrum, OfAColumnIsTheClosedForm) {
   for (const double t : {1e-3, 0.1, 1.0, 100.0, 1e4}) {
     double creep = 1 / law.E_m + t / law.C_m;
     for (std::size_t l = 0; l < law.E.size(); ++l) creep -= std::expm1(-t * law.E[l] / law.C[l]) / law.E[l];
-    // The contacts of a class have one compliance, so the classes are exact. The tolerance is that of the series, whose
-    // exponentials have rounded times.
+    // The contacts of a class have one compliance, so the classes are exact. The tolerance is the accuracy of the
+    // series, whose exponentials have rounded times.
     EXPECT_NEAR(found.creep.compliance(t) / (area_over_height * (creep * chains + springs)), 1, 1e-8) << t;
   }
 }

@@ -238,8 +238,9 @@ double hashin_shtrikman(double e_matrix, double nu_matrix, double e, double nu, 
   return 9 * bulk * shear / (3 * bulk + shear);
 }
 
-// The rule has the volume of rock neither of the spheres, from which its lengths follow, nor of the cells, from which
-// its facets follow. So the lower bound is taken with the spheres' volume and the upper bound with the cells'.
+// The rule takes its lengths from the spheres of rock and its facets from their cells, and these have different
+// volumes. So the lower bound is computed with the volume of the spheres and the upper bound with the volume of the
+// cells.
 TEST(Volumetric, TwoPhasesAreWithinTheBoundsOfHashinAndShtrikman) {
   const unsigned seed = test_seed();
   std::mt19937 random(seed);

@@ -17,8 +17,8 @@ struct Leg {
   double seconds;
 };
 
-/// A contact point whose chain has the displacements x_l of its Kelvin units and of its dashpot as unknowns. The rest
-/// of a displacement is shared by the chain's spring and the crack, without dependence on time.
+/// A contact point whose chain has the displacements x_l of its Kelvin units and of its dashpot as unknowns. The
+/// remainder of a displacement is divided between the chain's spring and the crack, by equations without time.
 class ContinuousCrack {
  public:
   ContinuousCrack(const laws::GeneralisedKelvin& chain, const laws::Crack& crack, double d)

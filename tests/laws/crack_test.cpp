@@ -19,7 +19,7 @@ using laws::Softening;
 
 constexpr double d = 1.75e-3;  ///< length of the contact [m]
 
-/// The chain of the tests, and the same without retardation and flow.
+/// The chain of the tests, and the spring of this chain alone.
 const laws::GeneralisedKelvin chain{1e10, 1e11, {2e10, 1e10, 5e9}, {2e8, 1e9, 5e9}, 0.1};
 const laws::GeneralisedKelvin spring{1e10, std::numeric_limits<double>::infinity(), {}, {}, 0.1};
 
@@ -250,8 +250,8 @@ TEST(Crack, HistoriesInContinuousTimeHaveTheirValues) {
   }
 }
 
-// The error of works and openings is of second order: 16 times as many steps give an error 256 times smaller. The test
-// asks for 60 times, because a part of the error depends on where in a step the crack begins.
+// The error of works and openings is of second order: with 16 times more steps the error is 256 times smaller. The test
+// requires 60 times, because a part of the error depends on where in a step the crack begins.
 TEST(Crack, StepsConvergeToTheHistories) {
   for (const History& h : histories()) {
     double error[3];
@@ -275,8 +275,9 @@ struct Instant {
   double friction;  ///< work [J/m²]
 };
 
-// Cycles of opening, closing and reopening, and sliding with friction. The values belong to continuous time; 40,000
-// steps per leg are within 1e-6 of the strength, and 1e-5 where a crack shuts or slides again.
+// Cycles of opening, closing and reopening, and sliding with friction. The expected values are computed in continuous
+// time. With 40,000 steps per leg the stresses differ by 1e-6 of the strength, or by 1e-5 after a crack has shut or has
+// begun to slide again.
 TEST(Crack, ClosingReopeningAndFrictionHaveTheirValues) {
   const auto run = [](Point point, const std::vector<Leg>& legs, const std::vector<std::array<double, 3>>& right) {
     for (std::size_t i = 0; i < legs.size(); ++i) {
@@ -417,7 +418,8 @@ void expect_reference(const L& law, unsigned seed) {
     reference.point(area, d, dt, increment, chains);
     const double scale[3] = {area / d, law.alpha * area / d, law.alpha * area / d};
     const double strength = law.crack.shear_strength * area;
-    // Both store stresses that differ from those of the shut crack, of up to 1e2 strengths, and add up roundings
+    // Law and reference implementation both store differences from the stresses of the shut crack. These stresses reach
+    // 1e2 times the strength, and their rounding errors add up.
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(scale[c] * state[c][0], chains[c].force, 1e-9 * strength) << c;
     ASSERT_NEAR(state[0][2], chains[0].stretch[1], 1e-11 * std::max(1e-6, state[0][2]));
     open += state[0][1] > 0, shut += state[0][2] > 0 && state[0][1] == 0, grew += state[0][2] > before;

@@ -139,8 +139,9 @@ inline std::uint64_t hash(const std::string& text) {
   return out;
 }
 
-/// Returns the form in which a content is recorded. Up to 12 numbers are kept as they are. Of a longer list, the count,
-/// the sum, the sum with increasing weights and the sum of absolute values are kept. A long text is kept as its hash.
+/// Returns the form in which a content is recorded. Up to 12 numbers are kept as they are. For a longer list, the
+/// count, the sum, the sum with increasing weights and the sum of absolute values are kept. A long text is kept as its
+/// hash.
 inline nlohmann::ordered_json digest(const Content& content) {
   nlohmann::ordered_json out;
   std::string bare;

@@ -68,7 +68,7 @@ void compare(double rate, const std::vector<Known>& known, double peak) {
     }
     EXPECT_NEAR(stress(q) / 1e6, want.stress, 1e-4 * peak) << want.strain;
   }
-  // forces are out of balance by 1e-9 at most
+  // forces are out of balance by 1e-10 at most
   EXPECT_LT(q.energies().imbalance(), 1e-9);
   EXPECT_LT(q.energies().increment_error(), 1e-3);
 }

@@ -15,7 +15,8 @@ namespace {
 /// Returns a scene whose pair has the lines `law` and the key `crack` with these values.
 std::string with_crack(const std::string& values, const std::string& pair = "M-M",
                        const std::string& law = "law = \"elastic\"\nE = 1e10\nalpha = 0.1\n") {
-  return "[specimen]\nfile = \"balls.csv\"\nbox = [0.01, 0.01, 0.01]\n[materials.mastic]\ndensity = 2000\n"
+  return "[specimen]\nbox = [0.01, 0.01, 0.01]\nmastic = { radius = [0.001, 0.001], porosity = 0.05 }\n"
+         "[materials.mastic]\ndensity = 2000\n"
          "[[contacts]]\npair = \"" +
          pair + "\"\n" + law + "crack = { " + values +
          " }\n[loading]\nkind = \"cyclic\"\nfrequencies = [1.0]\n[solver]\nmethod = \"explicit\"\n";

@@ -84,7 +84,7 @@ TEST(GeneratedCylinder, SpheresLieInside) {
   const GeneratedWithCells made = generate_with_cells(small_mix(domain, 2), {});
   EXPECT_STREQ(made.made.specimen.box.name(), "cylinder");
   expect_inside(made);
-  // 5 % porosity: the mastic is reached up to one sphere, and the amount refers to the volume of the cylinder
+  // with 5 % porosity, the spheres fill 95 % of the volume of the cylinder, to within one sphere of mastic
   double solid = 0;
   for (const double r : made.made.specimen.radius) solid += 4 * std::numbers::pi / 3 * r * r * r;
   EXPECT_NEAR(solid / domain.volume(), 0.95, 4 * std::numbers::pi / 3 * 1e-9 / domain.volume());

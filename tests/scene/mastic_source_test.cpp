@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mastic_source_test.cpp  Tests `from` in [materials.mastic]: the law that follows from another scene's specimen, the
-// kept result, other files with a law, and what is refused. Tests also the ranges of laws.
+// stored result, other files with a law, and refused files. Also tests the ranges of laws.
 #include <cmath>
 #include <numbers>
 

@@ -62,7 +62,7 @@ class SceneRecipe : public testing::Test {
   fs::path folder_;
 };
 
-/// The expected numbers are computed by hand in recipe_test.cpp, test DensitiesASizeAndAbsorbedBinderByHand.
+/// The expected numbers are derived in recipe_test.cpp, test DensitiesASizeAndAbsorbedBinderByHand.
 TEST_F(SceneRecipe, GivesClassesPorosityAndDensities) {
   const Scene s = scene();
   ASSERT_TRUE(s.recipe);

@@ -26,8 +26,8 @@ double computed_limit(const TestScene& scene, const StepperOptions& options = {}
 Laws elastic_laws() { return same_law(laws::Elastic{3e10, 0.3}); }
 
 /// Returns the same contacts with other points: the midpoints of the sides of every triangle of the fan, each with a
-/// third of the triangle's area. This quadrature is exact for second moments, so stiffnesses of the points equal those
-/// of the polygon.
+/// third of the triangle's area. This quadrature is exact for second moments, so the stiffnesses of the points equal
+/// the stiffnesses of the polygon.
 ContactNetwork with_exact_points(const ContactNetwork& network) {
   ContactNetwork out = network;
   out.point_s.clear(), out.point_t.clear(), out.point_area.clear();

@@ -177,8 +177,8 @@ TEST_P(StepperWithRockInSeries, OfNoComplianceStepsLikeNone) {
   EXPECT_LT(relative_difference(with->particles().force, without->particles().force), tolerance);
 }
 
-/// Particle B of a pair opens and slips at constant velocity v. The forces of a spring k are k·v·t, those of a Maxwell
-/// unit C·v·(1 − exp(−k·t/C)), where k is the stiffness of the law's spring in series with the rock.
+/// Particle B of a pair opens and slips at constant velocity v. The force of a spring k is k·v·t, and the force of a
+/// Maxwell unit is C·v·(1 − exp(−k·t/C)), where k is the stiffness of the law's spring in series with the rock.
 TEST_P(StepperWithRockInSeries, FollowsTheClosedFormOfASingleContact) {
   PairShape shape;
   shape.mass_a = shape.mass_b = 1e15;  // the forces do not change the velocities

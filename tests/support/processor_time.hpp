@@ -23,7 +23,7 @@ inline double processor_seconds() {
   return of(RUSAGE_SELF) + of(RUSAGE_CHILDREN);
 }
 
-/// Returns the processor time of 10⁸ multiplications that follow one another [s], the least of three measurements. A
+/// Returns the processor time of 10⁸ multiplications that follow one another [s], the shortest of three measurements. A
 /// processor of 3 GHz takes about 0.1 s.
 inline double seconds_of_a_unit() {
   double least = 1e300;

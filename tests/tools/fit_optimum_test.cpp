@@ -198,8 +198,7 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   EXPECT_NO_THROW(fit_modulus(data, options)) << "one isotherm needs no shift";
 }
 
-/// If the temperature rises steadily, there are no isotherms. So a free shift is refused, and a shift law can be
-/// fitted.
+/// A temperature that rises steadily gives no isotherms. So a free shift is refused, and a shift law can be fitted.
 TEST(FitOptimum, ARampOfTemperatureTakesAShiftLaw) {
   std::vector<double> ramp;
   for (int i = 0; i <= 100; ++i) ramp.push_back(0.4 * i);

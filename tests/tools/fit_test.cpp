@@ -245,7 +245,7 @@ TEST(Fit, AChainStandsForAnAnalogueWithinTheStatedError) {
   std::vector<int> units;
   for (const auto& [model, error] : {std::pair{mixture, 0.03}, {mixture, 0.003}, {fluid, 0.01}, {huet, 0.01}}) {
     const KelvinConversion conversion = to_kelvin(model, 1e-3, 1e3, error);
-    double largest = 0;  // evaluated at ten times as many frequencies as the conversion checks
+    double largest = 0;  // evaluated at ten times the number of frequencies that the conversion checks
     for (const double f : frequencies(1e-3, 1e3, 6001)) {
       const std::complex<double> exact = model.stiffness(s_of(f));
       largest = std::max(largest, std::abs(conversion.law.stiffness(s_of(f)) - exact) / std::abs(exact));
@@ -332,7 +332,8 @@ TEST(Fit, AnElasticSpringIsAChainWithoutUnits) {
   EXPECT_NEAR(law.E_m, 1e10, 1e2);
 }
 
-// The points are those of a chain, so only the difference that the function allows is left.
+// The points of the curve are computed from a chain, so the fitted chain differs only by the difference that the
+// function allows.
 TEST(Fit, AChainStandsForACurve) {
   laws::GeneralisedKelvin law;
   law.E_m = 6e9, law.C_m = 1.3e9, law.E = {2e8, 5e9}, law.C = {5e9, 1e8};

@@ -78,8 +78,8 @@ void add_new_command(CLI::App& app) {
   add_choice(command, "--test", arguments->test, "the test of the specimen", tests);
   add_choice(
       command, "--rule", arguments->rule,
-      "a contact law for each pair of materials, or laws of mastic and rock from which all contacts follow, without "
-      "or with their Poisson's ratios",
+      "laws of the scene: for each pair of materials (centres), for mastic and rock, from which the stiffness of all "
+      "contacts follows (series), or for mastic and rock with their Poisson's ratios (volumetric)",
       {{"centres", ContactRule::centres}, {"series", ContactRule::series}, {"volumetric", ContactRule::volumetric}});
   command.add_flag("--cracks", arguments->cracks,
                    "contacts between particles crack, for a strength test (--test monotonic)");

@@ -71,7 +71,7 @@ void say_results(const ScanPhases& phases, const std::vector<PointModulus>& resu
   }
   say("The values are extrapolated to small elements. +- estimates the error of this extrapolation; it is not a bound, "
       "and does not include errors of the scan and of the laws.\n");
-  if (fewer) say("* without the smallest elements\n");
+  if (fewer) say("* computed without the smallest elements\n");
 }
 
 void modulus(const CtModulusArguments& arguments) {
@@ -127,7 +127,8 @@ void modulus(const CtModulusArguments& arguments) {
 
 void add_ct_modulus(CLI::App& ct) {
   const auto arguments = std::make_shared<CtModulusArguments>();
-  CLI::App& command = *ct.add_subcommand("modulus", "compute the modulus of a scan without its grains");
+  CLI::App& command =
+      *ct.add_subcommand("modulus", "compute the modulus of a segmented scan without separating its grains");
   add_text(command, "folder", arguments->folder,
            "folder that macadam ct segment wrote, or the subfolder \"truth\" of a folder that macadam ct phantom wrote",
            "FOLDER")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_modulus.hpp  macadam ct modulus: computes the modulus of a segmented scan without its grains.
+/// \file ct_modulus.hpp  macadam ct modulus: computes the modulus of a segmented scan without separating its grains.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -65,7 +65,7 @@ void convert(const FitArguments& arguments) {
   say("files in {}: law.toml\n", arguments.out);
 }
 
-/// Writes the chain that stands for a computed curve.
+/// Writes the Kelvin chain that approximates a computed curve of moduli.
 void stand_for(const ModulusData& curve, const std::string& out) {
   const FitReport report = report_of(chain_of_curve(curve), curve);
   write_report(out, report);
@@ -139,8 +139,8 @@ void add_fit_command(CLI::App& app) {
              "highest frequency of the Kelvin chain [Hz]; default: the highest measured frequency", 1e-15, 1e15);
   add_number(command, "--error", arguments->error, "largest relative error of the Kelvin chain's |E*|", 1e-6, 0.5);
   command.add_flag("--curve", arguments->curve,
-                   "the moduli are a computed curve, such as sweep.csv: write only the Kelvin chain of up to 16 units "
-                   "that stands for it, by way of a 2S2P1D model or directly");
+                   "treat the moduli as a computed curve, such as sweep.csv, and write only a Kelvin chain of up to 16 "
+                   "units that approximates this curve, fitted to a 2S2P1D model of the curve or to its points");
   const std::string model = "The model", temperatures = "Temperatures", chain = "The Kelvin chain of another model";
   for (const char* name : {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson"})
     command.get_option(name)->group(model);

@@ -53,7 +53,7 @@ struct Outcome {
   std::exception_ptr error;
 };
 
-/// Returns the changes made on reading, in words; empty if there are none.
+/// Returns the changes made on reading, in words; empty for a surface that was not changed.
 std::string reading_note(const Surface& surface) {
   return surface.reading.empty() ? "" : "on reading: " + surface.reading;
 }

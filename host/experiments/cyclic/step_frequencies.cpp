@@ -34,7 +34,7 @@ using experiments::SteppedFrequency;
 
 namespace {
 
-/// The fraction of the tolerance that the error of stepping in blocks may reach. Within a block of steps the
+/// The fraction of the tolerance that the error of stepping in blocks may reach. During a block of steps the
 /// viscoelastic states of the contacts are not updated.
 constexpr double block_share = 0.02;
 /// Number of times per cycle at which broken contact points are counted. Reading them takes longer than a step.

@@ -46,8 +46,8 @@ CycleCount count_cycles(const Scene& scene, Start start);
 /// Returns the number of cycles of the ramp from rest if the scene gives none.
 double usual_ramp(const Scene& scene);
 
-/// Returns the density scaling of a frequency if `density_scaling` or `time_step` of the scene determines it, or 1 if
-/// there is no tolerance. Returns nothing if the scaling must be chosen from the error of inertia. `critical`: the
+/// Returns the density scaling of a frequency if `density_scaling` or `time_step` of the scene determines it, or 1 in a
+/// scene without a tolerance. Returns nothing if the scaling must be chosen from the error of inertia. `critical`: the
 /// critical step at true mass [s].
 std::optional<double> given_scaling(const Scene& scene, std::size_t frequency, double critical);
 

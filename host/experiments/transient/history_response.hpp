@@ -15,7 +15,8 @@ namespace macadam {
 /// the convolution of ε̇ with an exponential, which has a closed form for each wave of each piece.
 class HistoryResponse {
  public:
-  /// `pieces`: at least one; the first begins at 0, each other one at the end of the one before.
+  /// `pieces`: at least one piece. The first piece begins at time 0, and every other piece at the end of its
+  /// predecessor.
   explicit HistoryResponse(std::vector<drives::RatePiece> pieces);
 
   /// Returns the strain at a time [s]; after the last piece it is constant.

@@ -212,7 +212,7 @@ LoadErrors::Parts LoadErrors::estimated(const SteppedPoint& row, const std::vect
 
 /// Returns the estimated error of a row of a strain history, relative to the largest stress so far: the difference
 /// between the stresses on the two walls, plus the largest change of the stress within the time by which the particles
-/// are late. The stress is taken to change in the time in which the strain does.
+/// lag behind the wall. The estimate assumes that the stress changes as fast as the strain.
 double LoadErrors::estimated_of_history(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {
   const double stress = largest_of(row, before, [](const SteppedPoint& p) { return p.stress_pa; });
   const double strain = largest_of(row, before, [](const SteppedPoint& p) { return p.strain; });

@@ -64,7 +64,7 @@ LoadDamping damping_of(const TransientExperiment& test, const SolverSpec& solver
   LoadDamping out{solver.damping_kind, solver.damping};
   if (solver.damping_given) return out;
   if (starts_in_motion(test, laws)) {
-    constexpr double against_sliding = 0.05;  // takes less than a thousandth of the work
+    constexpr double against_sliding = 0.05;  // this damping takes less than a thousandth of the work
     const bool compresses = test.strain.value_or(0) < 0;
     return compresses ? LoadDamping{Damping::local, against_sliding} : LoadDamping{};
   }

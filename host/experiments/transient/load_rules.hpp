@@ -25,8 +25,8 @@ struct LoadDamping {
   double pause = 0;       ///< shortest time from a change of the load's rate to the next point of the result [s]
 };
 
-/// Returns whether the test begins with the velocities of its strain rate, so that its start causes no waves: a
-/// strength test of contacts that crack, because such waves would change the strength.
+/// Returns whether the test begins with the velocities of its strain rate, so that its start causes no waves. Strength
+/// tests of contacts that crack begin in this way, because waves would change the strength.
 bool starts_in_motion(const TransientExperiment& test, const FactsTable& laws);
 
 /// Returns the damping of the scene. If it gives none, returns the weakest viscous damping with which waves have died

@@ -10,10 +10,11 @@
 namespace macadam {
 namespace {
 
-constexpr double range = 0.25;  ///< part of the peak's strain to each side that is fitted
+/// The fit covers strains up to this fraction of the peak's strain on each side of the peak.
+constexpr double range = 0.25;
 constexpr std::size_t least_samples = 20;
 constexpr double most_deviation = 0.02;  ///< root mean square, divided by the peak
-constexpr double covered = 0.9;          ///< part of the range to each side that the samples must reach
+constexpr double covered = 0.9;          ///< fraction of the range on each side that must contain samples
 
 /// Fits the stress around `strain`, tension and compression both positive.
 std::optional<experiments::FittedPeak> fit_around(std::span<const StressSample> samples, double sign, double strain) {

@@ -21,7 +21,8 @@ struct StressSample {
 std::optional<experiments::FittedPeak> fit_peak(std::span<const StressSample> samples, const experiments::Peak& peak);
 
 /// Returns the vertex of the parabola through the sample with the largest stress in the direction of the load and its
-/// two neighbours, for a stress without vibrations. Empty if there are no such samples.
+/// two neighbours, for a stress without vibrations. Empty if the sample with the largest stress has no neighbour on one
+/// of its sides.
 std::optional<experiments::FittedPeak> interpolate_peak(std::span<const StressSample> samples);
 
 }  // namespace macadam

@@ -13,11 +13,11 @@
 namespace macadam {
 namespace {
 
-/// Number of units in a test, if its times do not ask for more.
+/// Smallest number of units of time in a test. Its points or its ramp may require more.
 constexpr double units_of_test = 1e6;
-/// Number of units before the first point of the result, and in a ramp.
+/// Smallest numbers of units of time before the first point of the result, and in a ramp.
 constexpr double units_before_first = 1e4, units_of_ramp = 1e3;
-/// A first increment is this part of a test whose load grows.
+/// In a test whose load grows, the first increment is this fraction of the test.
 constexpr double first_increment = 2e-4;
 
 bool is_sudden(const TransientExperiment& test) { return !test.grows && test.when.ramp == 0; }
@@ -57,8 +57,8 @@ LoadPlan make_quasi_static_plan(const TransientExperiment& test, const Scene& sc
   decide(fmt::format("increments are chosen so that the error of the {} stays below {:g} of its largest value; {}",
                      test.by_stress ? "strain" : "stress", scene.solver.tolerance.value_or(1e-3),
                      6 * prepared.specimen.size() <= QuasiStaticOptions{}.direct_below
-                         ? "their linear systems are factored"
-                         : "their linear systems are solved by iterations"));
+                         ? "the linear systems of the increments are solved by factorisation"
+                         : "the linear systems of the increments are solved by iterations"));
   return plan;
 }
 
@@ -86,7 +86,7 @@ quasi_static::CourseOptions course_options(const TransientExperiment& test, cons
   double begin = first_increment * static_cast<double>(end);
   if (!test.grows) begin = std::min(begin, 0.02 * plan.ramp / plan.dt);
   out.first = is_sudden(test) ? 1 : std::max<std::int64_t>(1, std::llround(begin));
-  // large systems are solved by iterations, whose last digits cost as much as the first
+  // large systems are solved by iterations, and every digit of the solution costs the same time
   if (6 * prepared.specimen.size() > out.solver.direct_below)
     out.solver.residual = std::min(1e-6, 1e-3 * out.tolerance);
   return out;

@@ -34,8 +34,8 @@ namespace {
 /// If a run has more steps than this or is predicted to take more seconds than this, the user is warned.
 constexpr std::int64_t many_steps = 100'000'000;
 constexpr double many_seconds = 3600;
-/// Number of times at which a strength test reads the stress, and a test with cracks the work of the walls, evenly
-/// spaced over its steps.
+/// Number of steps, evenly spaced over a run, at which a strength test reads the stress, and at which a test with
+/// cracks adds up the work of the walls.
 constexpr std::int64_t peak_samples = 10'000;
 
 /// Returns the mean density of the specimen's box, including the density scaling [kg/m³].
@@ -202,7 +202,8 @@ class SteppedLoad : public PlannedExperiment {
   bool owns_checkpoint() const override { return owns_checkpoint_; }
 
  private:
-  /// Gives the particles the velocities of a uniform strain rate, whose upper end is the velocity of the top wall.
+  /// Gives the particles the velocities of a uniform strain rate: zero at the bottom wall, and the velocity of the top
+  /// wall at the top.
   void set_in_motion() {
     const std::vector<Vec3d>& centre = prepared_.specimen.centre;
     std::vector<Vec3d> velocity(centre.size()), spin(centre.size());
@@ -262,9 +263,8 @@ class SteppedLoad : public PlannedExperiment {
   }
 
   /// Counts the contact points that are broken at a sample, sums the energies, and returns the events since the last
-  /// sample. Under tension
-  /// the test ends when no path of intact contacts joins the walls. In compression broken points still bear load, so
-  /// the test goes on.
+  /// sample. Under tension the test ends when no path of intact contacts joins the walls. In compression broken points
+  /// still bear load, so the test goes on.
   std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
     if (!cracks_.active()) return {};
     ContactState state = read_contact_state(scene_, *stepper_, prepared_.network);
@@ -382,10 +382,9 @@ class SteppedLoad : public PlannedExperiment {
     const quasi_static::CourseReport& report = quasi_static_->report();
     if (report.unstable) {
       warnings.push_back(fmt::format(
-          "from t = {:.6g} s and a strain of {:.6g} on ({:.4g} MPa) no equilibrium was found at a larger displacement "
-          "of "
-          "the wall; {} increments were controlled by the opening of cracks, so that the strain may decrease there. A "
-          "test that prescribes the strain drops suddenly at this strain",
+          "after t = {:.6g} s (strain {:.6g}, {:.4g} MPa) no equilibrium was found at a larger displacement of the "
+          "wall; {} increments were controlled by the opening of cracks, so that the strain may decrease in them. In a "
+          "test that prescribes the strain, the stress drops suddenly at this strain",
           report.unstable->time_s, report.unstable->strain, report.unstable->stress_pa / 1e6, report.by_opening));
     }
     if (report.loose > 0) {
@@ -427,7 +426,8 @@ std::unique_ptr<PlannedExperiment> plan_load_steps(const TransientExperiment& te
     if (at.checksum != test.checksum) {
       throw InputError(
           resumed->file.string(), 0, "file in [loading]", fmt::format("a load with the checksum {:08x}", at.checksum),
-          fmt::format("{:08x}, because a run continues only with the load with which it began", test.checksum));
+          fmt::format("the checksum {:08x}, because a run continues only with the load with which it began",
+                      test.checksum));
     }
   } else {
     at.checksum = test.checksum;

@@ -46,7 +46,7 @@ bool passed_peak(const SteppedResponse& found) {
 
 bool measures_strength(const SteppedResponse& found) { return found.peak && !found.points.empty(); }
 
-/// Returns strain and stress of the peak: of the polynomial that fits it, if there is one.
+/// Returns strain and stress of the peak, taken from the polynomial that was fitted around it, if there is one.
 experiments::FittedPeak peak_of(const SteppedResponse& found) {
   return found.fitted.value_or(experiments::FittedPeak{found.peak->strain, found.peak->stress_pa, 0});
 }
@@ -60,12 +60,13 @@ std::string strength_words(const SteppedResponse& found) {
                                 found.peak->time_s, passed_peak(found) ? "" : "; the strength was not reached");
   if (found.fitted && found.increments) {
     out += fmt::format(
-        "the strength is that of a parabola through three increments; the largest stress at the end of "
-        "an increment is {:.6g} MPa\n",
+        "the strength is the vertex of a parabola through three increments; the largest stress at the end of an "
+        "increment is {:.6g} MPa\n",
         found.peak->stress_pa / 1e6);
   } else if (found.fitted) {
-    out += fmt::format("the strength is that of a cubic fit around the peak; the largest single stress is {:.6g} MPa\n",
-                       found.peak->stress_pa / 1e6);
+    out += fmt::format(
+        "the strength is the maximum of a cubic fit around the peak; the largest single stress is {:.6g} MPa\n",
+        found.peak->stress_pa / 1e6);
   }
   return out;
 }
@@ -84,7 +85,7 @@ std::string energy_words(const SteppedResponse& found) {
       e.work_j, e.crack_j, e.friction_j, e.viscous_j, e.elastic_j, e.kinetic_j,
       found.damping_kind == Damping::none ? "" : fmt::format(", damping {:.4g}", e.damping_j),
       error ? fmt::format("the balance has an error of {:.1e} of the work", *error)
-            : "the balance has no error to report, because damping or an unknown energy is its remainder");
+            : "the error of the balance is unknown, because the run has damping or an unknown energy");
 }
 
 void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {

@@ -51,8 +51,8 @@ struct TransientExperiment {
   /// Returns the load as a drive, [m] or [N]. `unit`: the displacement at a strain of 1, or the force at a stress of 1
   /// Pa. `dt` and `ramp`: time step and ramp of the run.
   std::function<std::shared_ptr<const Drive>(double unit, double dt, double ramp)> drive;
-  /// Returns a time step, at most `largest`, of which the durations of the load are whole numbers [s]. Empty: the time
-  /// step divides the ramp.
+  /// Returns a time step of at most `largest` [s] that divides the durations of the load. If this function is empty,
+  /// the time step divides the ramp.
   std::function<double(double largest)> step = {};
   /// Checksum of a load that is read from a file of its own; a run is resumed only with the same load.
   std::uint32_t checksum = 0;
@@ -71,7 +71,7 @@ TransientExperiment load_test_of(const Scene& scene);
 /// Names and units of the numbers in the results of one kind of test.
 struct LoadWords {
   const char *kind, *file;
-  const char* ratio;    ///< the name of ResponsePoint::ratio in files; null if files do not have it
+  const char* ratio;    ///< the name of ResponsePoint::ratio in files; null if files have no such column
   const char* comment;  ///< comment in the file of a run without time steps
   bool stress_first;    ///< whether the column of the stress comes before the column of the strain
   const char* shown;    ///< name of the ratio in printed text, with its unit; null: not printed

@@ -63,7 +63,7 @@ double relative_change(double before, double after) { return (after - before) / 
 class Repair {
  public:
   /// `as` is the file from which the surface will be read later; its format determines how coordinates are rounded.
-  /// `as` is empty if there is no such file.
+  /// `as` is empty if the surface will not be read from a file.
   Repair(const Surface& surface, const std::filesystem::path& as) : surface_(surface), as_(as) {}
 
   /// Returns the repaired surface. \throws RunError if neither mending nor wrapping gives a good surface.

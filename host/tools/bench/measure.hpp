@@ -37,7 +37,7 @@ struct BenchRow {
   std::int64_t iterations = 1;  ///< steps per repetition
   int threads = 1;
   std::vector<std::pair<std::string, double>> counters;
-  double of(const std::string& counter) const;  ///< value of a counter; 0 if the row does not have it
+  double of(const std::string& counter) const;  ///< value of a counter; 0 if the row has no such counter
 };
 
 /// Bandwidths for comparison, measured before the rows.

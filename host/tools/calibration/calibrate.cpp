@@ -98,8 +98,8 @@ class Calibrator {
     return laws;
   }
 
-  /// A prediction with its residuals and their derivatives. The residuals of the measurements come first, those of the
-  /// priors last.
+  /// A prediction with its residuals and their derivatives. The residuals of the measurements come first, the residuals
+  /// of the priors last.
   struct State {
     std::vector<double> theta;  ///< logarithms of the free parameters
     std::vector<Predicted> predicted;
@@ -154,7 +154,7 @@ class Calibrator {
     return state_of(theta, specimens.estimate(laws_at_theta(theta), free_));
   }
 
-  /// Solves at `theta`. If there is no solution, halves the distance to `good` and tries again, up to five times.
+  /// Solves at `theta`. If no solution is found, halves the distance to `good` and tries again, up to five times.
   State solved_near(Specimens& specimens, std::vector<double> theta, const State& good) {
     constexpr int halvings = 5;
     for (int i = 0;; ++i) {

@@ -35,7 +35,7 @@ class Specimens {
   Specimens(const Scene& scene, const ModulusData& data, int seeds, const Watcher& watcher);
 
   /// Returns E* of every measurement with the given laws, from solutions in the frequency domain. The motions of the
-  /// solutions are kept for estimate(). \throws RunError if there is no solution; InterruptedError; InputError for a
+  /// solutions are kept for estimate(). \throws RunError if no solution is found; InterruptedError; InputError for a
   /// parameter that has no effect in the specimen.
   std::vector<Predicted> solve(const LawTable& laws, const std::vector<Parameter>& free);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chain_of_curve.cpp  Finds a Kelvin chain that stands for a computed curve of moduli.
+// chain_of_curve.cpp  Finds a Kelvin chain that approximates a computed curve of moduli.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace macadam {
 namespace {
 
-/// Allowed errors of a chain that replaces a 2S2P1D model, from the first to the last.
+/// Errors allowed for a chain that replaces a 2S2P1D model. They are tried in this order.
 constexpr double allowed[] = {0.01, 0.02, 0.05};
-/// Largest difference from the curve with which such a chain is taken without a direct fit.
+/// If such a chain differs from the curve by at most this fraction, no chain is fitted to the points.
 constexpr double good = 0.02;
 
 double largest_difference(const laws::GeneralisedKelvin& law, const ModulusData& curve) {

@@ -11,7 +11,7 @@
 namespace macadam {
 
 /// The region that a specimen fills: a shape inscribed in an axis-aligned bounding box with one corner at the origin.
-/// The axis z is the loading axis. `Domain{{Lx, Ly, Lz}}` is a box. The questions are described at
+/// The axis z is the loading axis. `Domain{{Lx, Ly, Lz}}` is a box. The functions are described at
 /// domains::DomainShape.
 struct Domain {
  private:
@@ -42,7 +42,7 @@ struct Domain {
   double signed_distance(const Vec3d& p) const {
     return ask([&](const auto& s) { return s.signed_distance(size, p); });
   }
-  /// Returns whether a point lies inside or on the surface. A point that is not finite does not.
+  /// Returns whether a point lies inside or on the surface; false for a point that is not finite.
   bool contains(const Vec3d& p) const {
     const bool in_bounds =
         p.x >= 0 && p.x <= size.x && p.y >= 0 && p.y <= size.y && p.z >= 0 && p.z <= size.z;  // false for NaN
@@ -56,7 +56,7 @@ struct Domain {
   std::vector<domains::Plane> side_planes() const {
     return ask([&](const auto& s) { return s.side_planes(size); });
   }
-  /// Returns the area of a wall in the tessellation [m²], by wall_index(); 0 if there is no such wall.
+  /// Returns the area of a wall in the tessellation [m²], by wall_index(); 0 for an index without a wall.
   double wall_area(int k) const {
     return ask([&](const auto& s) { return s.wall_area(size, k); });
   }

@@ -20,7 +20,8 @@ struct Plane {
 /// How far a sphere reaches beyond the surface of a domain.
 struct Overlap {
   Vec3d push{};     ///< sum over the walls of depth times inward normal [m]
-  Vec3d squares{};  ///< sums of squared depths [m²]; their sum is what the energy of the overlap is made of
+  Vec3d squares{};  ///< squared depths, summed over the walls along each axis [m²]; the energy of the overlap is
+                    ///< proportional to their sum
 };
 
 /// A shape inscribed in a bounding box, whose edge lengths are `size` [m] and whose one corner is the origin. Loads act
@@ -29,7 +30,7 @@ struct Overlap {
 /// - `section_area(size)`: area of the section perpendicular to z [m²], the same at every z;
 /// - `signed_distance(size, p)`: distance of a point from the surface [m], negative inside;
 /// - `inside_sides(size, p, inset)`: whether a point of the bounding box is at least `inset` [m] from every curved
-/// side;
+///   side;
 /// - `side_planes(size)`: planes that represent the curved sides in the tessellation, with outward normals, one after
 ///   the other around the axis; none for a shape with flat walls. Their prism has exactly the area section_area();
 /// - `wall_area(size, k)`: area of the wall with the index k (wall_index()) in the tessellation [m²]; 0: no such wall;

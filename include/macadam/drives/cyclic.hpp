@@ -79,7 +79,8 @@ struct CyclicSpec {
     const std::int64_t steps = std::llround(1 / (frequency * dt));
     return std::make_shared<Cyclic>(unit * strain, frequency, steps, std::llround(ramp / dt));
   }
-  /// Within the ramp, r = ½·(1 − cos κt) with κ = π/ramp, so that −A·r·sin ωt is a sum of three sines.
+  /// During the ramp, the amplitude is A·r with r = ½·(1 − cos κt) and κ = π/ramp, so that −A·r·sin ωt is a sum of
+  /// three sines.
   std::vector<RatePiece> pieces(double duration) const {
     const double w = 2 * std::numbers::pi * frequency;
     std::vector<RatePiece> out;

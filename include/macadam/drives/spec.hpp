@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file spec.hpp  Defines the contract of a drive's description: what a scene says about the strain of the top wall
-/// over time, without a time step.
+/// \file spec.hpp  Defines the contract of a drive's description: the values that a scene gives for the strain of the
+/// top wall over time. A description does not depend on the time step.
 ///
 /// Every drive of all.hpp has a description, for example HaversineSpec beside Haversine. A description is a plain
 /// struct of strains (tension positive) and times, with
@@ -8,16 +8,14 @@
 ///   - `template <class F> void each_key(F&& f)` — calls f(key, member, ValueKind, ValueNeed, text) for each value that
 ///     a scene may set: a double, an optional double or whole number (empty: until the end of the test), a bool, or a
 ///     list of doubles. Two drives that have a key with the same name must have the same type and ValueKind for it;
-///   - `std::optional<SpecFault> fault(double duration) const` — reports values that do not fit together, or that do
-///   not
-///     fit the duration of the test [s];
+///   - `std::optional<SpecFault> fault(double duration) const` — reports values that do not fit together
+///     or do not fit the duration of the test [s];
 ///   - `StrainRange range(double duration) const` — the smallest and the largest strain until then;
 ///   - `double shortest_time(double duration) const` — the shortest time in which the strain changes much [s];
 ///   - `double step(double largest, double duration) const` — the time step for a run [s], at most `largest`. The
 ///     durations of the drive are whole numbers of such steps, if possible;
-///   - `std::shared_ptr<const Drive> drive(double unit, double dt, double duration) const` — the drive with time step
-///   dt
-///     [s]. `unit`: the displacement at a strain of 1 [m];
+///   - `std::shared_ptr<const Drive> drive(double unit, double dt, double duration) const` — the drive for steps of
+///     `dt` [s]. `unit`: the displacement at a strain of 1 [m];
 ///   - `std::vector<RatePiece> pieces(double duration) const` — the strain rate as a sum of sines, piece by piece, from
 ///     which the response of a linear specimen follows in closed form.
 #pragma once
@@ -53,7 +51,7 @@ struct StrainRange {
   double lowest, highest;
 };
 
-/// A part of a strain rate, Re(amplitude·e^(i·omega·u)), at the time u since the beginning of its piece. With omega = 0
+/// A part of a strain rate: Re(amplitude·e^(i·omega·u)) at the time u after the beginning of the piece. With omega = 0
 /// the rate is constant.
 struct RateWave {
   std::complex<double> amplitude;  ///< [1/s]
@@ -66,7 +64,7 @@ struct RatePiece {
   std::vector<RateWave> waves;
 };
 
-/// Most pieces that a history may have.
+/// Largest number of pieces of a history.
 inline constexpr double most_pieces = 1e6;
 
 /// Appends a piece that is cut off at `duration`. Returns whether the next piece would begin before `duration`.
@@ -76,9 +74,9 @@ inline bool append_piece(std::vector<RatePiece>& pieces, double end, double dura
   return end < duration;
 }
 
-/// Returns the largest time step, at most about `largest`, of which the first of `durations` is a whole number. If a
-/// step shorter by at most a tenth also divides the other durations, returns this step; otherwise the step whose
-/// rounding of the other durations is smallest. Durations of 0 do not matter.
+/// Returns a time step that divides the first of `durations` and is at most about `largest`. Among the steps down to a
+/// tenth shorter than the largest possible one, returns the largest step that also divides the other durations or, if
+/// no step does, the step for which the other durations must be rounded least. Durations of 0 are ignored.
 inline double dividing_step(std::initializer_list<double> durations, double largest) {
   const double first = *durations.begin();
   const double fewest = std::ceil(first / largest), most = std::min(fewest + 1000, 1.1 * fewest + 1);

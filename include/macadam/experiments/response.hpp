@@ -59,13 +59,16 @@ struct FittedPeak {
 
 /// The increments of a test by method "quasi_static".
 struct Increments {
-  std::int64_t increments = 0, rejected = 0, systems = 0;  ///< accepted, repeated; linear systems solved
-  double error = 0;                                        ///< sum of the estimated errors, as SteppedPoint::error
-  double imbalance = 0;                                    ///< error of the balance of energies (energy_error)
-  /// Difference between the energy of cracks by their states and by the work of their stresses, over all energy.
+  /// Numbers of accepted increments, of increments that were repeated with a shorter length, and of linear systems.
+  std::int64_t increments = 0, rejected = 0, systems = 0;
+  double error = 0;      ///< sum of the estimated errors, as SteppedPoint::error
+  double imbalance = 0;  ///< error of the balance of energies (energy_error)
+  /// Difference between the crack energy computed from the states of the cracks and the work of their stresses, divided
+  /// by the sum of all energies.
   double increment_error = 0;
-  std::int64_t loose = 0, by_opening = 0;  ///< particles without stiffness; increments controlled by opening
-  std::optional<Peak> unstable = {};       ///< the state after which the test was controlled by opening
+  /// Largest number of particles without stiffness, and number of increments controlled by the opening of cracks.
+  std::int64_t loose = 0, by_opening = 0;
+  std::optional<Peak> unstable = {};  ///< the state after which the test was controlled by opening
 };
 
 /// Result of methods "explicit" and "quasi_static".

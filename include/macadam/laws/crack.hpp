@@ -132,7 +132,7 @@ struct SofteningCurve {
       return S(strength * strength / slope) * (-expm1(-z) - S(R(0.5)) * z * exp(-z));
     }
     if (kind == Softening::brittle) return S(0);
-    const S half(R(0.5)), before = select(y < S(kink), y, S(kink));  // part of y before the kink, and behind it
+    const S half(R(0.5)), before = select(y < S(kink), y, S(kink));  // parts of y before and behind the kink
     const S t_before = S(strength) - S(slope) * before;
     const S behind = select(y < S(kink), S(0), select(y < S(end), y, S(end)) - before);
     const S t = t_before - S(slope_end) * behind;

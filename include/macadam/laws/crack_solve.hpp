@@ -15,7 +15,7 @@ struct CrackOpenings {
   S largest;  ///< y, the largest effective opening so far [m]; 0: intact
 };
 
-/// Stresses at the end of a step [Pa], and two stresses that the energies need.
+/// Stresses at the end of a step [Pa], and two more stresses from which energies are computed.
 template <class S>
 struct CrackStresses {
   S normal, shear[2];
@@ -28,8 +28,7 @@ inline constexpr int passes_of_step = 4;
 /// Largest number of passes in a quasi-static increment, in which stresses change more.
 inline constexpr int passes_of_increment = 40;
 
-/// Coefficients of a crack in precision R. In time steps the functions compute without branches that depend on S. In
-/// quasi-static increments S is a number, and work that a point does not need is left out.
+/// Coefficients of a crack in precision R. Work that no lane of a packet needs is left out.
 template <class R, int passes = passes_of_step>
 struct CrackSolve {
   static constexpr bool branches = passes > passes_of_step;
@@ -74,11 +73,8 @@ struct CrackSolve {
     // Growth of the crack
     const Excess<S> now = excess_of(closed, y, t_before, rate, sliding);
     const auto grows = !rests && now.value > one;
-    if constexpr (branches) {
-      if (grows) w.largest = grown(closed, y, now);
-    } else {
-      w.largest = select(grows, grown(closed, y, now), y);
-    }
+    if (!any(grows || y > zero)) return {normal, {shear[0], shear[1]}, {zero, zero}, t_before};  // intact
+    if (any(grows)) w.largest = select(grows, grown(closed, y, now), y);
 
     // Stresses and openings at the end of the step, (C.11) and (C.12)
     const S t = curve.stress(w.largest, rate);
@@ -139,7 +135,7 @@ struct CrackSolve {
     return out;
   }
 
-  /// Returns g(y) and its rate. `t`, `rate`: softening curve at y.
+  /// Returns g(y) and D. `t`, `rate`: the softening curve t(y) and its derivative at y.
   template <class S>
   MACADAM_HD Excess<S> excess_of(const Closed<S>& closed, const S& y, const S& t, const S& rate,
                                  const Sliding<S>& sliding) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cracked.hpp  Defines a contact law with a cohesive crack in series, at each contact point (docs/cracks.md).
+/// \file cracked.hpp  Defines contact laws with a cohesive crack in series at each contact point (docs/cracks.md).
 #pragma once
 
 #include <cmath>
@@ -12,25 +12,26 @@
 namespace macadam::laws {
 
 /// The law `Inner` in series with a crack: x = X[f] + w. Each component keeps f, two numbers of the crack, and the
-/// units of `Inner`. The numbers of the crack are the opening or slip w, and in the three components y, the work of
-/// friction per area, and the energy per area that damage has dissipated.
+/// units of `Inner`. The first number of the crack is the opening or slip w of the component. The second number is y in
+/// the normal component; in the two shear components it is the work of friction per area and the energy per area that
+/// damage has dissipated.
 template <class Inner>
 struct Cracked : Inner {
   using Chain = Inner;
   static constexpr const char* name = Inner::cracked_name;
   static constexpr bool linear = false;
-  /// Steps change w by parts of 1e-8 and less, so that states in single precision would lose these changes.
+  /// A step may change w by 1e-8 of its value or less; states in single precision would lose such changes.
   static constexpr bool needs_double = true;
   static constexpr int crack_numbers = 2;
   static constexpr int only_units = units_of<Inner>() < 0 ? -1 : units_of<Inner>() + crack_numbers;
-  static constexpr int known_units = 3 + crack_numbers;  ///< a number of units that has code of its own
+  static constexpr int known_units = 3 + crack_numbers;  ///< number of units for which steps are compiled separately
   Crack crack;
 
   int units() const { return Inner::units() + crack_numbers; }
   void block(double, int) const = delete;  // a block of steps is only exact for linear laws
 
-  /// Returns how a contact point separated, from its numbers (Step::advance_point): in tension if its crack is rather
-  /// open than slipped.
+  /// Returns how a contact point separated, from its numbers (Step::advance_point): in tension if its opening is at
+  /// least β_w times its slip.
   Break break_of(const double* state) const {
     const Place at{state, 1 + units()};
     if (!(at(0, 2) > 0 && at(0, 2) >= crack.separation())) return Break::none;

@@ -91,7 +91,7 @@ inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std
   law.unit_compliance(0, s);
   law.each_parameter(s, each);
 };
-/// Whether a law gives its relaxation as a sum of exponentials.
+/// Whether a law provides its relaxation modulus as a sum of exponentials.
 template <class L>
 inline constexpr bool has_prony = linear_law<L>&& requires(const L& law) {
   { law.prony() } -> std::same_as<PronySeries>;

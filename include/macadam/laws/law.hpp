@@ -19,9 +19,9 @@
 ///     `template <int L, class S, class Units> S advance(S f, S dx, Units&& x) const`, which returns f(t+Δt) for the
 ///     displacement increment dx and updates the unit states x(0)…x(L−1) (references). L = −1 means that the number of
 ///     units is only known at run time. `static constexpr bool memoryless` says whether f is a function of x alone;
-/// then `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state. The
-/// concept SteppableLaw below checks these members. Code that makes steppers requires this concept of its laws. A law
-/// of the library's own list (all.hpp) also has
+///     then `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state.
+/// The concept SteppableLaw below checks these members. Code that makes steppers requires this concept of its laws. A
+/// law of the library's own list (all.hpp) also has
 ///   - `template <class F> void each_key(F&& f)` — calls f(key, member, ValueKind, ValueNeed) for each value that a
 ///     scene may set, a double or a std::vector<double>, in the order in which the scene file names them.
 /// All of the following members are optional:
@@ -44,12 +44,11 @@
 ///     each parameter θ of the stiffness, by its symbol in docs/model.md ("E_m", "C_1");
 ///     `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], for l
 ///     below units();
-///   - `PronySeries prony() const` — its relaxation as a sum of exponentials (prony_series.hpp): the stress after a
-///   step
-///     of strain, f/x [Pa]. All moduli are positive, and E(0) is instantaneous(). Relaxation, creep and constant rates
-///     without time steps need it, in addition to the members of the frequency domain; without it they refuse the law
-///     and name it. A law with this member that is not in the library's list can be converted to a law of the list
-///     (equivalent_laws(), spectrum.hpp);
+///   - `PronySeries prony() const` — its relaxation as a sum of exponentials (prony_series.hpp): the stress f/x
+///     after a step of strain [Pa]. All moduli are positive, and E(0) is instantaneous(). Relaxation, creep and
+///     constant-rate tests without time steps need prony(), in addition to the members of the frequency domain, and
+///     refuse a law without it by name. A law with prony() that is not in the library's list can be converted to a law
+///     of the list (equivalent_laws(), spectrum.hpp);
 ///   - the members that energies of a test need, both or none (the trait `has_energy` of facts.hpp). Energies are per
 ///     unit of area over distance [Pa·m²], as f is; `x` points to the states of the units:
 ///     `double stored(double f, const double* x) const` — the energy in the springs of one component;
@@ -79,7 +78,7 @@
 ///     int most_units`, `void settled_as(const Block& before)`, which takes the coefficients of settle() from the block
 ///     that ends, and the functions
 ///     `template <int L, class Units> double drift(double f, Units&& x) const` and
-///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
+///     `template <int L, class Units> void settle(double sum, Units&& x) const`. During the block the change δf of f
 ///     follows δf' = δf + rate·dx + drift + follow·s − relax·δf. The drift is computed from f and x(l) at the beginning
 ///     of the block; s is the sum of δf' + δf over its steps so far. At the end, settle() receives Σ (f' + f) and
 ///     updates x(l): model (6.8) and (6.9). The error is of second order in the block's length, and its mean over the
@@ -123,6 +122,16 @@ MACADAM_HD S select(const Condition& condition, const S& yes, S no) {
     where(condition, no) = yes;
     return no;
   }
+}
+
+/// Returns the condition, or for packets whether it holds in any lane. A law may branch on this value, because no lane
+/// takes another way than the others.
+template <class Condition>
+MACADAM_HD bool any(const Condition& condition) {
+  if constexpr (std::is_same_v<Condition, bool>)
+    return condition;
+  else
+    return any_of(condition);  // found by argument-dependent lookup
 }
 
 /// Factor 1 of a contact without rock in series. A product with it is the other number, so no code is compiled.

@@ -60,7 +60,7 @@ class DivergenceSearch {
   }
 
   /// Searches the velocities for the first particle that has diverged, and waits for the result. Returns the number of
-  /// this particle, or UINT32_MAX if there is none.
+  /// this particle, or UINT32_MAX if no particle diverges.
   std::uint32_t find(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end,
                      cudaStream_t stream) const {
     std::uint32_t out = UINT32_MAX;

@@ -56,8 +56,8 @@ struct DeviceLimits {
 };
 
 /// Allows launches of a kernel to use all shared memory that the device offers to a thread block. The limit applies to
-/// the whole process: if it were set to what one specimen needs, the kernel could not be launched for another specimen
-/// that needs more.
+/// the whole process: if it were set to the memory that one specimen needs, the kernel could not be launched for
+/// another specimen that needs more.
 template <class... Parameters>
 void allow_all_shared_memory(const DeviceLimits& limits, void (*kernel)(Parameters...)) {
   cudaFuncAttributes attributes{};

@@ -26,8 +26,8 @@
 
 namespace macadam::kernels {
 
-/// Value of the argument `steps` (number of steps of the block that ends) before the first step of a run, when there is
-/// no such block. The constants then get their values for the undeformed contact.
+/// Value of the argument `steps` (number of steps of the block that ends) before the first step of a run, when no block
+/// has ended. The constants then get their values for the undeformed contact.
 inline constexpr int settling_starts = -1;
 
 /// Settles the contacts of one group; one thread per contact.
@@ -101,8 +101,8 @@ struct SettleContact {
   }
 };
 
-/// Functor types that settle a law: one for each number of Kelvin units that has its own code. There is none for a law
-/// that cannot be stepped in blocks.
+/// Functor types that settle a law: one for each number of Kelvin units that has its own code. A law that cannot be
+/// stepped in blocks has no such type.
 template <class P, class L, Geometry geometry>
 auto settle_functors() {
   if constexpr (!has_blocks<L>)

@@ -7,7 +7,7 @@
 /// a table in shared memory (TileVelocities); steps its contacts with step_in_block() and stores their loads in cells
 /// (LoadCells); adds the cells of each particle with sum_lists(); and moves the particles.
 ///
-/// Steps are taken in blocks of up to longest_block steps (see block_settling.hpp and model (6.8)). Within a block a
+/// Steps are taken in blocks of up to longest_block steps (see block_settling.hpp and model (6.8)). During a block a
 /// contact stores only the change δf of its force density f since the beginning of the block and, if some law has a
 /// memory, a sum of δf over the steps. The loads that belong to f at the beginning of the block are part of the
 /// particles' `base` loads. The state of a contact is therefore in three places. The chain (ContactView::chain) holds

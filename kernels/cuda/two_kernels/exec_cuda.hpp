@@ -4,8 +4,8 @@
 ///
 /// step_bodies (step_bodies.hpp) sums the loads of each body and moves it; step_contacts (step_contacts.hpp) steps each
 /// contact. A contact writes the loads on its two bodies to records of its own. The records of a body are consecutive,
-/// and the body sums them in fixed order. There are no floating-point atomics, so the same device gives the same bits
-/// in every run.
+/// and the body sums them in fixed order. No floating-point atomics are used, so the same device gives the same bits in
+/// every run.
 #pragma once
 
 #include <algorithm>

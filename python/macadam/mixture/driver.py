@@ -142,7 +142,8 @@ def _compute(
         for law in steps[-1].laws:
             if law.misfit > _MISFIT:
                 warnings.add(
-                    f"The law of {law.name} misses the values that it stands for by up to {100 * law.misfit:.2g} %."
+                    f"The law of {law.name} differs by up to {100 * law.misfit:.2g} % from the values to which it was "
+                    "fitted."
                 )
     seconds = time.monotonic() - began
     return Chain(
@@ -195,5 +196,5 @@ def _test_frequencies(found: BinderFit, design: designs.Design) -> list[float]:
 
 
 def rounded(frequency: float) -> float:
-    """Returns a frequency with nine digits, as in the scenes."""
+    """Rounds to nine digits, as in scenes."""
     return float(f"{float(frequency):.9g}")

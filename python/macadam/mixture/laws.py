@@ -54,9 +54,10 @@ class Curve:
 
 @dataclass
 class Law:
-    """A chain of Kelvin units. E, C: their springs [Pa] and dashpots [Pa s]. E_m, C_m: those of the Maxwell unit.
-    shift: its keys in a scene. valid_hz: reduced frequencies [Hz] between which it holds. misfit: largest relative
-    difference of the complex modulus from the points that it stands for."""
+    """A chain of Kelvin units and a Maxwell unit. E, C: springs [Pa] and dashpots [Pa s] of the Kelvin units. E_m, C_m:
+    spring and dashpot of the Maxwell unit. shift: keys of the temperature shift in a scene. valid_hz: reduced
+    frequencies [Hz] between which the law holds. misfit: largest relative difference of the complex modulus from the
+    points to which the chain was fitted."""
 
     name: str
     E_m: float
@@ -82,7 +83,7 @@ class Law:
     def toml(self, poisson: float) -> str:
         """Returns a section `[materials.mastic]` for a scene with this law and its range. poisson: Poisson's ratio."""
         return (
-            f"# macadam mixture: law of {self.name}\n# largest difference from the values that it stands for: "
+            f"# macadam mixture: law of {self.name}\n# largest difference from the values to which it was fitted: "
             f"{100 * self.misfit:.2g} %\n"
         ) + _toml.dumps({"materials": {"mastic": {**self.keys(), "poisson_ratio": poisson}}}).lstrip()
 
@@ -93,7 +94,7 @@ def shift_keys(model: Model) -> dict[str, Any]:
 
 
 def read_law(file: Path, name: str, shift: dict[str, Any], valid_hz: tuple[float, float], curve: Curve) -> Law:
-    """Reads the chain in a `law.toml` of `macadam fit`, and compares it with the curve that it stands for."""
+    """Reads the chain in a `law.toml` of `macadam fit`, and compares it with the curve to which it was fitted."""
     entry = tomllib.loads(file.read_text(encoding="utf-8"))["contacts"][0]
     law = Law(
         name,
@@ -117,8 +118,8 @@ class Fitter:
         self.program, self.version, self.folder = program, version, folder
 
     def fit(self, name: str, curve: Curve, shift: dict[str, Any]) -> Law:
-        """Returns the chain of at most 16 units that stands for a curve, valid between its ends. Raises MixtureError if
-        there is none."""
+        """Fits a chain of at most 16 Kelvin units to a curve. The chain holds between the ends of the curve. Raises
+        MixtureError if no such chain was found."""
         valid = float(curve.frequency.min()), float(curve.frequency.max())
         file, said = self._run("data.csv", curve.text(), ["--curve"])
         if file is None:

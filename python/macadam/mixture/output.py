@@ -183,7 +183,7 @@ def _plain(value: Any) -> Any:
 
 
 def _write(file: Path, text: str) -> None:
-    """Writes a file completely, or leaves the old file as it is."""
+    """Replaces the file completely; after an error the old file is unchanged."""
     part = file.with_name(f".{file.name}.{os.getpid()}.part")
     try:
         part.write_text(text, encoding="utf-8")

@@ -30,7 +30,7 @@ class Sentences(list):
         self._say, self._before = say, before
 
     def add(self, words: str) -> None:
-        """Adds a sentence unless the list has it."""
+        """Adds a sentence that is not yet in the list, and prints it."""
         if words not in self:
             self.append(words)
             self._say(self._before + words)

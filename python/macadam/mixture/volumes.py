@@ -41,7 +41,7 @@ class Recipe:
         return self.gradation[index_of(self, sieve)][1]
 
     def masses(self) -> list[float]:
-        """Returns the mass fraction of the aggregate in each interval between two sieves, then that of the filler."""
+        """Returns the mass fractions of the aggregate: in each interval between two sieves, then of the filler."""
         passing = [p for _, p in self.gradation] + [0.0]
         return [a - b for a, b in zip(passing, passing[1:])]
 

@@ -70,7 +70,7 @@ def _energies(folder: Folder) -> tuple[Any, str]:
     right.set_ylim(bottom=0)
     if drawn:
         right.legend()
-    words = "Left: the work of the walls (dashed) and the energies that it became, one above the other. "
+    words = "Left: the work of the walls (dashed) and the energies into which it was converted, stacked. "
     words += (
         "Right: area of the points that have begun to crack (dashed) and that are broken, by pair of materials."
         if drawn
@@ -115,15 +115,15 @@ def _breaks(folder: Folder) -> bool:
 def chords(
     centre: np.ndarray, normal: np.ndarray, area: np.ndarray, axis: int, value: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the lines in which discs cut the plane axis = value. Each disc has the centre, normal and area of a
-    facet. Returns which discs cut the plane, and both ends of each line: (n, 2, 3) [m]."""
+    """Cuts discs by the plane axis = value. Each disc has the centre, normal and area of a facet. Returns the indices of
+    the discs that the plane cuts, and both ends of the line in which it cuts each of them: (n, 2, 3) [m]."""
     across = np.zeros(3)
     across[axis] = 1
     along = np.cross(normal, across)
     length = np.linalg.norm(along, axis=1)
     steep = length > 1e-6  # other discs are parallel to the plane
     along[steep] /= length[steep, None]
-    inside = np.cross(normal, along)  # in the disc, perpendicular to the line
+    inside = np.cross(normal, along)  # direction in the disc, perpendicular to the line
     slope = inside[:, axis]
     distance = np.divide(value - centre[:, axis], slope, out=np.full(len(slope), np.inf), where=steep)
     square = area / np.pi - distance**2
@@ -170,7 +170,7 @@ def _section(folder: Folder) -> tuple[Any, str]:
 
 
 def _damaged(folder: Folder) -> Any:
-    """Returns the table of the contacts that have begun to crack; None if there are none."""
+    """Returns the table of the contacts that have begun to crack, or None without such contacts."""
     cracked = any(c.get("cracked_points") for c in (folder.summary.get("cracks") or {}).values())
     return folder.table("damage.csv", ["x", "y", "z", "nx", "ny", "nz", "area_m2", "damage"]) if cracked else None
 
@@ -188,7 +188,7 @@ def discs(centre: np.ndarray, normal: np.ndarray, area: np.ndarray, corners: int
 
 
 def _block(folder: Folder) -> tuple[Any, str]:
-    """Draws the facets of which more than half is damaged in the outline of the box, from behind to the front. Returns
+    """Draws the facets with a mean damage above DRAWN in the outline of the box, from the back to the front. Returns
     figure and caption."""
     box, turn = specimen.box_of(folder), specimen.directions_of_view()
     corners = np.array(list(product(*([0, e] for e in box)))) @ turn.T
@@ -201,7 +201,7 @@ def _block(folder: Folder) -> tuple[Any, str]:
     if drawn:
         centre = table[list("xyz")].to_numpy(float)
         shapes = discs(centre, table[["nx", "ny", "nz"]].to_numpy(float), table["area_m2"].to_numpy(float)) @ turn.T
-        order = np.argsort(centre @ turn[2], kind="stable")  # what is nearest to the eye is drawn last
+        order = np.argsort(centre @ turn[2], kind="stable")  # draws the facets nearest to the eye last
         colours = scale.to_rgba(table["damage"].to_numpy(float)[order])
         axes.add_collection(
             PolyCollection(shapes[order][:, :, :2], facecolors=colours, edgecolors=(0, 0, 0, 0.4), linewidths=0.2, zorder=2)

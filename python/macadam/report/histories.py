@@ -51,7 +51,7 @@ def _errors(folder: Folder) -> np.ndarray:
 
 
 def _is_stepped(folder: Folder) -> bool:
-    return folder.in_time.get("method") == "explicit"
+    return folder.in_time.get("method") in ("explicit", "quasi_static")
 
 
 def _bars(folder: Folder) -> np.ndarray:

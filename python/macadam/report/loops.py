@@ -48,8 +48,8 @@ def _stepped(folder: Folder) -> tuple[Any, str]:
     axes.set(xlabel="strain (µm/m)", ylabel="stress (kPa)")
     axes.legend(fontsize=6, handlelength=1, labelspacing=0.2)
     return figure, (
-        f"Stress over strain in the last stepped cycle of each frequency, tension positive. Stress "
-        f"reaches {look.modulus(peak)}. The area within a loop is the energy dissipated per cycle; "
+        f"Stress over strain in the last cycle computed with time steps, for each frequency; tension is positive. The "
+        f"stress reaches {look.modulus(peak)}. The area within a loop is the energy dissipated per cycle; "
         "the slope is the stiffness."
     )
 
@@ -100,7 +100,8 @@ def _add_master_curve(page: Page, folder: Folder) -> None:
             )
         return
     if any(r.get("reduced_frequency_hz") is None for r in rows):
-        page.leave_out(folder.label, "master curve", "there are no reduced frequencies, because the laws do not all have the same shift")
+        words = "reduced frequencies are missing, because the laws do not all have the same shift"
+        page.leave_out(folder.label, "master curve", words)
         return
     factor, unit = look.modulus_unit(r["e_star_pa"] for r in rows)
     figure, (left, middle, right) = look.figure(look.WIDE, 2.7, 1, 3, width_ratios=[3, 3, 2])

@@ -37,13 +37,14 @@ class Curve:
 
     @property
     def model_error(self) -> str:
-        """A sentence about the difference between contact network and continuum, which error bars do not include."""
+        """A sentence about the error of the model, which is the difference between contact network and continuum. The error
+        bars do not include it."""
         found = self.folder.summary.get("model_error")
         if found:
             return str(found["words"])
         return (
-            "error of the model: the contact network with rule centres has the factors delta of the scene, so only a "
-            "comparison with measurements or with a continuum can tell how far it is from the material"
+            "error of the model: unknown, because the rule centres uses the factors delta of the scene; only a "
+            "comparison with measurements or with a continuum shows this error"
         )
 
 

@@ -74,7 +74,7 @@ def patience(run: dict[str, Any]) -> tuple[float, float]:
     that is killed while it waits for a job can block the queue for all other workers."""
     slurm = run.get("on", "local") == "slurm"
     later = float(run.get("patience", 600 if slurm else 60))
-    # on a cluster there is no time limit until the first worker begins, because jobs may wait in the queue for days
+    # on a cluster, the time until the first worker begins is unlimited, because jobs may be queued for days
     return (float("inf") if slurm else 5 * later), later
 
 

@@ -39,7 +39,7 @@ def watch(study: int, manager: int, seconds: float) -> None:
             os.kill(manager, signal.SIGKILL)
 
 
-# Forks a process that runs watch(). This process then becomes the manager, by executing the manager's command.
+# Forks one process, which runs watch(). This process then becomes the manager, by executing the manager's command.
 def main() -> None:
     study, seconds, command = int(sys.argv[1]), float(sys.argv[2]), sys.argv[3:]
     manager = os.getpid()

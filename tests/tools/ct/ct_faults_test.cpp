@@ -226,7 +226,7 @@ TEST(CtFaults, HalfAStackEndsWithTheScanAtOneEnd) {
   EXPECT_TRUE(o.says("along z the specimen ends in air at one end, but at its upper end")) << o.error << o.warnings;
 }
 
-/// If the user gives the region, there is no warning about missing air at its ends.
+/// If the user gives the region, the program does not warn about missing air at its ends.
 TEST(CtFaults, ARegionThatSomebodyGaveEndsWhereItWasGiven) {
   SegmentOptions options;
   options.smallest = 1.4e-3;

@@ -16,7 +16,7 @@ struct Compression {
   double residual = 0;  ///< norm of the last residual over the norm of the first
 };
 
-/// Gets the residual, divided by the first one, before each iteration. An exception ends the solution.
+/// Is called before each iteration with the residual, divided by the first residual. An exception ends the solution.
 using Watch = std::function<void(double residual)>;
 
 /// Solves K·u = 0: the top is displaced along z, and the sides are free. `area`: cross-section of the specimen, in

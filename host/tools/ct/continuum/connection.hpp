@@ -20,7 +20,7 @@ struct Connection {
   int lowest = 0;                                      ///< layers from the bottom below `of_top`
 
   bool spans(std::size_t voxel) const { return marks[voxel] == (solid | bottom | top); }
-  /// Describes which part of the material is connected with which platen. `edge`: of a voxel [m].
+  /// Describes which part of the material is connected with which platen. `edge`: edge of a voxel [m].
   std::string words(double edge) const;
 };
 

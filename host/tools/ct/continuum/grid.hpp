@@ -23,7 +23,7 @@ struct Size {
   std::size_t layer() const { return std::size_t(x + 1) * (y + 1); }  ///< nodes of equal z
   std::size_t element(int i, int j, int k) const { return (std::size_t(k) * y + j) * x + i; }
   std::size_t node(int i, int j, int k) const { return (std::size_t(k) * (y + 1) + j) * (x + 1) + i; }
-  /// Returns whether several threads are worth their start and their wait for each other.
+  /// Returns whether the grid is so large that several threads are faster than one.
   bool is_large() const { return nodes() > 20000; }
   bool operator==(const Size&) const = default;
 };
@@ -43,7 +43,7 @@ template <class T>
 struct Grid {
   Size size;
   std::vector<std::complex<T>> lambda, mu;  ///< [element], with `padding`
-  std::vector<double> height;               ///< of each layer of elements, over the edges along x and y
+  std::vector<double> height;               ///< of each layer of elements, divided by the edges along x and y
 
   /// Makes a grid of cubes without material.
   explicit Grid(const Size& of = {})

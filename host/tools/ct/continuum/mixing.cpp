@@ -9,7 +9,7 @@
 namespace macadam::continuum {
 namespace {
 
-/// Returns a constant of a voxel of the mastic's constant a, the rock's constant b and voids.
+/// Returns an elastic constant of a voxel, mixed from the mastic's constant a, the rock's constant b and voids.
 Complex mixed(Complex a, Complex b, double rock, double voids, Mixing mixing) {
   const double solid = 1 - voids;
   if (solid < least_material) return 0;

@@ -12,14 +12,14 @@
 
 namespace macadam::continuum {
 
-/// The folder of the results, locked until the end. All files hold what is known so far, at any time.
+/// The folder of the results, locked during the life of this object. At any time its files contain all results so far.
 class ModulusFiles {
  public:
   /// Makes the folder, and files without results. `scene`: file of the scene. The arguments must outlive this object.
   /// \throws InputError if another command is writing into the folder, RunError if writing fails.
   ModulusFiles(const std::filesystem::path& folder, const ModulusPlan& plan, const ScanPhases& phases,
                const std::string& scene);
-  /// Appends a row to voxels.csv. \throws RunError.
+  /// Appends one row to voxels.csv. \throws RunError.
   void add(const ModulusSolution& solution);
   /// Replaces modulus.csv and summary.json. `status`: running, interrupted, done or failed: …. \throws RunError.
   void write(const std::vector<PointModulus>& results, const std::string& status);

@@ -25,7 +25,7 @@ struct ScanPhases {
 
 /// Returns the phases of a scene with rule "series": `[materials.mastic]` and `[materials.aggregate]` give the laws and
 /// Poisson's ratios, `[loading]` the frequencies and, as in a run, possibly temperatures. \throws InputError if one of
-/// them is missing, if the test has no frequencies, and if the sides are held.
+/// them is missing, if the test has no frequencies, or if the sides are held.
 ScanPhases phases_of(const Scene& scene);
 
 }  // namespace macadam::continuum

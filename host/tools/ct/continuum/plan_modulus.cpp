@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int ratios[] = {4, 2, 1};  ///< edges of the elements, over the smallest edge
-constexpr int least_elements = 4;    ///< of the largest edge, along each axis
+constexpr int ratios[] = {4, 2, 1};  ///< edges of the elements, divided by the smallest edge
+constexpr int least_elements = 4;    ///< smallest number of the largest elements along each axis
 /// Memory of a node and its element [bytes]: 7 vectors of three complex doubles (r, z, p, q, the displacements of both
 /// mixing rules, and a strain along z), the elements' constants, and 8/7 of the vectors of the preconditioner.
 constexpr double bytes_per_node = 7 * 48 + 32 + 8.0 / 7 * 136 + 8;
@@ -31,7 +31,7 @@ std::string image_of(const fs::path& folder) {
   const fs::path file = is_folder ? folder / "phases.mha" : folder;
   if (fs::exists(file, ignored)) return file.string();
   if (is_folder && fs::exists(folder / "labels.mha", ignored))
-    throw InputError(file.string(), 0, "image of the phases", "no such file, and labels.mha, which does not show voids",
+    throw InputError(file.string(), 0, "image of the phases", "only labels.mha, which does not show voids",
                      "phases.mha, which macadam ct segment writes");
   throw InputError(file.string(), 0, "image of the phases", "no such file",
                    "phases.mha in a folder that macadam ct segment wrote");
@@ -50,8 +50,9 @@ std::string in_gb(double bytes) { return fmt::format("{:.2g} GB", bytes / 1e9); 
 /// Returns the smallest block of voxels. \throws InputError.
 int smallest_block(const std::string& file, const Scan& scan, double memory, double voxel) {
   const int voxels = std::min({scan.size.x, scan.size.y, scan.size.z}), largest = voxels / (ratios[0] * least_elements);
-  const std::string why =
-      fmt::format("because {} of the largest elements, four times the smallest ones, must fit", least_elements);
+  const std::string why = fmt::format(
+      "because {} of the largest elements, whose edge is four times the smallest edge, must fit along each axis",
+      least_elements);
   if (largest < 1)
     throw InputError(file, 0, "voxels along the shortest edge of the specimen", std::to_string(voxels),
                      fmt::format("at least {}, {}", ratios[0] * least_elements, why));

@@ -19,7 +19,7 @@ namespace macadam::continuum {
 namespace {
 
 constexpr unsigned char mastic = 1, rock = 2, outside = 255;
-constexpr double most_voxels = 4e9;    ///< of an image; no computer can solve as many
+constexpr double most_voxels = 4e9;    ///< of an image; more voxels than any computer can solve
 constexpr double most_packing = 1100;  ///< zlib packs at most 1032 bytes into one
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what, const std::string& found,
@@ -65,7 +65,7 @@ std::vector<unsigned char> voxels(const std::string& file, std::ifstream& in, bo
   return out;
 }
 
-/// Cuts a scan to the box around the voxels that are not outside.
+/// Cuts a scan to the box around the voxels of the specimen.
 void cut_to_specimen(Scan& scan, const std::string& file) {
   const Size n = scan.size;
   int low[3] = {n.x, n.y, n.z}, high[3] = {-1, -1, -1};

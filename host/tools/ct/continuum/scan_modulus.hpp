@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scan_modulus.hpp  Computes |E*|, phase angle and Poisson's ratio of a segmented scan, without its grains.
+/// \file scan_modulus.hpp  Computes |E*|, phase angle and Poisson's ratio of a segmented scan, without separating its
+/// grains.
 #pragma once
 
 #include <filesystem>
@@ -27,11 +28,12 @@ struct ModulusPlan {
   double edge(std::size_t size) const { return blocks[size] * scan.edge; }  ///< of the elements [m]
 };
 
-/// Reads phases.mha in a folder of `macadam ct segment`, and chooses the sizes of the elements: `voxel` [m], or if that
-/// is 0 the smallest block of the scan's voxels for which `memory` [bytes] suffices; and two and four times this edge.
-/// \throws InputError naming the file if it does not exist, has labels in place of phases, voxels that are no cubes, or
-/// fewer than four of the largest elements along an axis; if the memory is too small; and if no material connects the
-/// bottom and the top.
+/// Reads phases.mha in a folder of `macadam ct segment`, and chooses three sizes of the elements. The edge of the
+/// smallest elements is `voxel` [m] or, if `voxel` is 0, the smallest multiple of the scan's voxels for which `memory`
+/// [bytes] suffices. The other two edges are two and four times as long.
+/// \throws InputError naming the file if the file does not exist, if it has labels in place of phases or voxels that
+/// are not cubes, if fewer than four of the largest elements fit along an axis, if the memory is too small, or if no
+/// material connects the bottom and the top.
 ModulusPlan plan_modulus(const std::filesystem::path& folder, double memory, double voxel = 0);
 
 /// One solution: a point, an edge of the elements and a mixing rule.
@@ -54,9 +56,9 @@ struct PointModulus {
 /// Functions that solve_modulus() calls; each may be empty.
 struct ModulusWatcher {
   std::function<void(const std::string& stage, double fraction)> progress;
-  std::function<bool()> stop;                                      ///< whether to end with InterruptedError
-  std::function<void(double seconds)> expected;                    ///< time that is left, after the largest elements
-  std::function<void(const ModulusSolution&)> solved;              ///< after each solution
+  std::function<bool()> stop;                          ///< whether to end with InterruptedError
+  std::function<void(double seconds)> expected;        ///< remaining time, called after the largest elements
+  std::function<void(const ModulusSolution&)> solved;  ///< after each solution
   std::function<void(const std::vector<PointModulus>&)> improved;  ///< after each new PointModulus::limit
 };
 

@@ -32,7 +32,7 @@ class Work {
     if (watcher_.stop && watcher_.stop()) throw InterruptedError("interrupted at: " + stage);
   }
   void add(double elements, double seconds) { done_ += elements, seconds_ += seconds; }
-  /// Returns the time that is left if the other elements need as long as those so far [s].
+  /// Returns the remaining time [s] if each remaining element takes as long as the elements so far.
   double seconds_left() const { return done_ > 0 ? seconds_ / done_ * (total_ - done_) : 0; }
 
  private:
@@ -57,7 +57,8 @@ std::vector<PointModulus> solve_modulus(const ModulusPlan& plan, const ScanPhase
     const PhaseFractions fractions = of_blocks(plan.scan, plan.blocks[size]);
     const bool mixed = fractions.has_mixed_voxels();
     const auto elements = double(plan.scan.size.elements()) / std::pow(plan.blocks[size], 3);
-    Field<double> displacement[2];  // of each rule; each point starts from the displacement of the point before
+    // One displacement for each mixing rule. Every point starts from the displacement of the previous point.
+    Field<double> displacement[2];
     for (std::size_t p = 0; p < phases.points.size(); ++p) {
       const ModulusPoint& point = phases.points[p];
       const std::string stage = fmt::format("elements of {:.4g} mm, {:g} Hz", 1e3 * voxel, point.frequency_hz);

@@ -25,7 +25,7 @@ Neighbours of_layers(int fine, const std::vector<double>& height) {
   return {fine / 2, above / (below + above), below / (below + above)};
 }
 
-/// Calls f(fine row, weight) for the fine rows of nodes that exchange with a coarse row: a fixed order.
+/// Calls f(fine row, weight) for the fine rows of nodes that exchange values with a coarse row, in a fixed order.
 template <class F>
 void each_fine_row(const Size& fine, const std::vector<double>& height, int row, int layer, F&& f) {
   for (int k = std::max(0, 2 * layer - 1); k <= std::min(fine.z, 2 * layer + 1); ++k) {

@@ -12,7 +12,8 @@ namespace macadam::continuum {
 template <class T>
 Grid<T> coarser(const Grid<T>& fine);
 
-/// Adds the displacement of the grid coarser(fine), interpolated, to that of `fine`. S, T: float or double.
+/// Interpolates the displacement of the grid coarser(fine) and adds it to the displacement of `fine`. S, T: float or
+/// double.
 template <class S, class T>
 void add_interpolated(const Size& coarse, const Field<S>& from, const Grid<T>& fine, Field<T>& to);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// Returns the number in the first line of a small file, or `without` if there is none.
+/// Returns the number in the first line of a small file, or `without` if the line has no number.
 double number_in(const char* file, double without) {
   std::ifstream in(file);
   double value = 0;

@@ -25,8 +25,8 @@ constexpr std::uint32_t ladder[] = {0x983d10, 0x564db9, 0x710000, 0xde8b5d, 0x7e
 constexpr std::uint32_t aggregate_colour = 0xab8f66;  // of a grain of unknown size
 static_assert(std::size(ladder) + 1 == std::size(sieves));
 
-/// Returns the colour of a grain: that of the size class of its sieve [m], in a shade that differs between neighbouring
-/// numbers. sieve: 0 if it is not known.
+/// Returns the colour of a grain: the colour of the size class of its sieve [m], in a shade that differs between
+/// neighbouring numbers. sieve: 0 if it is not known.
 Colour colour_of(std::uint32_t label, double sieve) {
   const auto above = std::upper_bound(std::begin(sieves), std::end(sieves), 1e3 * sieve) - std::begin(sieves);
   const std::uint32_t of_class =

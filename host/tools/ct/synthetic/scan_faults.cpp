@@ -71,7 +71,7 @@ void add_faults(Image<float>& grey, const PhantomSpec& spec, double radius) {
   for_each_in_parallel(static_cast<std::size_t>(grey.size[2]), [&](std::size_t slice) {
     RandomStream random(spec.seed, slice_streams + slice);
     std::vector<double> ring(lasting.size());
-    // half of the variance of a ring is the same in all slices, the other half is drawn anew for each slice
+    // half of the variance of a ring is the same in all slices, the other half is drawn separately for each slice
     for (std::size_t k = 0; k < ring.size(); ++k)
       ring[k] = spec.rings * range * std::sqrt(0.5) * (lasting[k] + normal(random));
     const auto k = static_cast<std::int64_t>(slice);

@@ -36,7 +36,8 @@ struct Range {
   std::array<std::int64_t, 3> begin{}, end{};
 };
 
-/// Returns the bounding range of the voxels that are not outside the specimen. \throws InputError if there are none.
+/// Returns the bounding range of the voxels that are not outside the specimen. \throws InputError if all voxels are
+/// outside.
 Range extent_of(const Image<std::uint8_t>& phases, const fs::path& folder) {
   Range out{phases.size, {0, 0, 0}};
   const auto outside = static_cast<std::uint8_t>(VoxelPhase::outside);
@@ -161,7 +162,7 @@ MultiSphere spheres_of(std::uint32_t id, const Part& part, const Cut& cut, const
   return out;
 }
 
-/// Returns a function that tells whether a point is in a voxel of a grain or a void; mastic may not be placed there.
+/// Returns a function that returns whether a point is in a voxel of a grain or a void; mastic may not be placed there.
 std::function<bool(const Vec3d&)> taken_in(const Cut& cut) {
   return [&cut](const Vec3d& point) {
     const Vec3d& s = cut.labels.spacing;

@@ -62,8 +62,8 @@ Image<std::uint8_t> find_region(const Image<float>& scan, ScanRegion kind) {
     }
   }
   // Voxels brighter than Otsu's threshold are material. A column belongs to the specimen if its number of material
-  // voxels is more than 0.15 times that of the fullest column. Columns of the specimen reach this number despite voids
-  // and dark mastic; columns of the surroundings do not.
+  // voxels is more than 0.15 times the number in the fullest column. Columns of the specimen reach this number despite
+  // voids and dark mastic; columns of the surroundings do not.
   find_ends(in_slice, outline);
   const double fullest = static_cast<double>(*std::max_element(in_column.begin(), in_column.end()));
   if (fullest <= 0) throw InputError("the scan", 0, "specimen", "none", "a region brighter than its surroundings");

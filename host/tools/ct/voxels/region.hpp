@@ -11,7 +11,8 @@ namespace macadam::ct {
 /// if nothing is brighter than the surroundings.
 Image<std::uint8_t> find_region(const Image<float>& scan, ScanRegion kind);
 
-/// Returns the mask of the voxels whose centres lie within the given region. \throws InputError if there is none.
+/// Returns the mask of the voxels whose centres lie within the given region. \throws InputError if the region contains
+/// no centre of a voxel.
 Image<std::uint8_t> take_region(const Image<float>& scan, const GivenRegion& given);
 
 }  // namespace macadam::ct
