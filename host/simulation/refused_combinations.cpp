@@ -63,6 +63,8 @@ void require_combination(const Scene& scene) {
       refuse("backend", to_string(scene.solver.backend), "cpu");
     if (scene.solver.precision.value_or(Precision::double_) != Precision::double_)
       refuse("precision", to_string(*scene.solver.precision), "double");
+    if (scene.solver.inertia)
+      refuse("inertia", "true", "false, because increments have no inertia; or method = \"explicit\"");
     if (scene.output.sensitivities) refuse("sensitivities in [output]", "true", "false");
     if (!temperatures_of(scene.experiment).empty())
       refuse("temperatures in [loading]", "a list", "a single temperature as temperature in [materials]");

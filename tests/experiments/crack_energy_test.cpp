@@ -3,6 +3,7 @@
 // and the strength.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -52,6 +53,12 @@ TEST_F(CrackEnergy, RisesToTheFractureEnergyOfTheFacet) {
     EXPECT_EQ(p.cracks.cracked, p.cracks.crack_energy_j > 0 ? 5 : 0);
     EXPECT_EQ(p.cracks.friction_energy_j, 0);
     before = p.cracks.crack_energy_j;
+  }
+  // Errors are the difference between the walls relative to the largest stress, also where the stress has fallen
+  double largest = 0;
+  for (const SteppedPoint& p : found.points) {
+    largest = std::max(largest, std::abs(p.stress_pa));
+    EXPECT_NEAR(p.error, std::abs(p.top_pa - p.bottom_pa) / largest, 1e-12);
   }
   EXPECT_EQ(found.points.front().broken_points, 0);
   EXPECT_EQ(found.points.back().broken_points, 5);

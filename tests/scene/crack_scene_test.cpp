@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "host/simulation/forecast.hpp"
 #include "macadam/macadam.hpp"
 #include "tests/support/test_files.hpp"
 #include "tests/support/test_networks.hpp"
@@ -184,6 +185,21 @@ TEST(CrackScene, TooLittleFractureEnergyIsRefusedForTheLongestContact) {
   EXPECT_EQ(message("tensile_strength = \"2 MPa\", softening = \"brittle\"", "0.1"), "nothing was thrown");
   made.network.contacts[1].length *= 2;
   EXPECT_HAS(message("tensile_strength = \"2 MPa\", fracture_energy = 31", "0.1"), "more than 32 J/m2");
+}
+
+// A scene with cracks and without a method is followed by increments, which have no inertia; the key is not ignored.
+TEST(CrackScene, IncrementsRefuseInertia) {
+  const auto message = [](const std::string& solver) {
+    std::string text = with_crack("tensile_strength = 1e6, fracture_energy = 100");
+    text = text.substr(0, text.find("[loading]")) +
+           "[[contacts]]\npair = \"M-W\"\nlaw = \"elastic\"\nE = 1e10\n"
+           "[loading]\nkind = \"monotonic\"\nrate = 1.0\nstrain = 1e-3\n[solver]\n" +
+           solver;
+    return message_of([&] { forecast(scene_of(text)); });
+  };
+  EXPECT_EQ(message("threads = 1\n"), "nothing was thrown");
+  EXPECT_EQ(message("inertia = false\n"), "nothing was thrown");
+  EXPECT_HAS(message("inertia = true\n"), "inertia with method \"quasi_static\": found true, expected false");
 }
 
 }  // namespace

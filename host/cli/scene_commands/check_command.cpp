@@ -55,7 +55,7 @@ std::string files_in_words(const Forecast& f) {
 
 nlohmann::ordered_json as_json(const Scene& scene, const Forecast& f) {
   nlohmann::ordered_json out{{"kind", kind_of(scene.experiment)},
-                             {"method", f.stepped ? "explicit" : "harmonic"},
+                             {"method", to_string(scene.solver.method)},
                              {"particles", f.census.particles()},
                              {"aggregates", f.census.aggregates},
                              {"voids", f.census.voids},
@@ -97,8 +97,10 @@ void say_forecast(const std::string& file, const Scene& scene, const Forecast& f
   specimen += fmt::format(", {} of mastic", f.census.mastic);
   if (f.census.voids > 0) specimen += fmt::format("; {} voids", f.census.voids);
   row("specimen", specimen + fmt::format("; about {} contacts", about(f.contacts)));
-  row("test", fmt::format("{}, method {}{}", kind_of(scene.experiment), f.stepped ? "explicit" : "harmonic",
-                          f.solutions > 0 ? fmt::format(", {} solutions in the frequency domain", f.solutions) : ""));
+  const char* solutions =
+      scene.solver.method == SolverMethod::quasi_static ? "linear systems" : "solutions in the frequency domain";
+  row("test", fmt::format("{}, method {}{}", kind_of(scene.experiment), to_string(scene.solver.method),
+                          f.solutions > 0 ? fmt::format(", {} {}", f.solutions, solutions) : ""));
   row("backend", fmt::format("{} ({}), {} threads", to_string(f.backend), f.reason, f.threads));
   if (f.stepped)
     row("stepping",

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "host/experiments/transient/load_rules.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -116,6 +117,7 @@ LoadErrors::LoadErrors(const TransientExperiment& test, const Scene& scene, cons
   }
   updated_ = plan.geometry == Geometry::updated;
   damping_given_ = scene.solver.damping_given;
+  in_motion_ = starts_in_motion(test, facts_of(scene.laws));
   for (const auto& law : facts_of(scene.laws)) remembers_ = remembers_ || (law && std::isfinite(law->shortest_time));
   const Box& box = prepared.specimen.box;
   affine_modulus_ = affine_modulus(prepared.network, facts_of(scene.laws), box.volume());
@@ -201,6 +203,11 @@ double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>
 // slowest wave, and inertia delays them by up to 1/ω.
 LoadErrors::Parts LoadErrors::estimated(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {
   if (test_.reverses) return {0, estimated_of_history(row, before)};
+  if (in_motion_) {
+    // the sum of all forces of inertia and damping is the difference between the two walls
+    const double stress = largest_of(row, before, [](const SteppedPoint& p) { return p.stress_pa; });
+    return {0, stress > 0 ? std::abs(row.top_pa - row.bottom_pa) / stress : 0};
+  }
   const double stiffness = modulus(row, before), omega = std::sqrt(wave_ * stiffness);
   const double drag = plan_.damping_kind == Damping::viscous ? plan_.damping / (omega * omega) : 0;
   const double late = drag + 1 / omega, ramp = !test_.grows && asked_ramp() == 0 ? plan_.ramp : 0;
@@ -249,6 +256,7 @@ std::string LoadErrors::meaning() const {
                                           "by the largest stress so far"
                                         : "estimated error of the stress, divided by the largest stress so far");
   }
+  if (in_motion_ && !spectrum_) return "error: estimated error of the stress, divided by the largest stress so far";
   if (!spectrum_) return fmt::format("error: estimated relative error of the {}", of);
   return fmt::format("error: relative difference of the {} from the solution without time steps{}", of,
                      updated_ ? "; an estimate once the strain has exceeded 0.1 %" : "");
@@ -282,6 +290,10 @@ std::string LoadErrors::advice(const Parts& parts) const {
   const std::string weaker = damping_given_ && plan_.damping > 0
                                  ? fmt::format(", a smaller damping (now {:g})", plan_.damping)
                                  : std::string();
+  if (in_motion_) {
+    return fmt::format("most of the error comes from inertia and damping, so a lower rate{}{} reduces it", lighter,
+                       weaker);
+  }
   return fmt::format(
       "most of the error comes from inertia and damping; a longer ramp{}{} or later times reduce the error", lighter,
       weaker);

@@ -69,6 +69,9 @@ class LoadErrors {
   std::optional<Spectrum> spectrum_;
   LoadTimes asked_, run_;  ///< times in the scene, and times in the run, where the release is rounded to a whole step
   bool updated_ = true, damping_given_ = false;
+  /// Whether the particles start with the velocities of the strain rate. The start then causes no waves, and the stress
+  /// falls after its peak, so that errors are relative to the largest stress so far.
+  bool in_motion_ = false;
   bool remembers_ = false;     ///< whether a law relaxes; if none does, only the present load has an effect
   double affine_modulus_ = 0;  ///< upper bound of the instantaneous modulus [Pa]
   /// ω² of the slowest wave divided by the modulus: π²/(ρ·H²); a quarter of this value if the load is a stress.
