@@ -7,6 +7,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/library_environment.hpp"
 #include "host/cli/memory_reserve.hpp"
+#include "host/cli/terminal/fault_signals.hpp"
 #include "host/cli/terminal/streams.hpp"
 #include "host/base/nearest.hpp"
 #include "macadam/error.hpp"
@@ -94,6 +95,7 @@ int say_and_run(int argc, char** argv) {
 int main_function(int argc, char** argv) {
   restart_with_library_environment(argc, argv);
   hold_standard_streams();
+  report_fault_signals();
   keep_memory_in_reserve();
   try {
     return say_and_run(argc, argv);

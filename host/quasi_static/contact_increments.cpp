@@ -57,14 +57,14 @@ Six load_on(const Contact& c, const Six& f, int end) {
 }
 
 SixBySix motion_matrix(const Contact& c, int end) {
-  SixBySix out{};
-  for (std::size_t k = 0; k < 6; ++k) {
-    Six one{};
-    one[k] = 1;
-    const Six row = load_on(c, one, end);
-    std::copy(row.begin(), row.end(), out.begin() + static_cast<std::ptrdiff_t>(6 * k));
-  }
-  return out;
+  const double sign = end == 0 ? -1 : 1, arm = end == 0 ? c.arm_a : c.arm_b;
+  const Vec3d n = sign * c.n, s = sign * c.s, t = sign * c.t, across = arm * c.s, along = -arm * c.t;
+  return {n.x, n.y, n.z, 0,        0,        0,         //
+          0,   0,   0,   -t.x,     -t.y,     -t.z,      //
+          0,   0,   0,   s.x,      s.y,      s.z,       //
+          s.x, s.y, s.z, along.x,  along.y,  along.z,   //
+          t.x, t.y, t.z, across.x, across.y, across.z,  //
+          0,   0,   0,   n.x,      n.y,      n.z};
 }
 
 ContactEnergies& ContactEnergies::operator+=(const ContactEnergies& o) {

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <sys/syscall.h>
 
+#include "host/cli/terminal/fault_signals.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
 #include "tests/support/program.hpp"
 
@@ -212,6 +213,18 @@ TEST_F(StopSignals, BeforeTheFirstStepTheyLeaveTheFolderAsItWas) {
   EXPECT_EQ(read(folder_ / "out/summary.json"), before);
   EXPECT_TRUE(fs::exists(folder_ / "out/response.csv"));
   EXPECT_FALSE(fs::exists(folder_ / "new"));
+}
+
+// A fault of memory says that it ended the program, and the signal still does so.
+TEST(FaultSignals, EndWithAWord) {
+  for (const int number : {SIGSEGV, SIGBUS}) {
+    const auto fault = [number] {
+      signal(number, SIG_DFL);  // a sanitizer has a handler of its own
+      report_fault_signals();
+      raise(number);
+    };
+    EXPECT_EXIT(fault(), testing::KilledBySignal(number), "macadam: ended by a fault of memory");
+  }
 }
 
 }  // namespace

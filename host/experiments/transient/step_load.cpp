@@ -316,7 +316,8 @@ class SteppedLoad : public PlannedExperiment {
     };
     course.content = std::move(content);
     course.report_remaining = [this](double seconds) {
-      if (seconds > many_seconds && watcher_.warn) {
+      // increments have very different lengths, so the first ones say nothing about the time of the others
+      if (!quasi_static_ && seconds > many_seconds && watcher_.warn) {
         watcher_.warn(fmt::format("the time steps will take about {:.1f} h more; {}", seconds / 3600, fewer_steps()));
       }
     };
