@@ -29,21 +29,21 @@ struct StudiedModel {
   ModelError error;
 };
 inline constexpr std::array<StudiedModel, 16> studied_models{{{false, 0.20, 5, {0.012, 0.006, 0.4}},
-                                                              {false, 0.20, 20, {0.021, 0.007, 0.3}},
-                                                              {false, 0.20, 50, {0.028, 0.008, 0.3}},
+                                                              {false, 0.20, 20, {0.022, 0.012, 0.5}},
+                                                              {false, 0.20, 50, {0.028, 0.008, 0.4}},
                                                               {false, 0.20, 200, {0.032, 0.012, 0.2}},
                                                               {false, 0.40, 5, {0.020, 0.012, 1.1}},
-                                                              {false, 0.40, 20, {0.045, 0.032, 0.8}},
-                                                              {false, 0.40, 50, {0.017, 0.054, 2.0}},
+                                                              {false, 0.40, 20, {0.056, 0.032, 1.2}},
+                                                              {false, 0.40, 50, {0.074, 0.054, 2.0}},
                                                               {false, 0.40, 200, {0.148, 0.106, 0.8}},
                                                               {false, 0.55, 5, {0.007, 0.025, 0.7}},
                                                               {false, 0.55, 20, {0.042, 0.086, 3.1}},
                                                               {false, 0.55, 50, {0.196, 0.180, 5.8}},
                                                               {false, 0.55, 200, {0.616, 0.379, 6.3}},
-                                                              {true, 0.40, 5, {0.149, 0.006, 0.4}},
-                                                              {true, 0.40, 20, {0.133, 0.027, 1.2}},
-                                                              {true, 0.40, 50, {0.094, 0.048, 2.2}},
-                                                              {true, 0.40, 200, {0.253, 0.108, 0.8}}}};
+                                                              {true, 0.40, 5, {0.069, 0.006, 0.5}},
+                                                              {true, 0.40, 20, {0.056, 0.027, 1.2}},
+                                                              {true, 0.40, 50, {0.016, 0.048, 2.1}},
+                                                              {true, 0.40, 200, {0.184, 0.108, 0.8}}}};
 
 /// Returns the largest error of the rows that surround a specimen: the rows of the next larger fraction of rock, and of
 /// the ratios on both sides. Returns nothing outside of the studied range.

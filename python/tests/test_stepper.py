@@ -213,7 +213,8 @@ def test_cracks_of_contact_points(scene):
     assert not stepping.contacts().point_cracks.any()
     stepping.advance(400)
     opening, slip, damage, energy, friction = stepping.contacts().point_cracks.T
-    assert 0 < damage.max() <= 1 and (damage >= 0).all() and (friction == 0).all()
+    assert 0 < damage.max() <= 1 and (damage >= 0).all()
+    assert np.abs(friction).max() <= 1e-12 * energy.max()  # without friction only rounding errors do work
     assert ((opening > 0) | (slip > 0))[damage > 0].all() and not opening[damage == 0].any()
     assert (energy[damage > 0] > 0).all() and energy.max() <= 0.2 * (1 + 1e-9)  # both modes take 0.2 J/m²
 

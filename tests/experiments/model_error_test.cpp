@@ -28,8 +28,18 @@ std::vector<std::map<std::string, std::string>> study() {
     }
     auto& one = out.emplace_back();
     for (std::size_t i = 0; i < cells.size(); ++i) one[names[i]] = cells[i];
-    if (one["rule"] != "series" || one["mastic_radius_m"] != "0.00075 0.001") out.pop_back();
+    // the cells of voids have the volumes of the voids unless a scene asks for the other cells
+    if (one["rule"] != "series" || one["mastic_radius_m"] != "0.00075 0.001" || one["void_rule"] == "spheres")
+      out.pop_back();
   }
+  return out;
+}
+
+/// Returns the ratio of the table that is nearest to the ratio of a row, by their quotient.
+double nearest_ratio(double ratio) {
+  double out = 0;
+  for (const StudiedModel& m : studied_models)
+    if (out == 0 || std::abs(std::log(m.ratio / ratio)) < std::abs(std::log(out / ratio))) out = m.ratio;
   return out;
 }
 
@@ -46,7 +56,7 @@ TEST(ModelError, TheTableIsThatOfTheStudy) {
       const bool of_row =
           m.rock < 0.3 ? rock < 0.3
                        : std::abs(rock - m.rock) < 0.01;  // specimens with 12 % of rock (shapes) and 20 % share one row
-      if ((value("void_nominal") > 0) != m.voids || !of_row || value("ratio") != m.ratio) continue;
+      if ((value("void_nominal") > 0) != m.voids || !of_row || nearest_ratio(value("ratio")) != m.ratio) continue;
       ++count;
       found.e_star = std::max(found.e_star, std::abs(value("error_percent")) / 100);
       found.phase_deg = std::max(found.phase_deg, std::abs(value("phase_error_deg")));
@@ -64,10 +74,10 @@ TEST(ModelError, TheTableIsThatOfTheStudy) {
 }
 
 TEST(ModelError, TheRowsOnBothSidesDecide) {
-  EXPECT_DOUBLE_EQ(model_error(false, 0.30, 10)->e_star, 0.046);  // 40 % of rock, ratios 5 and 20
-  EXPECT_DOUBLE_EQ(model_error(false, 0.30, 2)->e_star, 0.021);   // below the lowest ratio
-  EXPECT_DOUBLE_EQ(model_error(false, 0.402, 5)->e_star, 0.021);
-  EXPECT_DOUBLE_EQ(model_error(true, 0.10, 30)->phase_deg, 2.2);
+  EXPECT_DOUBLE_EQ(model_error(false, 0.30, 10)->e_star, 0.056);  // 40 % of rock, ratios 5 and 20
+  EXPECT_DOUBLE_EQ(model_error(false, 0.30, 2)->e_star, 0.020);   // below the lowest ratio
+  EXPECT_DOUBLE_EQ(model_error(false, 0.402, 5)->e_star, 0.020);
+  EXPECT_DOUBLE_EQ(model_error(true, 0.10, 30)->phase_deg, 2.1);
   EXPECT_FALSE(model_error(false, 0.60, 10));
   EXPECT_FALSE(model_error(true, 0.50, 10));
   EXPECT_FALSE(model_error(false, 0.30, 201));

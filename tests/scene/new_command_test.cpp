@@ -119,6 +119,7 @@ TEST_F(NewCommand, WritesWhatItSaysAndReplacesNothing) {
 
 // Pairs of particles have cracks, walls have none; the scene is a strength test that is stepped.
 TEST_F(NewCommand, CracksAreForStrengthTests) {
+  fs::copy_file(folder_ / "t8.csv", folder_ / "specimen.csv");
   for (const NewKind kind : kinds) {
     const std::string text = scene::new_scene(kind, "monotonic", ContactRule::centres, true);
     const Scene made = read_text(text);

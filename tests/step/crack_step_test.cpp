@@ -104,7 +104,8 @@ TEST_P(CrackStep, ABarOfAnyLengthTakesTheFractureEnergy) {
         const bool weak_point = j >= contact.point_begin && j < contact.point_end;
         energy += cracks[j].energy * bar.made.network.point_area[j];
         EXPECT_EQ(cracks[j].damage, weak_point ? 1 : 0) << facets << " " << j;
-        EXPECT_EQ(cracks[j].friction, 0);
+        // without friction only the rounding of stresses does work, a part of 1e-16 of the stress over a slip
+        EXPECT_NEAR(cracks[j].friction, 0, 1e-15 * Bar::energy);
       }
       const double right = Bar::energy * contact.area;
       EXPECT_NEAR(energy, right, 1e-8 * right) << facets;

@@ -2,16 +2,13 @@
 // multigrid.cpp  The levels of a multigrid cycle: smoothing, restriction and interpolation, and the coarsest solution.
 #include "host/tools/ct/continuum/multigrid.hpp"
 
-#include <Eigen/Sparse>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 
-#include "host/tools/ct/continuum/element.hpp"
+#include "host/tools/ct/continuum/coarsest_grid.hpp"
 #include "host/tools/ct/continuum/transfer.hpp"
-#include "macadam/error.hpp"
 
 namespace macadam::continuum {
 namespace {
@@ -97,57 +94,6 @@ struct Multigrid::Level {
   }
 };
 
-/// The coarsest level. Motions of the whole body that no boundary holds get a stiffness of 1e-6 of the largest
-/// diagonal element, so that the matrix is regular; the solver removes these motions.
-struct Multigrid::Coarsest {
-  Eigen::SparseLU<Eigen::SparseMatrix<Complex>> factors;
-  std::size_t nodes;
-
-  explicit Coarsest(const Grid<float>& grid) : nodes(grid.size.nodes()) {
-    const Size n = grid.size;
-    std::vector<Eigen::Triplet<Complex>> entries;
-    std::vector<Complex> diagonal(3 * nodes);
-    const auto held = [&](std::size_t node, int i) {
-      const std::size_t layer = std::size_t(n.x + 1) * (n.y + 1);
-      return i == 2 && (node < layer || node >= layer * n.z);
-    };
-    for (int k = 0; k < n.z; ++k) {
-      const ElementStiffness unit(grid.height[std::size_t(k)]);
-      for (int j = 0; j < n.y; ++j)
-        for (int i = 0; i < n.x; ++i) {
-          const std::size_t e = n.element(i, j, k);
-          std::size_t node[corners];
-          for (int c = 0; c < corners; ++c) node[c] = n.node(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
-          for (int a = 0; a < dofs; ++a)
-            for (int b = 0; b < dofs; ++b) {
-              if (held(node[a / 3], a % 3) || held(node[b / 3], b % 3)) continue;
-              const Complex value = Complex(grid.lambda[e]) * unit.lambda[a][b] + Complex(grid.mu[e]) * unit.mu[a][b];
-              const auto row = 3 * node[a / 3] + a % 3, column = 3 * node[b / 3] + b % 3;
-              entries.emplace_back(int(row), int(column), value);
-              if (row == column) diagonal[row] += value;
-            }
-        }
-    }
-    double largest = 0;
-    for (const Complex& value : diagonal) largest = std::max(largest, std::abs(value));
-    for (std::size_t row = 0; row < diagonal.size(); ++row)
-      entries.emplace_back(int(row), int(row), diagonal[row] == Complex{} ? largest : 1e-6 * largest);
-    Eigen::SparseMatrix<Complex> matrix(Eigen::Index(3 * nodes), Eigen::Index(3 * nodes));
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    factors.compute(matrix);
-    if (factors.info() != Eigen::Success)
-      throw RunError("finite elements: the matrix of the coarsest grid cannot be factorised");
-  }
-  void solve(const Field<float>& r, Field<float>& u) {
-    Eigen::VectorXcd b(Eigen::Index(3 * nodes));
-    for (std::size_t n = 0; n < nodes; ++n)
-      for (int i = 0; i < 3; ++i) b[Eigen::Index(3 * n) + i] = Complex(r.of[i][n]);
-    const Eigen::VectorXcd x = factors.solve(b);
-    for (std::size_t n = 0; n < nodes; ++n)
-      for (int i = 0; i < 3; ++i) u.of[i][n] = Single(x[Eigen::Index(3 * n) + i]);
-  }
-};
-
 Multigrid::Multigrid(const Grid<double>& grid) {
   Grid<float> level(grid.size);
   level.height = grid.height;
@@ -158,7 +104,7 @@ Multigrid::Multigrid(const Grid<double>& grid) {
     level = coarser(level);
   }
   levels_.push_back(std::make_unique<Level>(level));
-  coarsest_ = std::make_unique<Coarsest>(level);
+  coarsest_ = std::make_unique<CoarsestGrid>(level);
 }
 Multigrid::~Multigrid() = default;
 

@@ -8,6 +8,8 @@
 
 namespace macadam::continuum {
 
+class CoarsestGrid;
+
 /// A V-cycle in single precision. Levels are smoothed by Chebyshev polynomials of the matrix preconditioned by its
 /// diagonal; the coarsest level has a direct solver. The cycle is a complex symmetric operator, as the
 /// solver needs.
@@ -20,10 +22,9 @@ class Multigrid {
 
  private:
   struct Level;
-  struct Coarsest;
   void cycle(std::size_t level);
   std::vector<std::unique_ptr<Level>> levels_;
-  std::unique_ptr<Coarsest> coarsest_;
+  std::unique_ptr<CoarsestGrid> coarsest_;
 };
 
 }  // namespace macadam::continuum
