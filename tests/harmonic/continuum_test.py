@@ -174,7 +174,7 @@ def command(check, folder, macadam):
     file.write_bytes(f"ObjectType = Image\nNDims = 3\nElementSpacing = 0.5 0.5 0.5\nDimSize = {edge} {edge} {edge}\n"
                      "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n".encode() + cells)
     (folder / "scene.toml").write_text(
-        "[specimen]\nbox = [0.01, 0.01, 0.01]\n[specimen.mastic]\nradius = 0.001\nporosity = 0.3\n"
+        "[specimen]\nbox = [0.01, 0.01, 0.01]\n[specimen.mastic]\nradius = [0.001, 0.001]\nporosity = 0.3\n"
         '[network]\nrule = "series"\n[materials.aggregate]\ndensity = 2600\nlaw = "elastic"\nE = 60e9\npoisson_ratio = 0.28\n'
         '[materials.mastic]\ndensity = 2000\nlaw = "generalised_kelvin"\npoisson_ratio = 0.35\n'
         f"E_m = {maxwell}\nC_m = {viscosity}\n"
