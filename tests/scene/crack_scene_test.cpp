@@ -194,8 +194,7 @@ TEST(CrackScene, IncrementsRefuseInertia) {
   const auto message = [](const std::string& solver) {
     std::string text = with_crack("tensile_strength = 1e6, fracture_energy = 100");
     text = text.substr(0, text.find("[loading]")) +
-           "[loading]\nkind = \"monotonic\"\nrate = 1.0\nstrain = 1e-3\n[solver]\n" +
-           solver;
+           "[loading]\nkind = \"monotonic\"\nrate = 1.0\nstrain = 1e-3\n[solver]\n" + solver;
     return message_of([&] { forecast(scene_of(text)); });
   };
   EXPECT_EQ(message("threads = 1\n"), "nothing was thrown");
