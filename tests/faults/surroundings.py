@@ -78,11 +78,12 @@ def folders(setting):
         out = setting.clear()
         child = subprocess.Popen([setting.program, *setting.stepped(out)], env=setting.environment, cwd=setting.folder,
                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        while not (out / "response.csv").exists() and child.poll() is None:
+        while not all((out / name).exists() for name in ("response.csv", "summary.json")) and child.poll() is None:
             time.sleep(0.002)
         time.sleep(setting.random.uniform(0, 0.2))
         child.send_signal(signal.SIGSTOP)
-        if (out / "summary.json").exists() or child.poll() is not None:  # it has ended, or is about to
+        ended = child.poll() is not None or '"status": "running"' not in (out / "summary.json").read_text()
+        if ended:  # or is about to end
             child.kill()
             child.communicate()
             continue
