@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file make_cuda.hpp  Makes a stepper on CUDA devices for a list of laws: ExecCudaTiles if the run can be stepped in
-/// blocks of steps and the tiles fit the devices, else ExecCuda. Several ranks with rock in series have ExecCuda, too.
+/// blocks of steps and the tiles fit the devices, else ExecCuda. Several ranks
+/// whose contacts have rock in series also use ExecCuda.
 #pragma once
 
 #include "kernels/cuda/two_kernels/exec_cuda.hpp"

@@ -165,12 +165,12 @@ void ContactIncrements::prepare(std::size_t number) {
   }
 }
 
-void ContactIncrements::evaluate(const std::vector<Six>& u, Tangent tangent) {
+void ContactIncrements::evaluate(const std::vector<Six>& u) {
   for_each_of(network_.contacts.size(), [&](std::size_t c) {
     if (law(network_.contacts[c]).cracked)
-      evaluate_points(c, u[c], tangent);
+      evaluate_points(c, u[c]);
     else
-      evaluate_linear(c, u[c], tangent);
+      evaluate_linear(c, u[c]);
   });
   opening_ = 0;
   if (growing_area_ > 0) {
@@ -178,7 +178,7 @@ void ContactIncrements::evaluate(const std::vector<Six>& u, Tangent tangent) {
   }
 }
 
-void ContactIncrements::evaluate_linear(std::size_t number, const Six& u, Tangent tangent) {
+void ContactIncrements::evaluate_linear(std::size_t number, const Six& u) {
   const Contact& c = network_.contacts[number];
   const PairLaw& l = law(c);
   const auto factors = kernels::SeriesFactors<double>::of(c.series, l.step.inv_c, l.chain.alpha);
@@ -188,7 +188,6 @@ void ContactIncrements::evaluate_linear(std::size_t number, const Six& u, Tangen
   Six f;
   for (std::size_t i = 0; i < 6; ++i) f[i] = base[i] + k[i / 3] * u[i];
   force_[number] = condensed_forces(f, l.chain.alpha, m);
-  if (tangent == Tangent::none) return;
   const double n = k[0], s = k[1] * l.chain.alpha;
   stiffness_[number] = {n * m[0], n * m[1], n * m[2], 0,         0,        0,          //
                         n * m[1], n * m[3], n * m[4], 0,         0,        0,          //
@@ -198,7 +197,7 @@ void ContactIncrements::evaluate_linear(std::size_t number, const Six& u, Tangen
                         0,        0,        0,        -s * m[2], s * m[1], s * (m[3] + m[5])};
 }
 
-void ContactIncrements::evaluate_points(std::size_t number, const Six& u, Tangent tangent) {
+void ContactIncrements::evaluate_points(std::size_t number, const Six& u) {
   using laws::CrackTangent;
   const Contact& c = network_.contacts[number];
   const PairLaw& l = law(c);
@@ -209,7 +208,7 @@ void ContactIncrements::evaluate_points(std::size_t number, const Six& u, Tangen
   Six& force = force_[number];
   SixBySix& stiffness = stiffness_[number];
   force.fill(0);
-  if (tangent != Tangent::none) stiffness.fill(0);
+  stiffness.fill(0);
   const bool follows_opening = growing_area_ > 0;
   double opening = 0;
   Six rate{};
@@ -230,7 +229,7 @@ void ContactIncrements::evaluate_points(std::size_t number, const Six& u, Tangen
              old,
              laws::PointBranch::rests};
     } else {
-      out = CrackTangent::of(crack, normal, shear, kappa, old, tangent == Tangent::secant);
+      out = CrackTangent::of(crack, normal, shear, kappa, old);
     }
     const double* sigma = out.stress;
     force[0] += area * sigma[0];
@@ -249,7 +248,6 @@ void ContactIncrements::evaluate_points(std::size_t number, const Six& u, Tangen
       for (std::size_t k = 0; k < 3; ++k) rate[k] += by[0] * on_normal[k];
       rate[3] += by[1], rate[4] += by[2], rate[5] += s * by[2] - t * by[1];
     }
-    if (tangent == Tangent::none) continue;
     // B·D·B with the rows (1, s, t, 0, 0, 0), (0, 0, 0, 1, 0, −t), (0, 0, 0, 0, 1, s) of B
     double columns[3][6];  // D·B
     for (int k = 0; k < 3; ++k) {

@@ -19,10 +19,6 @@ using Six = std::array<double, 6>;
 /// Derivatives of six forces with respect to six displacements, row by row.
 using SixBySix = std::array<double, 36>;
 
-/// What to compute of the tangent: nothing, the consistent tangent, or the secant, which leaves out the derivatives
-/// with respect to the growth of cracks.
-enum class Tangent : std::uint8_t { none, consistent, secant };
-
 /// Sums over contacts at the end of an increment.
 struct ContactEnergies {
   double elastic = 0, viscous = 0, crack = 0, friction = 0, crack_work = 0;  ///< [J]
@@ -36,8 +32,8 @@ class ContactIncrements {
 
   /// Prepares an increment of `dt` seconds from the accepted state.
   void begin(double dt);
-  /// Computes forces (and stiffnesses) for the relative displacements `u` of each contact in the increment.
-  void evaluate(const std::vector<Six>& u, Tangent tangent);
+  /// Computes forces and stiffnesses for the relative displacements `u` of each contact in the increment.
+  void evaluate(const std::vector<Six>& u);
   const Six& force(std::size_t c) const { return force_[c]; }
   const SixBySix& stiffness(std::size_t c) const { return stiffness_[c]; }
   /// Returns the forces of the accepted state.
@@ -78,8 +74,8 @@ class ContactIncrements {
   };
 
   void prepare(std::size_t c);
-  void evaluate_linear(std::size_t c, const Six& u, Tangent tangent);
-  void evaluate_points(std::size_t c, const Six& u, Tangent tangent);
+  void evaluate_linear(std::size_t c, const Six& u);
+  void evaluate_points(std::size_t c, const Six& u);
   ContactEnergies accept_linear(std::size_t c, const Six& u);
   ContactEnergies accept_points(std::size_t c, const Six& u);
   const PairLaw& law(const Contact& c) const { return laws_[static_cast<std::size_t>(c.pair)]; }

@@ -35,9 +35,9 @@ constexpr double stress_change = 0.03;
 }  // namespace
 
 Increments::Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
-                       const Inertia& inertia, CourseOptions options)
+                       CourseOptions options)
     : options_(std::move(options)),
-      network_(specimen, network, laws, inertia, options_.solver),
+      network_(specimen, network, laws, options_.solver),
       length_(static_cast<double>(options_.first)),
       past_{{0, 0}} {}
 
@@ -188,8 +188,8 @@ void Increments::advance_by_opening(std::int64_t stop) {
 void Increments::fail(const IncrementReport& found) const {
   throw RunError(fmt::format(
       "quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} (the forces are out of balance by "
-      "{:.1e} of their size{}), although increments became very short; the specimen fails there, or method = "
-      "\"explicit\" in [solver] can follow its motion",
+      "{:.1e} of their size{}), although increments became very short; either the specimen fails there, or it moves "
+      "suddenly, which method = \"explicit\" in [solver] can follow",
       network_.time(), network_.wall_displacement()[driven].z / options_.height, found.residual,
       found.lost_stability ? "; its stiffness has a negative direction" : ""));
 }

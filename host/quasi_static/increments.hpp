@@ -43,8 +43,7 @@ struct CourseReport {
 
 class Increments {
  public:
-  Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia& inertia,
-             CourseOptions options);
+  Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, CourseOptions options);
 
   /// Takes one increment, which ends at the next stop or earlier. \throws RunError if no equilibrium is found.
   void advance();
@@ -65,7 +64,8 @@ class Increments {
   std::int64_t length_to(std::int64_t stop) const;
   double drive_at(std::int64_t step) const { return options_.drive->value(step - lag_); }
   double observed_value() const;  ///< of the solution: stress or, under a force, strain
-  /// Estimated error of the solution at `step`, divided by the largest value; negative: not known.
+  /// Estimated error of the solution at `step`, divided by the largest observed value so far; negative:
+  /// not known.
   double error_at(double step, double value) const;
   void accept(std::int64_t steps, const IncrementReport& found, double error);
   void advance_by_opening(std::int64_t stop);

@@ -35,7 +35,7 @@ Newton::Newton(const Specimen& specimen, const ContactNetwork& network, const La
       solver_(6 * specimen.size() <= options.direct_below ? make_direct_solver() : make_iterative_solver(specimen)),
       intact_(6 * specimen.size()) {
   contacts_.begin(1e-30);
-  contacts_.evaluate(std::vector<Six>(network.contacts.size(), Six{}), Tangent::consistent);
+  contacts_.evaluate(std::vector<Six>(network.contacts.size(), Six{}));
   matrix_.assemble(contacts_, true);
   double typical = 0;
   for (std::size_t i = 0; i < particles_; ++i)
@@ -67,7 +67,7 @@ double Newton::size_of(const Vector& loads) const {
       sum_in_parallel<double>(loads.size(), [&](std::size_t i) { return loads[i] * loads[i] / intact_[i]; }));
 }
 
-void Newton::evaluate(Trial& trial, Tangent tangent) {
+void Newton::evaluate(Trial& trial) {
   trial.relative.resize(network_.contacts.size());
   for_each_of(network_.contacts.size(), [&](std::size_t number) {
     const Contact& c = network_.contacts[number];
@@ -75,7 +75,7 @@ void Newton::evaluate(Trial& trial, Tangent tangent) {
     const double* b = c.b < 0 ? wall.data() : &trial.motion[6 * static_cast<std::size_t>(c.b)];
     trial.relative[number] = relative(c, &trial.motion[6 * static_cast<std::size_t>(c.a)], b);
   });
-  contacts_.evaluate(trial.relative, tangent);
+  contacts_.evaluate(trial.relative);
   trial.residual.resize(6 * particles_);
   Vector sizes(6 * particles_);
   for_each_of(particles_, [&](std::size_t i) {
@@ -173,14 +173,13 @@ double Newton::wall_correction(const WallIncrement& increment, const Trial& tria
   return (*increment.opening - contacts_.opening() - opening_change(correction)) / opening_change(by_wall);
 }
 
-IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tangent tangent, Trial& trial) {
+IncrementReport Newton::solve(const WallIncrement& increment, double scale, Trial& trial) {
   IncrementReport out;
   const bool wall_unknown = increment.load || increment.opening;
   double& top = trial.wall[wall_index(wall_z_hi)].z;
   contacts_.begin(increment.dt);
-  evaluate(trial, tangent);
+  evaluate(trial);
   Vector correction, by_wall;
-  const int most = tangent == Tangent::secant ? 8 * options_.passes : options_.passes;
   int stuck = 0;
   // The condition for the wall is as accurate as the residual, relative to its own scale
   const auto merit = [&] {
@@ -191,7 +190,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tang
   while (true) {
     out.residual = now;
     if (now <= options_.residual) return out.converged = true, out;
-    if (out.passes >= most || !std::isfinite(now) || stuck >= 4) return out;
+    if (out.passes >= options_.passes || !std::isfinite(now) || stuck >= 4) return out;
     ++out.passes;
     const double tolerance = std::clamp(0.3 * options_.residual / now, 1e-4, 0.05);
     if (!correct(trial, tolerance, wall_unknown, out, correction, by_wall)) return out;
@@ -207,7 +206,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tang
     const auto move = [&](double length) {
       for_each_of(from.size(), [&](std::size_t i) { trial.motion[i] = from[i] + length * correction[i]; });
       top = wall_from + length * wall_step;
-      evaluate(trial, tangent);
+      evaluate(trial);
       return merit();
     };
     double length = 1;

@@ -25,7 +25,7 @@ class Newton {
          const QuasiStaticOptions& options);
 
   /// Finds the equilibrium from the guess in `trial` (motion and wall). `scale`: the largest Trial::scale so far.
-  IncrementReport solve(const WallIncrement& increment, double scale, Tangent tangent, Trial& trial);
+  IncrementReport solve(const WallIncrement& increment, double scale, Trial& trial);
 
   ContactIncrements& contacts() { return contacts_; }
   const ContactIncrements& contacts() const { return contacts_; }
@@ -33,7 +33,7 @@ class Newton {
   std::int64_t bytes() const { return contacts_.bytes() + matrix_.bytes(); }
 
  private:
-  void evaluate(Trial& trial, Tangent tangent);
+  void evaluate(Trial& trial);
   void assemble(bool symmetric, IncrementReport& report);
   void find_wall_stiffness();
   /// Prepares the solver with the present tangent and solves for the correction and, if the motion of the top wall is

@@ -13,7 +13,6 @@ namespace macadam {
 
 using quasi_static::Newton;
 using quasi_static::Six;
-using quasi_static::Tangent;
 using quasi_static::Trial;
 
 namespace {
@@ -77,22 +76,12 @@ struct QuasiStatic::Parts {
 
   IncrementReport solve(const WallIncrement& next) {
     increment = next;
-    IncrementReport out;
-    for (const Tangent tangent : {Tangent::consistent, Tangent::secant}) {
-      if (tangent == Tangent::secant && !newton.contacts().has_cracks()) break;
-      if (tangent == Tangent::secant && next.opening) break;
-      const double factor = growth(next);
-      trial.motion.resize(last.motion.size());
-      for (std::size_t i = 0; i < trial.motion.size(); ++i) trial.motion[i] = factor * last.motion[i];
-      trial.wall = next.wall;
-      if (next.load || next.opening) trial.wall[top_wall].z = factor * last.wall[top_wall].z;
-      const IncrementReport found = newton.solve(next, scale, tangent, trial);
-      out.converged = found.converged, out.residual = found.residual, out.loose = found.loose;
-      out.passes += found.passes, out.iterations += found.iterations;
-      if (tangent == Tangent::consistent || found.converged)
-        out.negative_pivots = found.negative_pivots, out.lost_stability = found.lost_stability;
-      if (found.converged || !use_secant) break;
-    }
+    const double factor = growth(next);
+    trial.motion.resize(last.motion.size());
+    for (std::size_t i = 0; i < trial.motion.size(); ++i) trial.motion[i] = factor * last.motion[i];
+    trial.wall = next.wall;
+    if (next.load || next.opening) trial.wall[top_wall].z = factor * last.wall[top_wall].z;
+    const IncrementReport out = newton.solve(next, scale, trial);
     solved = out.converged;
     if (solved) {
       auto at = wall;
@@ -103,7 +92,6 @@ struct QuasiStatic::Parts {
     }
     return out;
   }
-  bool use_secant = false;  ///< the secant is slower than a shorter increment, and rarely succeeds where that fails
 
   void accept() {
     if (!solved) throw RunError("quasi-static: accept() needs an increment that has converged");
@@ -129,7 +117,7 @@ struct QuasiStatic::Parts {
   }
 };
 
-QuasiStatic::QuasiStatic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia&,
+QuasiStatic::QuasiStatic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                          const QuasiStaticOptions& options)
     : parts_(std::make_unique<Parts>(specimen, network, laws, options)) {}
 QuasiStatic::~QuasiStatic() = default;

@@ -3,6 +3,8 @@
 // for.
 #include "host/quasi_static/quasi_static_stepper.hpp"
 
+#include <fmt/format.h>
+
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -24,18 +26,18 @@ quasi_static::CourseOptions with_drive(const Boundary& boundary, quasi_static::C
     }
   }
   if (other || !options.drive)
-    throw InputError(
-        "quasi-static: found a boundary in which more than the top wall moves, or nothing; expected a "
-        "displacement or a force of the top wall along z");
+    throw InputError(fmt::format(
+        "quasi-static: found a boundary in which {}; expected a displacement or a force of the top wall along "
+        "z, and nothing else that moves",
+        other ? "another wall or direction moves" : "nothing moves"));
   return options;
 }
 
 }  // namespace
 
 QuasiStaticStepper::QuasiStaticStepper(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
-                                       const Inertia& inertia, const Boundary& boundary,
-                                       quasi_static::CourseOptions options)
-    : dt_(0), increments_(specimen, network, laws, inertia, with_drive(boundary, std::move(options))) {
+                                       const Boundary& boundary, quasi_static::CourseOptions options)
+    : dt_(0), increments_(specimen, network, laws, with_drive(boundary, std::move(options))) {
   dt_ = boundary.wall[wall_index(wall_z_hi)].axis[2].drive->dt();
 }
 

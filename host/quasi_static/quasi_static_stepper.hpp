@@ -19,7 +19,7 @@ class QuasiStaticStepper : public Stepper {
   /// Specimen and network must outlive this object. `boundary`: only the top wall may move, along z. \throws InputError
   /// as QuasiStatic does, and for other boundaries.
   QuasiStaticStepper(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
-                     const Inertia& inertia, const Boundary& boundary, quasi_static::CourseOptions options);
+                     const Boundary& boundary, quasi_static::CourseOptions options);
 
   void advance(std::int64_t steps) override;
   Observation observe() const override;

@@ -166,10 +166,11 @@ void merge_small_classes(SpecimenSpec& spec, double solid) {
     }
     *spec.aggregate[to].volume_fraction += *small.volume_fraction;
     small.volume_fraction = 0;
-    spec.merged.push_back(fmt::format(
-        "the class {} has {:.2g} of the volume of its smallest grain in this box, so its material is merged "
-        "with the class {}; a larger box has grains of this class",
-        name(k), grains, name(to)));
+    spec.merged.push_back(
+        fmt::format("in this box the volume of the class {} is {:.2g} times the volume of its smallest grain, less "
+                    "than one grain, so "
+                    "its material is merged with the class {}; a larger box has grains of this class",
+                    name(k), grains, name(to)));
   }
 }
 

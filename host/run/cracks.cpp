@@ -196,19 +196,19 @@ nlohmann::ordered_json cracks_json(const Cracks& cracks) {
   return out;
 }
 
-nlohmann::ordered_json rupture_json(const experiments::Rupture& r, const Cracks& cracks) {
+nlohmann::ordered_json rupture_json(const experiments::Rupture& r) {
   return {{"time_s", r.time_s},
           {"strain", r.strain},
           {"time_before_s", r.time_before_s},
           {"strain_before", r.strain_before},
-          {"words", rupture_words(r, cracks)}};
+          {"words", rupture_words(r)}};
 }
 
-std::string rupture_words(const experiments::Rupture& r, const Cracks& cracks) {
+std::string rupture_words(const experiments::Rupture& r) {
   return fmt::format(
       "The specimen broke between t = {:.4g} s and {:.4g} s (strain {:.4g} to {:.4g}): no intact contact path joins "
-      "the bottom and the top wall, and the test ends there. {}.",
-      r.time_before_s, r.time_s, r.strain_before, r.strain, of_breakable(cracks));
+      "the bottom and the top wall, and the test ends there.",
+      r.time_before_s, r.time_s, r.strain_before, r.strain);
 }
 
 std::string cracks_words(const Cracks& cracks) {

@@ -75,10 +75,10 @@ std::vector<experiments::CrackEvent> to_cracks(const std::vector<double>& number
 nlohmann::ordered_json cracks_json(const experiments::Cracks& cracks);
 
 /// Returns `rupture` of summary.json: when and why a test ended early.
-nlohmann::ordered_json rupture_json(const experiments::Rupture& rupture, const experiments::Cracks& cracks);
+nlohmann::ordered_json rupture_json(const experiments::Rupture& rupture);
 
 /// Returns the sentence that says when and why a test ended early.
-std::string rupture_words(const experiments::Rupture& rupture, const experiments::Cracks& cracks);
+std::string rupture_words(const experiments::Rupture& rupture);
 
 /// Returns one line of text with the number of broken points, to be printed.
 std::string cracks_words(const experiments::Cracks& cracks);

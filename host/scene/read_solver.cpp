@@ -107,8 +107,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         "for inertia or damping is given"},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error),
         "largest relative error of |E*| and largest error of phi [rad]; the program chooses and reports the settings "
-        "that are not given so that the errors are smaller. Method \"quasi_static\": largest error of the stress, "
-        "relative to the largest stress; the program chooses the increments accordingly",
+        "that are not given so that the errors are smaller. Method \"quasi_static\": largest estimated error of the "
+        "stress in one increment, relative to the largest stress",
         "none; method \"quasi_static\": 0.001"},
        {"density_scaling",
         Need::optional,

@@ -23,8 +23,8 @@ void require_volumetric(const Scene& scene) {
            "method \"harmonic\", or rule \"series\", because time steps do not compute the pressures of cells");
   if (frequencies_of(scene.experiment).empty())
     refuse("rule in [network]", fmt::format("\"volumetric\" with kind \"{}\"", kind_of(scene.experiment)),
-           "kind \"cyclic\" or \"sweep\", or rule \"series\", because the response without time steps is not "
-           "available for this rule");
+           "kind \"cyclic\" or \"sweep\", or rule \"series\", because with this rule only responses to cyclic loads "
+           "can be computed");
   if (scene.solver.backend == Backend::cuda)
     refuse("backend in [solver]", "\"cuda\" with rule \"volumetric\"",
            "\"cpu\", because the solver on GPUs does not compute the pressures of cells");

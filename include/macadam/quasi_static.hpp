@@ -64,8 +64,8 @@ struct QuasiStaticEnergies : experiments::Energies {
 class QuasiStatic {
  public:
   /// Starts from the undeformed state. Specimen and network must outlive this object. \throws InputError for a law that
-  /// has neither a linear chain nor a crack in series with one (brittle_bond), naming the pair and the law.
-  QuasiStatic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia& inertia,
+  /// is neither linear nor a linear law with a crack (brittle_bond), naming the pair and the law.
+  QuasiStatic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
               const QuasiStaticOptions& options = {});
   ~QuasiStatic();
   QuasiStatic(QuasiStatic&&) noexcept;

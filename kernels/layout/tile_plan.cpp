@@ -18,7 +18,7 @@ namespace {
 struct Touch {
   std::int32_t a, b;  ///< bodies
   std::uint32_t group, group_slot, wall_contact;
-  bool ends_couple;  ///< last contact of its couple
+  bool ends_couple;  ///< last contact between the same two bodies
 };
 
 using Couple = std::vector<std::uint32_t>;

@@ -88,20 +88,5 @@ TEST_P(CrackTangents, AreTheDerivativesOfTheStresses) {
   for (const int count : seen) EXPECT_GT(count, 500);
 }
 
-// The secant is the tangent at constant y, which is symmetric and positive without friction.
-TEST_P(CrackTangents, SecantsAreSymmetric) {
-  Crack values{2e6, 200, 4e6, 200, 0, 0};
-  values.softening = GetParam();
-  const Solve crack = Solve::of(values, 0.1);
-  const double shear[2] = {3e6, 6e5};
-  const CrackTangent secant =
-      CrackTangent::of(crack, 4.4e6, shear, PointIncrement::kappa, {1.2e-5, {6e-6, 1e-6}, 1.7e-5}, true);
-  EXPECT_EQ(secant.branch, laws::PointBranch::grows);
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_GT(secant.stiffness[k][k], 0);
-    for (int l = 0; l < k; ++l) EXPECT_EQ(secant.stiffness[k][l], secant.stiffness[l][k]);
-  }
-}
-
 }  // namespace
 }  // namespace macadam::test

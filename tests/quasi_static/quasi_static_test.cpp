@@ -35,7 +35,7 @@ TestScene cracking_t8() {
 }
 
 QuasiStatic quasi_static(const TestScene& scene, const QuasiStaticOptions& options = {}) {
-  return {scene.specimen, scene.network, scene.laws, scene.inertia, options};
+  return {scene.specimen, scene.network, scene.laws, options};
 }
 
 double stress(const QuasiStatic& q) { return -q.wall_force()[driven].z / area; }
@@ -142,7 +142,7 @@ TEST(QuasiStaticBar, TakesTheFractureEnergy) {
     options.drive = std::make_shared<drives::ConstantRate>(1e-4, 1e-6, 1);  // the crack is separated at 6.1e-5 m
     options.height = facets * 2e-3, options.area = 4e-6, options.grows = true;
     options.stops = {1'000'000}, options.first = 100;
-    quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
     while (increments.step() < options.stops.back()) increments.advance();
     const QuasiStatic& q = increments.network();
     const double right = 60 * 4e-6;
@@ -222,7 +222,7 @@ TEST(QuasiStaticLinear, FollowsTheRelaxationOfTheSpecimen) {
   options.height = size.z, options.area = size.x * size.y;
   options.grows = true, options.tolerance = 1e-4, options.first = 100;
   options.stops = {1000, 10'000, 100'000, 1'000'000};
-  quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
   for (const std::int64_t stop : options.stops) {
     while (increments.step() < stop) increments.advance();
     const double t = end * 1e-6 * static_cast<double>(stop);
@@ -245,7 +245,7 @@ TEST(QuasiStaticSpecimen, FollowsSnapBack) {
   options.drive = std::make_shared<drives::ConstantRate>(height, 1e-9, 1e-3);
   options.height = height, options.area = area, options.grows = true;
   options.stops = {1'000'000};
-  quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
   double peak = 0, furthest = 0, least = 1, last = 1;
   while (increments.report().by_opening < 200 && (last > 0.14e6 || peak < 0.14e6)) {
     increments.advance();

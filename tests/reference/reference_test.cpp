@@ -210,7 +210,7 @@ TEST(Reference, LeverArmsShareTheOpening) {
   stepper->advance(1);
   const ParticleState p = stepper->particles();
   const double shear = alpha * E * c.area / c.distance * slide;  // with the initial distance d, which does not change
-  // The normal rotates by slide/d = 6e-5, whose square is 3e-9. The opening has no moment.
+  // The normal rotates by slide/d = 6e-5, whose square is 3e-9. The normal force has no moment about this axis.
   EXPECT_NEAR(p.moment[0].y / (shear * (c.arm_a + open / 2)), 1, 1e-8);
   EXPECT_NEAR(p.moment[1].y / (shear * (c.arm_b + open / 2)), 1, 1e-8);
 }

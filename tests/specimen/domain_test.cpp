@@ -96,7 +96,7 @@ TEST(Domain, PointsArePulledInsideAndInnerPointsStay) {
   }
 }
 
-// The planes have the area of the circle between them, and their surface is within 2.6e-5 radii of the cylinder's.
+// The polygon between the planes has the area of the circle, and its surface is within 2.6e-5 radii of the cylinder's.
 TEST(Domain, PlanesOfTheSideStandForTheCircle) {
   EXPECT_TRUE(box.side_planes().empty());
   const auto planes = cylinder.side_planes();

@@ -93,7 +93,8 @@ void say_forecast(const std::string& file, const Scene& scene, const Forecast& f
   const auto row = [](const char* what, const std::string& text) { say("{:<10} {}\n", what, text); };
   say("{}: the scene can be run\n", file);
   std::string specimen = fmt::format("{} particles: {} aggregates", f.census.particles(), f.census.aggregates);
-  if (f.census.in_aggregates != f.census.aggregates) specimen += fmt::format(" of {} spheres", f.census.in_aggregates);
+  if (f.census.in_aggregates != f.census.aggregates)
+    specimen += fmt::format(" with {} spheres in total", f.census.in_aggregates);
   specimen += fmt::format(", {} of mastic", f.census.mastic);
   if (f.census.voids > 0) specimen += fmt::format("; {} voids", f.census.voids);
   row("specimen", specimen + fmt::format("; about {} contacts", about(f.contacts)));

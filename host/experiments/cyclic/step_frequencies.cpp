@@ -265,7 +265,7 @@ class Steps : public PlannedExperiment {
   void warn_of_cracks(std::size_t i, const experiments::Cracks& found, RunResult& result) {
     const std::string name = fmt::format("{} Hz", at_.plan.frequencies[i].loading.frequency);
     if (const auto& rupture = at_.cracks[i].rupture) {
-      warn(fmt::format("{}: {} |E*| and phi could not be measured.", name, rupture_words(*rupture, found)), result);
+      warn(fmt::format("{}: {} |E*| and phi could not be measured.", name, rupture_words(*rupture)), result);
     } else if (found.points() > 0) {
       warn(fmt::format("{}: {}", name, cracks_words(found)), result);
     }

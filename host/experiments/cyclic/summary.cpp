@@ -78,7 +78,7 @@ Json stepped_json(const SteppedFrequency& f, const Scene& scene) {
   if (f.predicted) out["predicted_error"] = error_json(*f.predicted);
   if (f.achieved) out["difference_from_harmonic"] = error_json(*f.achieved);
   if (f.cracks) out["cracks"] = cracks_json(*f.cracks);
-  if (f.rupture) out["rupture"] = rupture_json(*f.rupture, *f.cracks);
+  if (f.rupture) out["rupture"] = rupture_json(*f.rupture);
   if (scene.solver.tolerance) out["tolerance_kept"] = f.kept ? Json(*f.kept) : Json();
   return out;
 }

@@ -76,7 +76,7 @@ std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
   }
   for (const SteppedFrequency& f : found.frequencies) {
     if (!f.cracks) continue;
-    const std::string words = f.rupture ? rupture_words(*f.rupture, *f.cracks) : cracks_words(*f.cracks);
+    const std::string words = (f.rupture ? rupture_words(*f.rupture) + " " : "") + cracks_words(*f.cracks);
     out += fmt::format("{} Hz: {}\n", f.frequency_hz, words);
   }
   if (known)

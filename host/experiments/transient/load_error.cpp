@@ -291,12 +291,12 @@ std::string LoadErrors::advice(const Parts& parts) const {
                                  ? fmt::format(", a smaller damping (now {:g})", plan_.damping)
                                  : std::string();
   if (in_motion_) {
-    return fmt::format("most of the error comes from inertia and damping, so a lower rate{}{} reduces it", lighter,
-                       weaker);
+    return fmt::format("most of the error comes from inertia and damping; these changes reduce it: a lower rate{}{}",
+                       lighter, weaker);
   }
   return fmt::format(
-      "most of the error comes from inertia and damping; a longer ramp{}{} or later times reduce the error", lighter,
-      weaker);
+      "most of the error comes from inertia and damping; a longer ramp{}{} or samples at later times reduce the error",
+      lighter, weaker);
 }
 
 }  // namespace macadam

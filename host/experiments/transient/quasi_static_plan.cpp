@@ -54,11 +54,12 @@ LoadPlan make_quasi_static_plan(const TransientExperiment& test, const Scene& sc
   if (is_sudden(test)) {
     decide(fmt::format("the load grows within {:.3g} s, because the scene asks for an instantaneous load", ramp));
   }
-  decide(fmt::format("increments are chosen so that the error of the {} stays below {:g} of its largest value; {}",
-                     test.by_stress ? "strain" : "stress", scene.solver.tolerance.value_or(1e-3),
-                     6 * prepared.specimen.size() <= QuasiStaticOptions{}.direct_below
-                         ? "the linear systems of the increments are solved by factorisation"
-                         : "the linear systems of the increments are solved by iterations"));
+  decide(
+      fmt::format("increments are chosen so that the estimated error of each one is below {:g} of the largest {}; {}",
+                  scene.solver.tolerance.value_or(1e-3), test.by_stress ? "strain" : "stress",
+                  6 * prepared.specimen.size() <= QuasiStaticOptions{}.direct_below
+                      ? "the linear systems of the increments are solved by factorisation"
+                      : "the linear systems of the increments are solved by iterations"));
   return plan;
 }
 

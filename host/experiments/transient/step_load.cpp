@@ -214,8 +214,8 @@ class SteppedLoad : public PlannedExperiment {
   }
   bool is_quasi_static() const { return scene_.solver.method == SolverMethod::quasi_static; }
   void make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state) {
-    auto made = std::make_unique<QuasiStaticStepper>(prepared_.specimen, prepared_.network, scene_.laws, inertia_,
-                                                     boundary, course_options(test_, at_.plan, scene_, prepared_));
+    auto made = std::make_unique<QuasiStaticStepper>(prepared_.specimen, prepared_.network, scene_.laws, boundary,
+                                                     course_options(test_, at_.plan, scene_, prepared_));
     if (!state.empty()) made->set_state(state);
     quasi_static_ = made.get();
     if (measures_peak()) made->after_each([this](const Observation& now) { follow_peak(now); });
@@ -370,8 +370,7 @@ class SteppedLoad : public PlannedExperiment {
   /// Adds a warning if the error of a row is large. A specimen in two pieces has no equilibrium, so its rupture is
   /// reported instead of an error. In a strength test the rupture is a result and causes no warning.
   void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
-    if (found.rupture && (!test_.grows || test_.reverses))
-      return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
+    if (found.rupture && (!test_.grows || test_.reverses)) return warnings.push_back(rupture_words(*found.rupture));
     std::vector<SteppedPoint> whole = found.points;
     if (found.rupture && !whole.empty()) whole.pop_back();  // at the last point the specimen was in two pieces
     if (quasi_static_) judge_increments(warnings);

@@ -154,7 +154,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
       out["energy_error"] = error ? Json(*error) : Json();
     }
     if (found.increments) add_increments(*found.increments, out);
-    if (found.rupture) out["rupture"] = rupture_json(*found.rupture, *found.cracks);
+    if (found.rupture) out["rupture"] = rupture_json(*found.rupture);
     if (found.platen_mass_kg > 0) out["platen_mass_kg"] = found.platen_mass_kg;
     for (const SteppedPoint& p : found.points) {
       Json point = point_json(words, p);
@@ -192,7 +192,7 @@ template <>
 std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
   const LoadWords& words = load_words(found.kind);
   std::string out = measures_strength(found) ? strength_words(found) : "";
-  if (found.rupture && measures_strength(found)) out += rupture_words(*found.rupture, *found.cracks) + "\n";
+  if (found.rupture && measures_strength(found)) out += rupture_words(*found.rupture) + "\n";
   if (found.cracks) out += cracks_words(*found.cracks) + "\n";
   if (found.cracks && found.cracks->sums && !found.points.empty()) out += energy_words(found);
   const char* ratio = words.shown_stepped;

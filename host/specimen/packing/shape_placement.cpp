@@ -95,7 +95,8 @@ std::string no_room(const ShapeComposition& composition, const std::vector<Shape
   }
   char text[400];
   std::snprintf(text, sizeof text,
-                "no space for aggregate %d of %d of class %s (D^I %.4g mm) in %lld attempts: %d placed, %.1f %% of the "
+                "no space for aggregate %d of %d of class %s (intermediate size D^I %.4g mm) in %lld attempts: %d "
+                "placed, %.1f %% of the "
                 "class's volume; choose less of this class or of coarser classes, a larger box, more attempts, "
                 "allow_short = true, or placement = \"packing\"",
                 placed + 1, static_cast<int>(composition.row[lost.size_class].count_asked),

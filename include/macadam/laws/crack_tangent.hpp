@@ -20,11 +20,10 @@ struct CrackTangent {
   PointBranch branch;
 
   /// Computes an increment. `normal`, `shear`: stresses if the crack did not move [Pa]; `kappa`: change of the normal
-  /// stress per opening [Pa/m]; `old`: openings at the beginning. With `frozen` the derivatives with respect to the
-  /// growth of the crack are left out, so that the stiffness is symmetric and positive.
+  /// stress per opening [Pa/m]; `old`: openings at the beginning.
   template <int passes>
   static CrackTangent of(const CrackSolve<double, passes>& crack, double normal, const double (&shear)[2], double kappa,
-                         const CrackOpenings<double>& old, bool frozen = false) {
+                         const CrackOpenings<double>& old) {
     CrackTangent out{{}, {}, old, PointBranch::rests};
     const auto stresses = crack(normal, shear, kappa, out.w);
     out.stress[0] = stresses.normal, out.stress[1] = stresses.shear[0], out.stress[2] = stresses.shear[1];
@@ -63,7 +62,7 @@ struct CrackTangent {
         out.stiffness[1 + k][1 + l] = kappa_s * (b * (k == l) + (1 - b) * turn * across);
       }
     }
-    if (!grows || frozen || crack.curve.kind == Softening::brittle) return out;
+    if (!grows || crack.curve.kind == Softening::brittle) return out;
 
     // Derivatives with respect to y, and of y
     const auto excess = crack.excess_of(closed, y, t, rate, sliding);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_store.hpp  Owns arrays on devices (GPUs) whose type the owner does not need to know.
+/// \file device_store.hpp  Owns arrays in the memory of devices (GPUs), of any element type.
 #pragma once
 
 #include <cstdint>
