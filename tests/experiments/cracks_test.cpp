@@ -121,7 +121,6 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
   EXPECT_EQ(test.at("points").front().at("broken_points"), 0);
   EXPECT_HAS(test.at("rupture").at("words").get<std::string>(),
              "no intact contact path joins the bottom and the top wall");
-  EXPECT_HAS(test.at("rupture").at("words").get<std::string>(), "5 of 15 contact points that can break are broken");
   EXPECT_EQ(all.at("cracks").size(), 1u) << "contacts with walls cannot break here";
   EXPECT_EQ(bonds.at("points"), 5);
   EXPECT_EQ(bonds.at("tension"), 5);
@@ -131,6 +130,7 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
 
   EXPECT_EQ(results_table(result).rfind("strength 0.1", 0), 0u) << results_table(result);
   EXPECT_HAS(results_table(result), "The specimen broke between t = ");
+  EXPECT_HAS(results_table(result), "5 of 15 contact points that can break are broken");
   EXPECT_HAS(results_table(result), "M-M 5 (5 in tension, 0 in shear)");
 
   const auto table = rows_of(read(out("out") / "monotonic.csv"), monotonic_head);
@@ -266,7 +266,7 @@ TEST_F(CracksOfATest, ACreepAboveTheStrengthSaysThatTheSpecimenBroke) {
   EXPECT_EQ(found.rupture->time_before_s, 0);
   ASSERT_EQ(result.warnings.size(), 1u);
   EXPECT_HAS(result.warnings.front(), "The specimen broke between t = 0 s and 0.001");
-  EXPECT_HAS(result.warnings.front(), "5 of 5 contact points that can break are broken");
+  EXPECT_HAS(results_table(result), "5 of 5 contact points that can break are broken");
   EXPECT_EQ(result.warnings.front().find("density_scaling"), std::string::npos);
   EXPECT_EQ(summary("out").at("results").at(0).at("points").size(), 1u);
   EXPECT_HAS(read(out("out") / "creep.csv"), ",error,top_pa,bottom_pa,kinetic_j,broken_points,poisson_ratio\n");
