@@ -17,6 +17,9 @@ constexpr double held_part = 1e-11;
 /// A particle whose stiffness is less than this part of the intact one is loose. It keeps this part of its intact
 /// stiffness in the tangent.
 constexpr double loose_part = 1e-4;
+/// Systems that are solved by iterations have the symmetric part of the tangent. If a correction leaves more than this
+/// part of the residual, friction makes the rest of the tangent matter.
+constexpr double slow = 0.3;
 
 Six wall_motion(const std::array<Vec3d, wall_count>& walls, std::int32_t wall) {
   const Vec3d& x = walls[wall_index(wall)];
@@ -113,12 +116,12 @@ void Newton::assemble(bool symmetric, IncrementReport& report) {
   }
 }
 
-bool Newton::correct(const Trial& trial, double tolerance, bool wall_unknown, IncrementReport& report,
-                     Vector& correction, Vector& by_wall) {
+bool Newton::correct(const Trial& trial, double tolerance, bool wall_unknown, bool whole_tangent,
+                     IncrementReport& report, Vector& correction, Vector& by_wall) {
   Vector right(trial.residual.size()), top(trial.residual.size());
   for (std::size_t i = 0; i < right.size(); ++i) right[i] = -trial.residual[i];
   for (const bool symmetric : {true, false}) {
-    if (symmetric && !solver_->wants_symmetric()) continue;
+    if (symmetric && (whole_tangent || !solver_->wants_symmetric())) continue;
     assemble(symmetric, report);
     const LinearReport prepared = solver_->prepare(matrix_);
     report.negative_pivots = prepared.negative_pivots;
@@ -135,6 +138,11 @@ bool Newton::correct(const Trial& trial, double tolerance, bool wall_unknown, In
     if (solved.solved) return true;
   }
   return false;
+}
+
+double Newton::tolerance_of(double residual) const {
+  const double wanted = 0.3 * options_.residual / residual;
+  return std::clamp(wanted > 1e-2 ? wanted : std::sqrt(wanted), 1e-3, 0.05);
 }
 
 double Newton::opening_change(const Vector& motion) const {
@@ -192,8 +200,10 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
     if (now <= options_.residual) return out.converged = true, out;
     if (out.passes >= options_.passes || !std::isfinite(now) || stuck >= 4) return out;
     ++out.passes;
-    const double tolerance = std::clamp(0.3 * options_.residual / now, 1e-4, 0.05);
-    if (!correct(trial, tolerance, wall_unknown, out, correction, by_wall)) return out;
+    const double tolerance = tolerance_of(now);
+    // The first correction of an increment is far from the solution in any case
+    const bool whole_tangent = friction_matters_ && out.passes > 1;
+    if (!correct(trial, tolerance, wall_unknown, whole_tangent, out, correction, by_wall)) return out;
     double wall_step = 0;
     if (wall_unknown) {
       wall_step = wall_correction(increment, trial, correction, by_wall);
@@ -216,6 +226,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
       if (found < 0.7 * now) break;
     }
     if (best_length != length && std::isfinite(best)) best = move(best_length);
+    friction_matters_ = friction_matters_ || best > slow * now;
     stuck = best < 0.95 * now ? 0 : stuck + 1;
     now = best;
   }

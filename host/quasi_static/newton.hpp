@@ -38,8 +38,12 @@ class Newton {
   void find_wall_stiffness();
   /// Prepares the solver with the present tangent and solves for the correction and, if the motion of the top wall is
   /// unknown, for the motion that a unit displacement of the wall causes.
-  bool correct(const Trial& trial, double tolerance, bool wall_unknown, IncrementReport& report, Vector& correction,
-               Vector& by_wall);
+  /// `whole_tangent`: whether its antisymmetric part is used in any case.
+  bool correct(const Trial& trial, double tolerance, bool wall_unknown, bool whole_tangent, IncrementReport& report,
+               Vector& correction, Vector& by_wall);
+  /// Returns how accurately the linear system is solved if the residual has this size: two more corrections shall
+  /// reach the residual that is asked for.
+  double tolerance_of(double residual) const;
   /// Returns the amount by which the condition for the wall is missed, divided by its scale.
   double missed(const WallIncrement& increment, const Trial& trial) const;
   /// Returns the correction of the wall's displacement that fulfils the condition.
@@ -55,8 +59,9 @@ class Newton {
   ContactIncrements contacts_;
   TangentMatrix matrix_;
   std::unique_ptr<TangentSolver> solver_;
-  Vector intact_;              ///< diagonal of the intact, instantaneous stiffness
-  double wall_stiffness_ = 0;  ///< derivative of the top wall's reaction with respect to its displacement
+  Vector intact_;                  ///< diagonal of the intact, instantaneous stiffness
+  bool friction_matters_ = false;  ///< whether a symmetric tangent has converged slowly
+  double wall_stiffness_ = 0;      ///< derivative of the top wall's reaction with respect to its displacement
 };
 
 }  // namespace macadam::quasi_static

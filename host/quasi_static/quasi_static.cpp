@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/quasi_static/newton.hpp"
+#include "host/quasi_static/motion_guess.hpp"
 #include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
 
+using quasi_static::MotionGuess;
 using quasi_static::Newton;
 using quasi_static::Six;
 using quasi_static::Trial;
@@ -20,8 +21,6 @@ namespace {
 double sum_of(const QuasiStaticEnergies& e) {
   return std::max(std::abs(e.work_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j));
 }
-
-constexpr std::size_t top_wall = wall_index(wall_z_hi);
 
 }  // namespace
 
@@ -38,19 +37,18 @@ double QuasiStaticEnergies::increment_error() const {
 struct QuasiStatic::Parts {
   Parts(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
         const QuasiStaticOptions& options)
-      : network(network), particles(specimen.size()), newton(specimen, network, laws, options) {
+      : network(network), particles(specimen.size()), newton(specimen, network, laws, options), motions(particles) {
     displacement.assign(6 * particles, 0.0);
-    last.motion = displacement;
   }
 
   const ContactNetwork& network;
   std::size_t particles;
   Newton newton;
   // The accepted state
-  double time = 0, last_dt = 0, scale = 0;
+  double time = 0, scale = 0;
   std::vector<double> displacement;  ///< [6·particles]
   std::array<Vec3d, wall_count> wall{}, reaction{};
-  Trial last;  ///< motion of the last increment
+  MotionGuess motions;
   QuasiStaticEnergies energies;
   double last_opening = 0;
   // The solution, until it is accepted
@@ -64,23 +62,10 @@ struct QuasiStatic::Parts {
     for (std::size_t w = 0; w < wall_count; ++w) shown_force[w] = -held[w];
   }
 
-  /// Returns the factor by which the motion of the last increment is multiplied to guess the next one.
-  double growth(const WallIncrement& next) const {
-    if (last_dt == 0) return 0;
-    const double by_time = next.dt / last_dt, before = last.wall[top_wall].z, now = next.wall[top_wall].z;
-    if (next.opening) return last_opening > 0 ? std::clamp(*next.opening / last_opening, 0.0, 2.0) : 0;
-    if (next.load) return by_time;
-    if (before == 0 && now == 0) return by_time;
-    return before != 0 && now / before > 0 && now / before < 10 ? now / before : 0;
-  }
-
   IncrementReport solve(const WallIncrement& next) {
     increment = next;
-    const double factor = growth(next);
-    trial.motion.resize(last.motion.size());
-    for (std::size_t i = 0; i < trial.motion.size(); ++i) trial.motion[i] = factor * last.motion[i];
     trial.wall = next.wall;
-    if (next.load || next.opening) trial.wall[top_wall].z = factor * last.wall[top_wall].z;
+    motions.guess(next, trial);
     const IncrementReport out = newton.solve(next, scale, trial);
     solved = out.converged;
     if (solved) {
@@ -108,9 +93,7 @@ struct QuasiStatic::Parts {
     energies.crack_work_j += sums.crack_work;
     last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
     for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] += trial.motion[i];
-    last.motion = trial.motion;
-    last.wall = trial.wall;
-    last_dt = increment.dt;
+    motions.accept(increment, trial, last_opening);
     time += increment.dt;
     scale = std::max(scale, trial.scale);
     solved = false;
@@ -189,16 +172,20 @@ ContactState QuasiStatic::contacts() const {
 
 std::vector<StateArray> QuasiStatic::state() const {
   const Parts& p = *parts_;
-  std::vector<double> numbers{p.time, p.last_dt, p.scale, p.last_opening};
-  for (const auto* walls : {&p.wall, &p.reaction, &p.last.wall}) {
+  const MotionGuess::Past &last = p.motions.last(), &before = p.motions.before();
+  std::vector<double> numbers{p.time,      p.scale,       p.last_opening, p.motions.continues_change() ? 1.0 : 0.0,
+                              last.dt,     last.wall,     last.opening,   before.dt,
+                              before.wall, before.opening};
+  for (const auto* walls : {&p.wall, &p.reaction}) {
     for (const Vec3d& x : *walls) numbers.insert(numbers.end(), {x.x, x.y, x.z});
   }
   const QuasiStaticEnergies& e = p.energies;
   numbers.insert(numbers.end(), {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j});
   const std::vector<char>& grew = p.newton.contacts().grew();
-  return {{"quasi_static", "s, s, 1, m, m, N, m, J", std::move(numbers)},
+  return {{"quasi_static", "s, 1, m, 1, s, m, m, s, m, m, m, N, J", std::move(numbers)},
           {"displacement", "m, 1", p.displacement},
-          {"motion", "m, 1", p.last.motion},
+          {"motion", "m, 1", last.motion},
+          {"motion_before", "m, 1", before.motion},
           {"contacts", "Pa m, m", p.newton.contacts().states()},
           {"growing", "1", std::vector<std::int64_t>(grew.begin(), grew.end())}};
 }
@@ -220,18 +207,21 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   const auto doubles = [&](std::size_t k) { return std::get<std::vector<double>>(found[k]->values); };
   Parts& p = *parts_;
   const std::vector<double> numbers = doubles(0);
-  p.time = numbers[0], p.last_dt = numbers[1], p.scale = numbers[2], p.last_opening = numbers[3];
-  std::size_t at = 4;
-  for (auto* walls : {&p.wall, &p.reaction, &p.last.wall}) {
+  p.time = numbers[0], p.scale = numbers[1], p.last_opening = numbers[2];
+  const auto past = [&](std::size_t k, std::size_t array) {
+    return MotionGuess::Past{numbers[k], numbers[k + 1], numbers[k + 2], doubles(array)};
+  };
+  p.motions.set(past(4, 2), past(7, 3), numbers[3] != 0);
+  std::size_t at = 10;
+  for (auto* walls : {&p.wall, &p.reaction}) {
     for (Vec3d& x : *walls) x = {numbers[at], numbers[at + 1], numbers[at + 2]}, at += 3;
   }
   QuasiStaticEnergies& e = p.energies;
   e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
   e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5];
   p.displacement = doubles(1);
-  p.last.motion = doubles(2);
-  const auto& grew = std::get<std::vector<std::int64_t>>(found[4]->values);
-  p.newton.contacts().set_states(doubles(3), {grew.begin(), grew.end()});
+  const auto& grew = std::get<std::vector<std::int64_t>>(found[5]->values);
+  p.newton.contacts().set_states(doubles(4), {grew.begin(), grew.end()});
   p.solved = false;
   p.show(p.wall, p.reaction);
 }
