@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file group_lanes.hpp  Gathers frame, area moments and largest load of a group of contacts in SIMD registers. A
-/// group of four contacts has one contact in each lane; a group of one contact has it in all lanes.
+/// \file group_lanes.hpp  Gathers frame, area moments and largest load of a group of contacts in SIMD registers. In a
+/// group of four contacts, each lane has one contact. In a group of one contact, all lanes have the same contact.
 #pragma once
 
 #include <cmath>

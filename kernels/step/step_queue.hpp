@@ -44,7 +44,7 @@ class StepQueue {
   }
 
   /// Takes `times` samples, one after every `every` steps, and calls take(step, sample) for each when all steps are
-  /// done. The executor must be able to take so many samples while it runs.
+  /// done. `times` must be at most Exec::max_samples().
   template <class Take>
   void advance_sampled(std::int64_t every, std::int64_t times, Take&& take) {
     StepsToTake all{step_, step_ + every * times};
