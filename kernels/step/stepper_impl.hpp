@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "kernels/base/checksum.hpp"
+#include "kernels/base/parallel.hpp"
 #include "kernels/contact/contact_readout.hpp"
 #include "kernels/step/body_inputs.hpp"
 #include "kernels/step/executor.hpp"
@@ -105,13 +106,14 @@ class StepperImpl final : public Stepper {
     exec_.use_device();
     exec_.gather();
     const std::size_t n = layout_.particles();
-    const std::vector<Vec3d> zero(n);
-    ParticleState out{zero, zero, zero, zero, zero, zero};
+    ParticleState out;
+    for (auto* list : {&out.displacement, &out.rotation, &out.velocity, &out.spin, &out.force, &out.moment})
+      list->resize(n);
     const bool weigh = !exec_.forces_with_weight() && !options_.boundary.body_force.empty();
     const auto v = exec_.velocities();
     const auto u = exec_.displacements();
     const auto forces = exec_.forces(0, n);
-    for (std::size_t b = 0; b < n; ++b) {
+    for_each_of(n, [&](std::size_t b) {
       const auto i = static_cast<std::size_t>(layout_.particle[b]);
       const R* vb = &v[b * velocity_words];
       const double* ub = &u[b * displacement_words];
@@ -123,7 +125,7 @@ class StepperImpl final : public Stepper {
       out.force[i] = {f.linear.x, f.linear.y, f.linear.z};
       if (weigh) out.force[i] += options_.boundary.body_force[i];
       out.moment[i] = {f.angular.x, f.angular.y, f.angular.z};
-    }
+    });
     return out;
   }
 
@@ -141,6 +143,12 @@ class StepperImpl final : public Stepper {
   }
 
   ContactState contacts(const ContactNetwork& network) const override {
+    ContactState out;
+    read_contacts(network, out);
+    return out;
+  }
+
+  void read_contacts(const ContactNetwork& network, ContactState& out) const override {
     exec_.use_device();
     exec_.gather();
     const std::vector<double> u = exec_.displacements();
@@ -150,34 +158,34 @@ class StepperImpl final : public Stepper {
                        " contacts, expected the network of " + std::to_string(contacts_) +
                        " contacts that the stepper was made from");
     }
-    ContactState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<std::array<double, 6>>(n), {}, {0}};
+    const std::size_t points = network.point_area.size();
+    const bool breaks = can_break(facts_of(laws_)), cracks = can_crack(facts_of(laws_));
+    out.force.resize(n), out.moment.resize(n), out.relative.resize(n);
+    out.broken.resize(breaks ? n : 0), out.point_breaks.resize(breaks ? points : 0);
+    out.point_cracks.resize(cracks ? points : 0);
     const auto each_group = [&](auto&& f) {
       for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
         const GroupLayout& group = layout_.groups[g];
         std::visit([&](const auto& law) { f(g, group, law); }, laws_[static_cast<std::size_t>(group.pair)].value());
       }
     };
-    out.chain_begin.resize(n + 1, 0);
+    out.chain_begin.resize(n + 1);
+    out.chain_begin[0] = 0;
     each_group([&](std::size_t, const GroupLayout& group, const auto& law) {
       const GroupReading<P, std::decay_t<decltype(law)>> read(network, layout_, group, law, options_, u, {});
-      for (const std::uint32_t c : group.contact) {
+      for_each_of(group.contact.size(), [&](std::size_t slot) {
+        const std::uint32_t c = group.contact[slot];
         if (c != inert) out.chain_begin[c + 1] = read.numbers(network.contacts[c]);
-      }
+      });
     });
     std::partial_sum(out.chain_begin.begin(), out.chain_begin.end(), out.chain_begin.begin());
-    out.chain.resize(out.chain_begin.back(), 0.0);
-    if (can_break(facts_of(laws_))) {
-      out.broken.resize(n, 0.0);
-      out.point_breaks.resize(network.point_area.size(), Break::none);
-    }
-    if (can_crack(facts_of(laws_))) out.point_cracks.resize(network.point_area.size());
+    out.chain.resize(out.chain_begin.back());
     each_group([&](std::size_t g, const GroupLayout& group, const auto& law) {
       const GroupShape<P> shape(layout_, group, facts_of(law), options_);
       GroupReading<P, std::decay_t<decltype(law)>>(network, layout_, group, law, options_, u,
                                                    exec_.group_state(g, shape.chain(), shape.frame()))
           .read(out);
     });
-    return out;
   }
 
   DeviceMotion device_motion() const override {

@@ -253,7 +253,8 @@ class Steps : public PlannedExperiment {
   /// steps go on.
   void look_for_cracks(std::size_t i, CrackWatch& watch, const Observation& now) {
     FrequencyCracks& cracks = at_.cracks[i];
-    write_cracks(i, watch.look(read_contact_state(scene_, *stepper_, prepared_.network), now.time));
+    read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
+    write_cracks(i, watch.look(contact_state_, now.time));
     cracks.events = watch.found().events;
     const double strain = now.top_displacement() / gauge_length(prepared_.specimen);
     if (strain > 0 && !watch.joins_walls()) cracks.rupture = {now.time, strain, cracks.time_s, cracks.strain};
@@ -347,6 +348,7 @@ class Steps : public PlannedExperiment {
   DeviceList devices_;                ///< devices of the stepper
   bool may_move_ = true;              ///< whether the run may move to other devices
   std::unique_ptr<Stepper> stepper_;  ///< stepper of the running frequency or of the first one
+  ContactState contact_state_;        ///< at the last sample, if contact points can break
   bool used_ = false;                 ///< whether the stepper has run a frequency
   std::optional<FreeSides> sides_;    ///< empty if a side is held or has no cell
   std::optional<LineWriter> cracks_writer_;

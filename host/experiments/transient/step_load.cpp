@@ -159,8 +159,8 @@ class SteppedLoad : public PlannedExperiment {
     const auto start = Clock::now();
     const double before = at_.seconds;
     const Course course = course_of(
-        [&](SteppedPoint point) {
-          const auto events = look_for_cracks(point);
+        [&](SteppedPoint point, const ParticleState& particles) {
+          const auto events = look_for_cracks(point, particles);
           write_cracks(events);
           at_.points.push_back(point);
           writer.add(line(words, point));
@@ -195,7 +195,7 @@ class SteppedLoad : public PlannedExperiment {
     writer.close();
     if (cracks_writer) cracks_writer->close();
     if (cracks_.sums())
-      write_damage(out, prepared_, end_cracks_, found.points.empty() ? 0 : found.points.back().time_s);
+      write_damage(out, prepared_, contact_state_.point_cracks, found.points.empty() ? 0 : found.points.back().time_s);
     judge(found, result.warnings);
   }
 
@@ -265,18 +265,17 @@ class SteppedLoad : public PlannedExperiment {
   /// Counts the contact points that are broken at a sample, sums the energies, and returns the events since the last
   /// sample. Under tension the test ends when no path of intact contacts joins the walls. In compression broken points
   /// still bear load, so the test goes on.
-  std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
+  std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point, const ParticleState& particles) {
     if (!cracks_.active()) return {};
-    ContactState state = read_contact_state(scene_, *stepper_, prepared_.network);
-    auto events = cracks_.look(state, point.time_s);
-    at_.cracks = cracks_.found().events;
+    read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
+    auto events = cracks_.look(contact_state_, point.time_s);
+    at_.cracks.insert(at_.cracks.end(), events.begin(), events.end());
     point.broken_points = cracks_.found().points();
     const Observation now = stepper_->observe();
     if (cracks_.sums()) {
       point.cracks = *cracks_.found().sums;
       point.energies = quasi_static_ ? experiments::Energies(quasi_static_->energies())
-                                     : ledger_.sample(now, state, stepper_->particles(), point.cracks);
-      end_cracks_ = std::move(state.point_cracks);
+                                     : ledger_.sample(now, contact_state_, particles, point.cracks);
     }
     if (drive_->value(now.step) > 0 && !cracks_.joins_walls()) {
       const SteppedPoint before = at_.points.empty() ? SteppedPoint{} : at_.points.back();
@@ -287,7 +286,7 @@ class SteppedLoad : public PlannedExperiment {
 
   /// Returns the course of the run: its samples, and the functions that are called at them. Sample 0 is the initial
   /// state, which is drawn in the field files. The other samples are the points of the result.
-  Course course_of(const std::function<void(SteppedPoint)>& add, Content content) {
+  Course course_of(const std::function<void(SteppedPoint, const ParticleState&)>& add, Content content) {
     const std::vector<double>& times = test_.history.times;
     Course course;
     course.name = test_.kind;
@@ -299,7 +298,9 @@ class SteppedLoad : public PlannedExperiment {
     };
     course.taken = [](std::int64_t k) { return k > 0; };
     course.take = [this, add](std::int64_t k, const Observation& now) {
-      if (k > 0) add(point(now));
+      if (k == 0) return;
+      const ParticleState particles = stepper_->particles();
+      add(point(now, particles), particles);
     };
     course.uses_stepper = [](std::int64_t) { return true; };  // point() computes the kinetic energy from it
     if (!quasi_static_ && (measures_peak() || cracks_.sums())) {
@@ -324,8 +325,8 @@ class SteppedLoad : public PlannedExperiment {
     return course;
   }
 
-  /// Returns the point at the stepper's present step.
-  SteppedPoint point(const Observation& now) const {
+  /// Returns the point at the stepper's present step, with the present motion of the particles.
+  SteppedPoint point(const Observation& now, const ParticleState& particles) const {
     const double area = section_area(prepared_.specimen),
                  load = drive_->value(now.step) / area + 0.0;  // + 0.0 turns −0 into 0
     SteppedPoint out{};
@@ -334,7 +335,6 @@ class SteppedLoad : public PlannedExperiment {
     out.top_pa = -now.top_force() / area;  // in tension the particles pull the top wall down: negative force
     out.bottom_pa = now.wall_force[wall_index(wall_z_lo)].z / area;
     const double none = std::numeric_limits<double>::quiet_NaN();
-    const ParticleState particles = stepper_->particles();
     out.kinetic_j = at_.plan.density_scaling * kinetic_energy(particles, inertia_);
     out.poisson_ratio = sides_ && out.strain != 0
                             ? sides_->contraction(motions_of(particles, sides_->particles())) / now.top_displacement()
@@ -407,7 +407,7 @@ class SteppedLoad : public PlannedExperiment {
   std::optional<FreeSides> sides_;                    ///< empty if a side is held or has no cell
   CrackWatch cracks_;
   EnergyLedger ledger_;
-  std::vector<laws::PointCrack> end_cracks_;  // of the contact points, at the last point of the result
+  ContactState contact_state_;  // at the last point of the result; chains: see EnergyLedger::sample()
   std::optional<experiments::Rupture> rupture_ = {};
   bool owns_checkpoint_;
 };

@@ -10,6 +10,7 @@
 #include "kernels/contact/contact_readout.hpp"
 #include "kernels/cuda/common/crossing_contacts.hpp"
 #include "kernels/cuda/common/divergence.hpp"
+#include "kernels/cuda/common/host_copy.hpp"
 #include "kernels/cuda/device/part_clock.hpp"
 #include "kernels/cuda/common/load_record_order.hpp"
 #include "kernels/cuda/multi_gpu/device_team.hpp"
@@ -116,12 +117,7 @@ class CudaBodyArrays {
   }
 
   GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {
-    const auto copy = [](const auto* from, std::size_t n) {
-      std::vector<typename P::State> out(n);
-      if (n > 0) copy_now(out.data(), from, n * sizeof out[0], "contact states");
-      return out;
-    };
-    return {copy(views_[number].chain, chain), copy(views_[number].frame, frame), {}};
+    return {chain_on_host_.copy(views_[number].chain, chain), frame_on_host_.copy(views_[number].frame, frame), {}};
   }
 
   const StateList& states() const { return states_; }
@@ -286,6 +282,7 @@ class CudaBodyArrays {
   DeviceArray<G> velocity_;
   WallRowsOnDevice<R> wall_rows_;
   mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first needed
+  mutable HostCopy<typename P::State> chain_on_host_, frame_on_host_;
   DeviceStore store_;
   StateList states_;
   PartClock parts_;
