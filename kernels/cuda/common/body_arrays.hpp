@@ -13,6 +13,7 @@
 #include "kernels/cuda/common/host_copy.hpp"
 #include "kernels/cuda/device/part_clock.hpp"
 #include "kernels/cuda/common/load_record_order.hpp"
+#include "kernels/cuda/common/sample_buffer.hpp"
 #include "kernels/cuda/multi_gpu/device_team.hpp"
 #include "kernels/cuda/device/device_store.hpp"
 #include "kernels/cuda/common/wall_table.hpp"
@@ -243,6 +244,27 @@ class CudaBodyArrays {
   /// Returns −1 for UINT32_MAX (no particle), else the number.
   static std::int64_t number_or_none(std::uint32_t first_divergent) {
     return first_divergent == UINT32_MAX ? -1 : static_cast<std::int64_t>(first_divergent);
+  }
+  /// Enqueues sample `k` of the walls and of the first divergent particle. `wall_force`: loads on the walls, on the
+  /// device.
+  void queue_sample(DeviceSamples<R>& samples, std::size_t k, double dt, const R* wall_force) const {
+    const cudaStream_t stream = team_.stream();
+    const std::size_t from = layout_.particles();
+    if (k == 0) samples.clear(stream);
+    divergence_->queue(master_.data(), dt, 0, from, samples.divergent(k), stream);
+    samples.take(k, wall_force, master_.data() + from * velocity_words,
+                 displacement_.data() + from * displacement_words, stream);
+  }
+  /// Converts the first `number` samples, which must have been read.
+  static std::vector<WallSample<R>> wall_samples(const DeviceSamples<R>& samples, std::size_t number) {
+    const auto list = [](const auto& of) { return std::vector(std::begin(of), std::end(of)); };
+    std::vector<WallSample<R>> out;
+    for (std::size_t k = 0; k < number; ++k) {
+      const auto& sample = samples[k];
+      out.push_back({twists(list(sample.force)), list(sample.displacement), list(sample.velocity),
+                     number_or_none(sample.divergent)});
+    }
+    return out;
   }
   /// Converts bodies from eight words to twists.
   static std::vector<Twist<R>> twists(const std::vector<R>& words) {
