@@ -56,6 +56,20 @@ std::int64_t Increments::length_to(std::int64_t stop) const {
   return 2 * wanted > left ? (left + 1) / 2 : wanted;
 }
 
+WallIncrement Increments::increment_of(std::int64_t steps) const {
+  WallIncrement out;
+  const double unit = options_.drive->dt();
+  out.dt = static_cast<double>(steps) * unit;
+  const TemperatureHistory& history = options_.temperature;
+  if (history.empty()) return out;
+  const double from = static_cast<double>(step_) * unit, to = static_cast<double>(step_ + steps) * unit;
+  out.warming = history.at(to) - history.at(from);
+  std::array<double, pair_types>& times = out.reduced_dt.emplace();
+  for (std::size_t pair = 0; pair < pair_types; ++pair)
+    times[pair] = reduced_time(options_.shifts[pair], history, from, to);
+  return out;
+}
+
 double Increments::observed_value() const {
   if (options_.by_force) return network_.wall_displacement()[driven].z / options_.height;
   return -network_.wall_force()[driven].z / options_.area;
@@ -100,8 +114,7 @@ void Increments::advance() {
   int halvings = 0;
   while (true) {
     const std::int64_t steps = length_to(stop);
-    WallIncrement next;
-    next.dt = static_cast<double>(steps) * options_.drive->dt();
+    WallIncrement next = increment_of(steps);
     const double moved = network_.wall_displacement()[driven].z;
     if (options_.by_force) {
       next.load = options_.drive->value(step_ + steps);
@@ -149,8 +162,7 @@ void Increments::advance() {
 void Increments::advance_by_opening(std::int64_t stop) {
   for (int halvings = 0; halvings <= 2 * most_halvings; ++halvings, opening_ *= 0.5) {
     const std::int64_t steps = std::min(opening_steps_, stop - step_);
-    WallIncrement next;
-    next.dt = static_cast<double>(steps) * options_.drive->dt();
+    WallIncrement next = increment_of(steps);
     next.opening = opening_;
     const double moved = network_.wall_displacement()[driven].z, before = past_.back().value;
     const IncrementReport found = network_.solve(next);

@@ -2,6 +2,7 @@
 /// \file increments.hpp  Chooses the lengths of increments from their errors, and the quantity that controls them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "macadam/drives/drive.hpp"
 #include "macadam/quasi_static.hpp"
+#include "macadam/temperature.hpp"
 
 namespace macadam::quasi_static {
 
@@ -24,6 +26,8 @@ struct CourseOptions {
   std::vector<std::int64_t> kinks;  ///< those stops at which the rate of the drive jumps
   std::int64_t first = 1;           ///< length of the first increment, and of the first one after a kink [steps]
   std::int64_t longest = 0;         ///< length of the longest increment [steps]; 0: no limit
+  TemperatureHistory temperature;   ///< of the specimen; empty: constant. The laws are given at their references
+  std::array<laws::Shift, pair_types> shifts{};  ///< of the laws; used only with a temperature history
   QuasiStaticOptions solver;
 };
 
@@ -63,6 +67,8 @@ class Increments {
   /// Number of steps of the next increment.
   std::int64_t length_to(std::int64_t stop) const;
   double drive_at(std::int64_t step) const { return options_.drive->value(step - lag_); }
+  /// Returns an increment of `steps` steps from the present one, with its duration and the change of temperature.
+  WallIncrement increment_of(std::int64_t steps) const;
   double observed_value() const;  ///< of the solution: stress or, under a force, strain
   /// Estimated error of the solution at `step`, divided by the largest observed value so far; negative:
   /// not known.

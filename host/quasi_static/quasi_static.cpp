@@ -18,7 +18,7 @@ using quasi_static::Trial;
 namespace {
 
 double sum_of(const QuasiStaticEnergies& e) {
-  return std::max(std::abs(e.work_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j));
+  return std::max({std::abs(e.work_j), std::abs(e.thermal_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j)});
 }
 
 constexpr std::size_t top_wall = wall_index(wall_z_hi);
@@ -27,7 +27,7 @@ constexpr std::size_t top_wall = wall_index(wall_z_hi);
 
 double QuasiStaticEnergies::imbalance() const {
   const double sum = sum_of(*this);
-  return sum > 0 ? std::abs(work_j - elastic_j - viscous_j - crack_work_j) / sum : 0;
+  return sum > 0 ? std::abs(work_j + thermal_j - elastic_j - viscous_j - crack_work_j) / sum : 0;
 }
 
 double QuasiStaticEnergies::increment_error() const {
@@ -38,13 +38,17 @@ double QuasiStaticEnergies::increment_error() const {
 struct QuasiStatic::Parts {
   Parts(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
         const QuasiStaticOptions& options)
-      : network(network), particles(specimen.size()), newton(specimen, network, laws, options) {
+      : network(network),
+        particles(specimen.size()),
+        expansion(options.expansion),
+        newton(specimen, network, laws, options) {
     displacement.assign(6 * particles, 0.0);
     last.motion = displacement;
   }
 
   const ContactNetwork& network;
   std::size_t particles;
+  std::vector<double> expansion;  ///< as QuasiStaticOptions::expansion
   Newton newton;
   // The accepted state
   double time = 0, last_dt = 0, scale = 0;
@@ -93,8 +97,19 @@ struct QuasiStatic::Parts {
     return out;
   }
 
+  /// Returns the work of the contacts' forces against the expansion of the increment that is to be accepted [J].
+  double thermal_work() const {
+    if (expansion.empty() || increment.warming == 0) return 0;
+    const auto& contacts = newton.contacts();
+    return sum_in_parallel<double>(expansion.size(), [&](std::size_t c) {
+      const double mean = 0.5 * (contacts.accepted_force(c)[0] + contacts.force(c)[0]);
+      return -mean * expansion[c] * increment.warming;
+    });
+  }
+
   void accept() {
     if (!solved) throw RunError("quasi-static: accept() needs an increment that has converged");
+    energies.thermal_j += thermal_work();
     const quasi_static::ContactEnergies sums = newton.contacts().accept(trial.relative);
     for (std::size_t w = 0; w < wall_count; ++w) {
       energies.work_j += 0.5 * dot(reaction[w] + trial.reaction[w], trial.wall[w]);
@@ -194,7 +209,8 @@ std::vector<StateArray> QuasiStatic::state() const {
     for (const Vec3d& x : *walls) numbers.insert(numbers.end(), {x.x, x.y, x.z});
   }
   const QuasiStaticEnergies& e = p.energies;
-  numbers.insert(numbers.end(), {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j});
+  numbers.insert(numbers.end(),
+                 {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j, e.thermal_j});
   const std::vector<char>& grew = p.newton.contacts().grew();
   return {{"quasi_static", "s, s, 1, m, m, N, m, J", std::move(numbers)},
           {"displacement", "m, 1", p.displacement},
@@ -227,7 +243,8 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   }
   QuasiStaticEnergies& e = p.energies;
   e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
-  e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5];
+  e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5],
+  e.thermal_j = numbers[at + 6];
   p.displacement = doubles(1);
   p.last.motion = doubles(2);
   const auto& grew = std::get<std::vector<std::int64_t>>(found[4]->values);
