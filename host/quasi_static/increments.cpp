@@ -201,9 +201,12 @@ void Increments::fail(const IncrementReport& found) const {
   throw RunError(fmt::format(
       "quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} (the forces are out of balance by "
       "{:.1e} of their size{}), although increments became very short; either the specimen fails there, or it moves "
-      "suddenly, which method = \"explicit\" in [solver] can follow",
+      "suddenly{}",
       network_.time(), network_.wall_displacement()[driven].z / options_.height, found.residual,
-      found.lost_stability ? "; its stiffness has a negative direction" : ""));
+      found.lost_stability ? "; its stiffness has a negative direction" : "",
+      options_.temperature.empty()
+          ? ", which method = \"explicit\" in [solver] can follow"
+          : fmt::format("; its temperature is {:.4g} degrees C", options_.temperature.at(network_.time()))));
 }
 
 std::vector<StateArray> Increments::state() const {

@@ -75,7 +75,7 @@ void refuse_steps(const Section& section) {
 
 void choose_method(SolverSpec& solver, const Experiment& experiment, const LawTable& laws) {
   if (solver.method_given || stepping_of(experiment) != experiments::Stepping::if_asked) return;
-  if (!can_crack(facts_of(laws))) return;
+  if (!can_crack(facts_of(laws)) && temperature_history_of(experiment).empty()) return;
   const bool steps = solver.density_scaling || solver.safety || solver.time_step || solver.damping_given ||
                      solver.form || solver.geometry == Geometry::updated || solver.backend == Backend::cuda ||
                      solver.backend == Backend::reference || !solver.devices.empty() ||

@@ -53,6 +53,11 @@ void require_combination(const Scene& scene) {
         fmt::format("{} temperature(s) with method \"explicit\"", temperatures_of(scene.experiment).size()),
         "method \"harmonic\", or a single temperature as temperature in [materials]");
   }
+  if (scene.solver.method != SolverMethod::quasi_static && !temperature_history_of(scene.experiment).empty()) {
+    throw InputError(scene.file.string(), 0, "temperature in [loading]",
+                     std::string("a list with method \"") + to_string(scene.solver.method) + "\"",
+                     "method \"quasi_static\", because only increments follow a changing temperature");
+  }
   if (scene.solver.method == SolverMethod::quasi_static) {
     const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
       throw InputError(scene.file.string(), 0, std::string(what) + " with method \"quasi_static\"", found, expected);

@@ -244,8 +244,8 @@ class SteppedLoad : public PlannedExperiment {
     return fmt::format("{},{}", csv_line(words, p), columns().line(p));
   }
   SteppedColumns columns() const {
-    return {test_.by_stress, cracks_.active(), cracks_.sums(), at_.plan.damping_kind != Damping::none,
-            sides_.has_value()};
+    return {test_.by_stress,    cracks_.active(),          cracks_.sums(), at_.plan.damping_kind != Damping::none,
+            sides_.has_value(), !test_.temperature.empty()};
   }
 
   /// Returns whether the largest stress is recorded: only in a strength test, in which the strain grows and contact
@@ -339,9 +339,11 @@ class SteppedLoad : public PlannedExperiment {
     out.poisson_ratio = sides_ && out.strain != 0
                             ? sides_->contraction(motions_of(particles, sides_->particles())) / now.top_displacement()
                             : none;
+    if (!test_.temperature.empty()) out.temperature_c = test_.temperature.at(now.time);
     if (test_.by_stress) {
       out.stress_pa = load;
-      out.ratio = test_.when.release && now.time > *test_.when.release + 0.5 * at_.plan.dt ? none : out.strain / load;
+      const bool released = test_.when.release && now.time > *test_.when.release + 0.5 * at_.plan.dt;
+      out.ratio = released || load == 0 ? none : out.strain / load;
     } else {
       out.stress_pa = out.top_pa;
       out.ratio = out.strain == 0 ? none : out.stress_pa / out.strain;

@@ -81,8 +81,12 @@ std::string energy_words(const SteppedResponse& found) {
   const experiments::Energies& e = found.points.back().energies;
   const auto error = energy_error_of(found);
   return fmt::format(
-      "work {:.4g} J: crack {:.4g}, friction {:.4g}, viscous {:.4g}, elastic {:.4g}, kinetic {:.4g}{} J; {}\n",
-      e.work_j, e.crack_j, e.friction_j, e.viscous_j, e.elastic_j, e.kinetic_j,
+      "work {:.4g} J{}: crack {:.4g}, friction {:.4g}, viscous {:.4g}, elastic {:.4g}, kinetic {:.4g}{} J; {}\n",
+      e.work_j,
+      std::isfinite(found.points.back().temperature_c)
+          ? fmt::format(" and {:.4g} J against thermal expansion", e.thermal_j)
+          : "",
+      e.crack_j, e.friction_j, e.viscous_j, e.elastic_j, e.kinetic_j,
       found.damping_kind == Damping::none ? "" : fmt::format(", damping {:.4g}", e.damping_j),
       error ? fmt::format("the balance has an error of {:.1e} of the work", *error)
             : "the error of the balance is unknown, because the run has damping or an unknown energy");
@@ -162,6 +166,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
       point["top_pa"] = p.top_pa;
       point["bottom_pa"] = p.bottom_pa;
       point["kinetic_j"] = p.kinetic_j;
+      if (std::isfinite(p.temperature_c)) point["temperature_c"] = p.temperature_c;
       if (!found.confined) point["poisson_ratio"] = std::isfinite(p.poisson_ratio) ? Json(p.poisson_ratio) : Json();
       if (found.cracks) point["broken_points"] = p.broken_points;
       if (found.cracks && found.cracks->sums) {
@@ -171,7 +176,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
           if (found.cracks->by_pair[i].breakable > 0)
             areas[to_string(static_cast<PairType>(i))] = p.cracks.cracked_area_m2[i];
         }
-        add_energies(p.energies, found.damping_kind != Damping::none, point);
+        add_energies(p.energies, found.damping_kind != Damping::none, std::isfinite(p.temperature_c), point);
       }
       out["points"].push_back(std::move(point));
     }

@@ -41,6 +41,7 @@ struct SteppedPoint : ResponsePoint {
   std::int64_t broken_points = 0;  ///< number of broken contact points; 0 if no law can break
   CrackSums cracks = {};           ///< zero if no law has a crack
   Energies energies = {};          ///< zero if no law has a crack
+  double temperature_c = std::numeric_limits<double>::quiet_NaN();  ///< of the specimen; NaN if it does not change
   /// Minus the mean lateral strain over the strain; NaN if the strain is 0, or if a side is held or has no cell.
   double poisson_ratio = std::numeric_limits<double>::quiet_NaN();
 };
