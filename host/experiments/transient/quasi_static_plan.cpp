@@ -66,6 +66,8 @@ LoadPlan make_quasi_static_plan(const TransientExperiment& test, const Scene& sc
         "method \"quasi_static\" (increments without inertia), because contacts can crack and the scene asks for "
         "neither inertia nor damping; method = \"explicit\" in [solver] takes time steps instead");
   }
+  if (const std::string unused = keys_of_steps(scene.solver); !unused.empty())
+    decide(fmt::format("not used: {} in [solver], because increments have no inertia and no time step", unused));
   if (!test.temperature.empty()) decide(temperature_words(test.temperature, scene));
   if (is_sudden(test)) {
     decide(fmt::format("the load grows within {:.3g} s, because the scene asks for an instantaneous load", ramp));

@@ -101,7 +101,7 @@ void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
   if (!found.cracks->sums) return;
   out["strength_from"] = found.fitted ? "fit" : "largest stress";
   out["largest_stress_pa"] = found.peak->stress_pa;
-  if (found.fitted) out["fit_deviation_pa"] = found.fitted->deviation_pa;
+  if (found.fitted && !found.increments) out["fit_deviation_pa"] = found.fitted->deviation_pa;
   out["work_of_fracture_j"] = passed ? Json(found.points.back().energies.work_j) : Json();
 }
 
@@ -142,13 +142,12 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     Json out = {{"kind", found.kind},
                 {"sides", found.confined ? "held" : "free"},
                 {"modulus", found.confined ? "confined" : "uniaxial"},
-                {"method", found.increments ? "quasi_static" : "explicit"},
-                {"density_scaling", found.density_scaling},
-                {"dt_s", found.dt_s},
-                {"steps", found.steps},
-                {"error", found.error()},
-                {"kinetic_share", found.kinetic_share},
-                {"solve_s", found.seconds}};
+                {"method", found.increments ? "quasi_static" : "explicit"}};
+    if (!found.increments)
+      out.update({{"density_scaling", found.density_scaling}, {"dt_s", found.dt_s}, {"steps", found.steps}});
+    out["error"] = found.error();
+    if (!found.increments) out["kinetic_share"] = found.kinetic_share;
+    out["solve_s"] = found.seconds;
     add_load(load_test_of(scene), out);
     if (words.ratio) out["ramp_s"] = found.ramp_s;
     add_extremes(found.kind, found.points, out);
@@ -184,6 +183,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
   }
   if (found.cracks) summary["cracks"] = cracks_json(*found.cracks);
   Json& solver = summary["solver"];
+  if (scene.solver.method == SolverMethod::quasi_static) return add_increment_settings(found, run, solver);
   add_settings(found, scene, run, found.steps, found.dt_s > 0 ? std::optional(found.dt_s) : std::nullopt, solver);
   solver["damping"] = {{"kind", to_string(found.damping_kind)}, {"value", found.damping}};
 }
