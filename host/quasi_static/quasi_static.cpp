@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "host/quasi_static/newton.hpp"
 #include "kernels/base/parallel.hpp"
@@ -97,6 +98,30 @@ struct QuasiStatic::Parts {
     return out;
   }
 
+  void start(const StartState& state) {
+    auto& contacts = newton.contacts();
+    if (contacts.has_cracks() || state.chain.size() != contacts.states().size() ||
+        state.displacement.size() != particles || state.rotation.size() != particles)
+      throw InputError("quasi-static: found a state of motion with " + std::to_string(state.chain.size()) +
+                       " numbers of contacts and " + std::to_string(state.displacement.size()) +
+                       " particles, expected " + std::to_string(contacts.states().size()) + " and " +
+                       std::to_string(particles) + ", and laws without cracks");
+    for (std::size_t i = 0; i < particles; ++i) {
+      const Vec3d &u = state.displacement[i], &r = state.rotation[i];
+      const double six[6] = {u.x, u.y, u.z, r.x, r.y, r.z};
+      std::copy(six, six + 6, &displacement[6 * i]);
+    }
+    contacts.set_states(state.chain, contacts.grew());
+    reaction.fill({});
+    for (std::size_t c = 0; c < network.contacts.size(); ++c) {
+      const Contact& contact = network.contacts[c];
+      if (contact.b >= 0) continue;
+      const Six load = quasi_static::load_on(contact, contacts.accepted_force(c), 1);
+      reaction[wall_index(contact.b)] += Vec3d{load[0], load[1], load[2]};
+    }
+    show(wall, reaction);
+  }
+
   /// Returns the work of the contacts' forces against the expansion of the increment that is to be accepted [J].
   double thermal_work() const {
     if (expansion.empty() || increment.warming == 0) return 0;
@@ -138,6 +163,7 @@ QuasiStatic::QuasiStatic(const Specimen& specimen, const ContactNetwork& network
 QuasiStatic::~QuasiStatic() = default;
 QuasiStatic::QuasiStatic(QuasiStatic&&) noexcept = default;
 
+void QuasiStatic::start(const StartState& state) { parts_->start(state); }
 IncrementReport QuasiStatic::solve(const WallIncrement& increment) { return parts_->solve(increment); }
 void QuasiStatic::accept() { parts_->accept(); }
 void QuasiStatic::reject() {

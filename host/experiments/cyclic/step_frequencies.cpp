@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_frequencies.cpp  Steps the cyclic test in time, one frequency after another.
+// step_frequencies.cpp  Follows the cyclic test in time, by steps or by increments, one frequency after another.
 #include <fmt/format.h>
 #include <omp.h>
 
@@ -18,6 +18,7 @@
 #include "host/network/free_sides.hpp"
 #include "host/files/result_files.hpp"
 #include "host/experiments/cyclic/finished_frequency.hpp"
+#include "host/experiments/cyclic/increment_plan.hpp"
 #include "host/experiments/cyclic/run_state.hpp"
 #include "host/run/error_model.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
@@ -170,9 +171,28 @@ class Steps : public PlannedExperiment {
     if (watcher_.warn) watcher_.warn(warning);
   }
 
+  bool is_quasi_static() const { return scene_.solver.method == SolverMethod::quasi_static; }
+
+  /// Makes the increments of a frequency.
+  std::unique_ptr<Stepper> make_increments(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
+    const InPhase in(result.phases, &PhaseSeconds::stepper);
+    auto made = make_cycle_increments(scene_, prepared_, at_.plan, at_.plan.frequencies[i], from);
+    increments_ = made.get();
+    return made;
+  }
+  /// Returns the numbers of increments of the frequency that has been run.
+  experiments::Increments increments_found() const {
+    const quasi_static::CourseReport& report = increments_->report();
+    experiments::Increments out;
+    out.increments = report.increments, out.rejected = report.rejected, out.systems = report.passes;
+    out.error = report.error, out.loose = report.loose;
+    return out;
+  }
+
   /// Makes the stepper of a frequency. If there is a stepper of another frequency, reuses its data. At this point the
   /// run may move to other devices (GPUs).
   std::unique_ptr<Stepper> make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
+    if (is_quasi_static()) return make_increments(i, from, result);
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const auto& all = at_.plan.frequencies;
     std::optional<StartState> start;
@@ -228,11 +248,12 @@ class Steps : public PlannedExperiment {
     CrackWatch cracks(scene_, prepared_, at_.cracks[i].events);
     const Course course =
         course_of(i, writer, cracks, [&](Checkpoint& to) { add_to(to, at_, before + seconds_since(start)); });
-    sampled_runs.begin_fields(fmt::format("{}Hz", p.loading.frequency), scene_.cyclic().samples_per_cycle,
+    sampled_runs.begin_fields(fmt::format("{}Hz", p.loading.frequency), at_.plan.samples_per_cycle,
                               stepper_->observe().time);
     sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
     warn_of_cracks(i, cracks.found(), result);
     at_.seconds.push_back(before + seconds_since(start));
+    if (is_quasi_static()) at_.increments.push_back(increments_found());
   }
 
   /// Creates cracks.csv if a law of the scene can break, and writes the events of a checkpoint into it.
@@ -276,7 +297,7 @@ class Steps : public PlannedExperiment {
   /// cycle before them is needed to compute the change from cycle to cycle.
   Course course_of(std::size_t i, LineWriter* writer, CrackWatch& cracks, const Content& content) {
     const FrequencyPlan& p = at_.plan.frequencies[i];
-    const std::int64_t per_cycle = scene_.cyclic().samples_per_cycle, per_period = p.loading.steps_per_period;
+    const std::int64_t per_cycle = at_.plan.samples_per_cycle, per_period = p.loading.steps_per_period;
     const std::int64_t stride = per_period / per_cycle;
     const std::int64_t kept = writer ? 0 : std::int64_t{std::max(0, p.cycles - p.fit_cycles - 1)} * per_cycle;
     Course course;
@@ -309,6 +330,10 @@ class Steps : public PlannedExperiment {
       if (writer) writer->add(line_of(at_.samples.back()));
     };
     course.shown = [=, this, &p](std::int64_t step, double steps_a_second) {
+      if (is_quasi_static())
+        return fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}", p.loading.frequency, i + 1,
+                           at_.plan.frequencies.size(), static_cast<double>(step) / static_cast<double>(per_period),
+                           p.cycles);
       return fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", p.loading.frequency, i + 1,
                          at_.plan.frequencies.size(), static_cast<double>(step) / static_cast<double>(per_period),
                          p.cycles, steps_a_second);
@@ -333,6 +358,10 @@ class Steps : public PlannedExperiment {
       f.cracks = CrackWatch(scene_, prepared_, cracks.events).found();
       f.cracks->sums.reset();  // the stepper of this frequency may no longer exist
     }
+    if (is_quasi_static()) {
+      f.increments = at_.increments.at(i);
+      if (f.cracks) f.cycle_stiffness = stiffness_of_cycles(samples, f.frequency_hz);
+    }
     if (f.rupture) return;
     const bool linear = !first_without_stiffness(scene_.laws);
     judge(f, linear ? std::optional(stiffest_contact(scene_, prepared_.network, f.frequency_hz)) : std::nullopt,
@@ -344,11 +373,12 @@ class Steps : public PlannedExperiment {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
-  DeviceList devices_;                ///< devices of the stepper
-  bool may_move_ = true;              ///< whether the run may move to other devices
-  std::unique_ptr<Stepper> stepper_;  ///< stepper of the running frequency or of the first one
-  bool used_ = false;                 ///< whether the stepper has run a frequency
-  std::optional<FreeSides> sides_;    ///< empty if a side is held or has no cell
+  DeviceList devices_;                              ///< devices of the stepper
+  bool may_move_ = true;                            ///< whether the run may move to other devices
+  std::unique_ptr<Stepper> stepper_;                ///< stepper of the running frequency or of the first one
+  const QuasiStaticStepper* increments_ = nullptr;  ///< `stepper_`, if the method is quasi-static
+  bool used_ = false;                               ///< whether the stepper has run a frequency
+  std::optional<FreeSides> sides_;                  ///< empty if a side is held or has no cell
   std::optional<LineWriter> cracks_writer_;
   std::size_t samples_read_ = 0;  ///< number of samples of finished frequencies
   bool owns_checkpoint_;
@@ -368,9 +398,11 @@ std::unique_ptr<PlannedExperiment> plan_steps(const Scene& scene, const Preparat
   if (resumed) {
     at = to_run_state(std::move(resumed->checkpoint), resumed->file);
   } else {
-    at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
+    const bool steps = scene.solver.method == SolverMethod::explicit_;
+    at.plan = steps ? make_plan(scene, prepared, inertia, watcher, result.backend, result.phases)
+                    : make_increment_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
     at.cracks.resize(at.plan.frequencies.size());
-    decide_blocks(scene, result.backend, at.plan);
+    if (steps) decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
       at.warnings.push_back(fmt::format(
           "law {} of {} has no complex stiffness: |E*| and phi describe the fundamental of the stepped loops at this "
