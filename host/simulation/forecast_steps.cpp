@@ -145,7 +145,9 @@ std::vector<double> forecast_contrasts(const Scene& scene, bool stepped) {
     const bool linear = !first_without_stiffness(scene.laws);
     const CycleCount count = count_cycles(scene, linear ? Start::steady : Start::rest);
     const double tolerance = scene.solver.tolerance.value_or(usual_increment_tolerance);
-    const auto systems = static_cast<std::size_t>((linear ? 1 : 3) * count.cycles * increments_per_cycle(tolerance));
+    constexpr double most = 1e7;  // a run refuses more increments
+    const double all = (linear ? 1.0 : 3.0) * count.cycles * increments_per_cycle(tolerance);
+    const auto systems = static_cast<std::size_t>(std::min(all, most));
     for (const double f : frequencies)
       out.insert(out.end(), systems, contrast_at(scene.laws, {0, 2 * std::numbers::pi * f}));
     return out;

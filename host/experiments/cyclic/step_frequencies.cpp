@@ -359,7 +359,7 @@ class Steps : public PlannedExperiment {
       f.cracks->sums.reset();  // the stepper of this frequency may no longer exist
     }
     if (is_quasi_static()) {
-      f.increments = at_.increments.at(i);
+      f.increments = i < at_.increments.size() ? at_.increments[i] : experiments::Increments{};
       if (f.cracks) f.cycle_stiffness = stiffness_of_cycles(samples, f.frequency_hz);
     }
     if (f.rupture) return;
