@@ -10,20 +10,21 @@ namespace macadam {
 namespace {
 
 /// Largest change of log10 a_T in a panel of the quadrature. The error of the quadrature is then below 1e-12.
-constexpr double panel = 0.25;
+constexpr double gauss_panel = 0.25;
 /// Nodes and weights of Gauss's quadrature with five points on −1 … 1.
-constexpr std::array<double, 5> nodes{-0.906179845938664, -0.5384693101056831, 0, 0.5384693101056831,
-                                      0.906179845938664};
-constexpr std::array<double, 5> weights{0.23692688505618908, 0.47862867049936647, 0.5688888888888889,
-                                        0.47862867049936647, 0.23692688505618908};
+constexpr std::array<double, 5> gauss_nodes{-0.906179845938664, -0.5384693101056831, 0, 0.5384693101056831,
+                                            0.906179845938664};
+constexpr std::array<double, 5> gauss_weights{0.23692688505618908, 0.47862867049936647, 0.5688888888888889,
+                                              0.47862867049936647, 0.23692688505618908};
 
-double rate(const laws::Shift& shift, double temperature) {
+double relaxation_rate(const laws::Shift& shift, double temperature) {
   return std::pow(10.0, -laws::log10_shift(shift, temperature));
 }
 
 /// Returns the times between `from` and `to` at which the history has a corner, or a temperature at which the shift has
 /// one.
-std::vector<double> corners(const laws::Shift& shift, const TemperatureHistory& history, double from, double to) {
+std::vector<double> corners_between(const laws::Shift& shift, const TemperatureHistory& history, double from,
+                                    double to) {
   std::vector<double> out;
   const auto add = [&](double time) {
     if (time > from && time < to) out.push_back(time);
@@ -48,19 +49,19 @@ std::vector<double> corners(const laws::Shift& shift, const TemperatureHistory& 
 double reduced_time(const laws::Shift& shift, const TemperatureHistory& history, double from, double to) {
   if (history.empty() || std::holds_alternative<laws::NoShift>(shift)) return to - from;
   double out = 0, begin = from;
-  for (const double end : corners(shift, history, from, to)) {
+  for (const double end : corners_between(shift, history, from, to)) {
     const double first = history.at(begin), last = history.at(end);
     if (first == last) {
-      out += (end - begin) * rate(shift, first);
+      out += (end - begin) * relaxation_rate(shift, first);
     } else {
       const double change = std::abs(laws::log10_shift(shift, last) - laws::log10_shift(shift, first));
       if (std::isnan(change)) return change;
-      const auto panels = static_cast<int>(1 + change / panel);
+      const auto panels = static_cast<int>(1 + change / gauss_panel);
       const double half = 0.5 * (end - begin) / panels;
       for (int p = 0; p < panels; ++p) {
         const double centre = begin + (2 * p + 1) * half;
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-          out += half * weights[k] * rate(shift, history.at(centre + half * nodes[k]));
+        for (std::size_t k = 0; k < gauss_nodes.size(); ++k)
+          out += half * gauss_weights[k] * relaxation_rate(shift, history.at(centre + half * gauss_nodes[k]));
       }
     }
     begin = end;
