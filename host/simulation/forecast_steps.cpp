@@ -143,10 +143,8 @@ std::vector<double> forecast_contrasts(const Scene& scene, bool stepped) {
   if (scene.solver.method == SolverMethod::quasi_static && !frequencies.empty()) {
     // Linear laws need one system per increment, and cracks about two more.
     const bool linear = !first_without_stiffness(scene.laws);
-    const CycleCount count = count_cycles(scene, linear ? Start::steady : Start::rest);
-    const double tolerance = scene.solver.tolerance.value_or(usual_increment_tolerance);
     constexpr double most = 1e7;  // a run refuses more increments
-    const double all = (linear ? 1.0 : 3.0) * count.cycles * increments_per_cycle(tolerance);
+    const double all = (linear ? 1.0 : 3.0) * samples_by_increments(scene);
     const auto systems = static_cast<std::size_t>(std::min(all, most));
     for (const double f : frequencies)
       out.insert(out.end(), systems, contrast_at(scene.laws, {0, 2 * std::numbers::pi * f}));

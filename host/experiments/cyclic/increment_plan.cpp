@@ -25,14 +25,6 @@ constexpr std::int64_t first_fraction = 20;
 /// A steady start is the state at time 0 to this part of a period. steady_start() gives the state one step earlier.
 constexpr std::int64_t steps_of_start = 1'000'000'000;
 
-/// Returns the scene with the settings that increments use.
-Scene with_increments(Scene scene) {
-  scene.solver.tolerance = scene.solver.tolerance.value_or(usual_increment_tolerance);
-  scene.solver.geometry = Geometry::fixed;
-  scene.solver.damping_kind = Damping::none;
-  return scene;
-}
-
 /// Solves all frequencies without inertia. Returns nothing, and appends the reason to the decisions, if there is no
 /// such solution.
 std::vector<HarmonicResult> solve_without_inertia(const Scene& scene, const Preparation& prepared,
@@ -68,7 +60,7 @@ Plan make_increment_plan(const Scene& asked, const Preparation& prepared, const 
     throw InputError(asked.file.string(), 0, "geometry with method \"quasi_static\"", "\"updated\"",
                      "\"fixed\", or method = \"explicit\"");
   }
-  const Scene scene = with_increments(asked);
+  const Scene scene = with_increment_settings(asked);
   Plan plan;
   plan.form = can_crack(facts_of(scene.laws)) ? ContactForm::points : ContactForm::condensed;
   plan.geometry = Geometry::fixed;

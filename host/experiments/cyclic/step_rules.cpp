@@ -79,6 +79,19 @@ int increments_per_cycle(double tolerance) {
   return std::max(fewest, 4 * static_cast<int>(std::ceil(n / 4)));
 }
 
+Scene with_increment_settings(Scene scene) {
+  scene.solver.tolerance = scene.solver.tolerance.value_or(usual_increment_tolerance);
+  scene.solver.geometry = Geometry::fixed;
+  scene.solver.damping_kind = Damping::none;
+  return scene;
+}
+
+double samples_by_increments(const Scene& scene) {
+  const Scene asked = with_increment_settings(scene);
+  const CycleCount count = count_cycles(asked, cyclic_start(asked, Geometry::fixed));
+  return static_cast<double>(count.cycles) * increments_per_cycle(*asked.solver.tolerance);
+}
+
 double longest_cyclic_step(const SolverSpec& solver, double critical, double density_scaling) {
   if (solver.time_step) return *solver.time_step;
   const double safety = solver.safety.value_or(solver.tolerance ? 0.95 : 0.8);

@@ -59,6 +59,12 @@ inline constexpr double usual_increment_tolerance = 1e-3;
 /// error `tolerance`.
 int increments_per_cycle(double tolerance);
 
+/// Returns the scene with the settings that increments use: a tolerance, fixed geometry and no damping.
+Scene with_increment_settings(Scene scene);
+
+/// Returns the number of samples of one frequency by increments, as far as the scene alone determines it.
+double samples_by_increments(const Scene& scene);
+
 /// Returns the longest step that the rules allow [s].
 double longest_cyclic_step(const SolverSpec& solver, double critical, double density_scaling);
 
