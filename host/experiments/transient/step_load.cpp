@@ -187,6 +187,13 @@ class SteppedLoad : public PlannedExperiment {
     };
     try {
       sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+    } catch (const quasi_static::NoEquilibrium& error) {
+      // a specimen that cracks because its temperature changes ends its test by breaking
+      if (test_.temperature.empty() || !cracks_.active()) {
+        finish();
+        throw;
+      }
+      sudden_break_ = {error.last.time_s, error.last.strain, error.last.stress_pa};
     } catch (...) {
       finish();
       throw;
@@ -229,6 +236,10 @@ class SteppedLoad : public PlannedExperiment {
     out.loose = report.loose, out.by_opening = report.by_opening;
     out.imbalance = quasi_static_->energies().imbalance();
     out.increment_error = quasi_static_->energies().increment_error();
+    if (sudden_break_) {
+      out.sudden_break = sudden_break_;
+      out.temperature_at_break_c = test_.temperature.at(sudden_break_->time_s);
+    }
     if (report.unstable)
       out.unstable = experiments::Peak{report.unstable->time_s, report.unstable->strain, report.unstable->stress_pa};
     return out;
@@ -382,6 +393,13 @@ class SteppedLoad : public PlannedExperiment {
 
   void judge_increments(std::vector<std::string>& warnings) const {
     const quasi_static::CourseReport& report = quasi_static_->report();
+    if (sudden_break_) {
+      warnings.push_back(fmt::format(
+          "after t = {:.6g} s ({:.5g} degrees C, {:.4g} MPa) no equilibrium was found: the specimen breaks suddenly, "
+          "and "
+          "the test ends there",
+          sudden_break_->time_s, test_.temperature.at(sudden_break_->time_s), sudden_break_->stress_pa / 1e6));
+    }
     if (report.unstable) {
       warnings.push_back(fmt::format(
           "after t = {:.6g} s (strain {:.6g}, {:.4g} MPa) no equilibrium was found at a larger displacement of the "
@@ -411,6 +429,7 @@ class SteppedLoad : public PlannedExperiment {
   EnergyLedger ledger_;
   std::vector<laws::PointCrack> end_cracks_;  // of the contact points, at the last point of the result
   std::optional<experiments::Rupture> rupture_ = {};
+  std::optional<experiments::Peak> sudden_break_ = {};  ///< the last equilibrium, if the specimen then broke suddenly
   bool owns_checkpoint_;
 };
 
