@@ -31,7 +31,7 @@ struct BarsOfMastic {
 };
 
 /// Fits bars to samples. The constant is used only if the largest relative error without it is above `enough`.
-/// \throws InputError if there are no samples.
+/// \throws InputError if `samples` is empty.
 BarsOfMastic fit_bars(std::span<const MasticSample> samples, double enough);
 
 /// Returns the relaxation of a specimen with the rule "volumetric"; the conditions are those of spectrum_of().

@@ -113,8 +113,8 @@ struct Spectrum {
   /// Estimate of the largest relative error of E(t) between `shortest` and `longest`. It is computed from the changes
   /// of E(t) in the last two rounds of solutions, from the effect of the solutions' residuals and, if contacts have
   /// rock in series, from the error of the classes to which they belong (host/harmonic/rock_classes.hpp). With the rule
-  /// "volumetric" there are no classes; the estimate then contains the largest difference from the solutions, and
-  /// values of E(t) below 1e-6·E(0) count as 1e-6·E(0) (host/spectrum/volumetric_spectrum.cpp).
+  /// "volumetric" the estimate contains the largest difference of the fit from the solutions instead of the error of
+  /// classes, and values of E(t) below 1e-6·E(0) count as 1e-6·E(0) (host/spectrum/volumetric_spectrum.cpp).
   double error = 0;
   /// Largest relative difference of E*(iω) of the series from solutions that were not used to make the series, at
   /// frequencies within the range.

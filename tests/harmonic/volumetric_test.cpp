@@ -102,7 +102,7 @@ TEST(Volumetric, AgreesWithTheReference) {
 }
 
 // Surfaces of voids and dropped facets are free, as the sides are. The reference keeps their openings as unknowns. The
-// number of unknowns, and so the tolerance, is that of the test above.
+// tolerance is that of AgreesWithTheReference, because the number of unknowns is about the same.
 TEST(Volumetric, FreeFacetsInsideAgreeWithTheReference) {
   Specimen specimen = random_specimen(test_seed(), 3, 3, 4);
   const std::size_t gone = 13;  // the particle in the middle of the second layer, which touches no side
@@ -278,6 +278,27 @@ TEST(Volumetric, DerivativesByThePoissonRatioOfOneMaterial) {
   // d/d(ln ν) of E·(1 − ν)/((1 + ν)(1 − 2ν))
   const double oedometer = e * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
   EXPECT_NEAR(derivative(held_sides()), nu * oedometer * (-1 / (1 - nu) - 1 / (1 + nu) + 2 / (1 - 2 * nu)), 1e-9 * e);
+}
+
+// With the rule "series" only films between two aggregates depend on the Poisson's ratio of the mastic. The errors are
+// those of DerivativesByPhaseAgreeWithDifferences.
+TEST(Volumetric, DerivativeByThePoissonRatioOfFilmsWithTheRuleSeries) {
+  const Specimen specimen = random_specimen(5, 3, 3, 4);
+  const auto solve = [&](double nu) {
+    ContactNetwork network = build_network(specimen, tessellate(specimen));
+    EXPECT_GT(network.count[static_cast<std::size_t>(PairType::aa)], 0);
+    apply_series(network, specimen, RockSurfaces(specimen, {}, {}), 60e9, nu);
+    return Harmonic(specimen, network, laws_of_phases(mastic_am1(), {60e9, nu, 0}), make_inertia(specimen, 2630, 2110),
+                    {.tolerance = 1e-12, .linear = LinearMethod::direct}, 7)
+        .solve(7)
+        .parts;
+  };
+  const double nu = 0.35, step = 1e-4;
+  const ModulusParts found = solve(nu);
+  const Complex difference = (solve(nu * (1 + step)).modulus() - solve(nu * (1 - step)).modulus()) / (2 * step);
+  EXPECT_NEAR(std::abs(found.mastic_poisson_ratio - difference), 0, 1e-6 * std::abs(found.modulus()));
+  EXPECT_GT(std::abs(difference), 1e-3 * std::abs(found.modulus()));
+  EXPECT_EQ(found.rock_poisson_ratio, 0.0);
 }
 
 TEST(Volumetric, OtherMethodsRefuseTheNetwork) {
