@@ -70,7 +70,8 @@ void apply_volumetric(ContactNetwork& network, const Specimen& specimen, const T
                  ratio = nu / (1 - 2 * nu),  // λ/2μ
         volume = tessellation.cell_volume[i];
     // λ'·(1 + ν)²/(E·V) with λ' = λ/(1 + λ/2μ·Σ A·h/V) and 2μ = E/(1 + ν)
-    network.cells[i] = {ratio * (1 + nu) / (volume + ratio * free[i]), mastic ? PairType::mm : PairType::inner};
+    const double with_free = volume + ratio * free[i];
+    network.cells[i] = {ratio * (1 + nu) / with_free, mastic ? PairType::mm : PairType::inner, volume / with_free};
   }
   network.rule = ContactRule::volumetric;
   network.rock_poisson_ratio = constants.rock_poisson_ratio;

@@ -94,6 +94,7 @@ struct CellStiffness {
   /// cell, and λ' = λ reduced by the free facets of the cell. It depends only on the geometry and on ν.
   double weight = 0;
   PairType law = PairType::mm;  ///< the pair that has the law of the cell's phase: mm or inner
+  double reduction = 1;         ///< λ'/λ: 1 without free facets
 };
 
 /// The contacts of a specimen, in order of (a, b) like the facets of the tessellation.

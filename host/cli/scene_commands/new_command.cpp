@@ -49,9 +49,6 @@ void write_new(const std::string& file, const std::string& text) {
 }
 
 void new_command(const NewArguments& arguments) {
-  if (arguments.rule == ContactRule::volumetric && arguments.test != "cyclic" && arguments.test != "sweep")
-    throw InputError("macadam new", 0, "--test with --rule volumetric", arguments.test,
-                     "cyclic or sweep, because this rule is available in the frequency domain only");
   write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test, arguments.rule, arguments.cracks));
   say("{} is written. Edit it, then run:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)

@@ -187,11 +187,11 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
     if (measures_peak() && cracks_.sums())
       found.fitted = quasi_static_ ? interpolate_peak(at_.stresses) : fit_peak(at_.stresses, at_.peak);
     if (rupture_) found.steps = stepper_->observe().step;
-    if (!quasi_static_) return;
-    found.increments = increments_found(*quasi_static_);
-    if (!sudden_break_) return;
-    found.increments->sudden_break = sudden_break_;
-    found.increments->temperature_at_break_c = test_.temperature.at(sudden_break_->time_s);
+    if (quasi_static_) found.increments = increments_found(*quasi_static_);
+    if (sudden_break_) {
+      found.increments->sudden_break = sudden_break_;
+      found.increments->temperature_at_break_c = test_.temperature.at(sudden_break_->time_s);
+    }
     found.seconds = before + seconds_since(start);
     found.kinetic_share = kinetic_share(found.points, prepared_.specimen.box.volume());
     owns_checkpoint_ = sampled_runs.own_checkpoint();
