@@ -21,6 +21,7 @@ namespace {
 
 struct CheckArguments {
   std::string scene;
+  std::vector<std::string> set;
   Overrides instead;
   bool json = false;
 };
@@ -124,7 +125,7 @@ void say_forecast(const std::string& file, const Scene& scene, const Forecast& f
 }
 
 void check_command(const CheckArguments& arguments) {
-  Scene scene = read_scene(arguments.scene);
+  Scene scene = read_changed_scene(arguments.scene, arguments.set);
   apply(arguments.instead, scene);
   const Forecast f = forecast(scene);
   if (arguments.json)
@@ -141,6 +142,7 @@ void add_check_command(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
   command.add_flag("--json", arguments->json, "print the prediction as JSON");
+  add_set(command, arguments->set);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam check examples/demo/scene.toml",
                          "macadam check examples/ac14_ss_am1/scene.toml --method harmonic --json"});

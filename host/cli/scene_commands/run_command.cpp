@@ -101,9 +101,12 @@ void add_run_command(CLI::App& app) {
   add_number(command, "--at-once", arguments->at_once,
              "number of scenes that run at the same time; 0: four on each CUDA device, or one on each CPU core", 0,
              1024);
+  add_set(command, arguments->job.set);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam run examples/demo/scene.toml --out results",
                          "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",
+                         "macadam run examples/demo/scene.toml --out results/fast --set solver.tolerance=1e-2 --set "
+                         "\"loading.frequencies=[1, 10]\"",
                          "macadam run mixes/*.toml --out results --at-once 4",
                          "mpirun -n 2 macadam run examples/demo/scene.toml --ranks --out results"});
   command.callback([arguments] { run_command(*arguments); });

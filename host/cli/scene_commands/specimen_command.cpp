@@ -58,6 +58,7 @@ void add_specimen_command(CLI::App& app) {
       *app.add_subcommand("specimen", "build the specimen and its contact network without running the test");
   const auto arguments = std::make_shared<SpecimenArguments>();
   add_job_options(command, arguments->job);
+  add_set(command, arguments->job.set);
   command
       .add_option("--section", arguments->sections,
                   "cut the cells by a plane, such as x=0.025 or \"z=40 mm\"; may be given several times")
