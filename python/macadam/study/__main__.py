@@ -74,7 +74,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--retry-failed", action="store_true", help="compute failed points again")
     parser.add_argument("--list", action="store_true", help="print the points and compute nothing")
     parser.add_argument(
-        "--check", action="store_true", help="check the scene of every point by macadam check, and compute nothing"
+        "--check",
+        action="store_true",
+        help="check the scene of every point by macadam check, print what each point would take, and compute nothing",
     )
     return parser.parse_args(arguments)
 
@@ -99,7 +101,7 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
             _print_notes(design.notes)
             for job in design.jobs if options.list else ():
                 print(job.key, job.experiment, *(f"{k}={v}" for k, v in job.values.items()))
-            return _check(design, program, options.workers) if options.check else 0
+            return _check(design, program) if options.check else 0
         found = study(
             options.study,
             options.out,
@@ -119,16 +121,27 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
     return _print_study(found, options.out)
 
 
-def _check(design: Any, program: str, asked: int | None) -> int:
-    """Checks all scenes and prints the wrong ones. Returns the exit code."""
-    from macadam.study.checks import wrong_scenes
+def _check(design: Any, program: str) -> int:
+    """Checks all scenes. Prints the predictions for all points, and one message about all wrong scenes. Returns the exit
+    code."""
+    from macadam.study import predictions
+    from macadam.study.checks import check_scenes
     from macadam.study.executors import workers
 
-    wrong = wrong_scenes(design, program, asked or workers({}))
-    for job, message in wrong:
-        print(f"wrong: {job.label}: {message}", file=sys.stderr)
-    print(f"{len(design.jobs)} points, {len(design.results)} scenes checked, {len(wrong)} wrong")
-    return 2 if wrong else 0
+    at_once = workers(design.run)
+    checked = check_scenes(design, program, at_once)
+    print(*predictions.lines(design, checked, at_once), sep="\n")
+    wrong = [one for one in checked if one.message]
+    if not wrong:
+        return 0
+    # a scene that several points share is checked once; its message names one of them
+    print(
+        f"macadam study: {len(wrong)} of {len(checked)} scenes are wrong",
+        *(f"wrong: {one.job.label}: {one.message}" for one in wrong),
+        sep="\n",
+        file=sys.stderr,
+    )
+    return 2
 
 
 def _print_notes(notes: list[str]) -> None:
