@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "macadam/simulation.hpp"
 
@@ -18,5 +19,9 @@ namespace macadam {
 /// its name last. So a summary in the folder always belongs to the other files there. \throws RunError.
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
                        const std::function<void()>& remove_results);
+
+/// Returns the text of a scene whose values a command has changed, for a file in the folder `out`: it names the scene
+/// and the values, and paths start from `out`.
+std::string changed_scene_text(const Scene& scene, const std::filesystem::path& out);
 
 }  // namespace macadam

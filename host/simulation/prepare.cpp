@@ -162,9 +162,6 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
   return out;
 }
 
-namespace {
-
-/// Returns the text of a scene whose values the command has changed, for a file in the folder of the results.
 std::string changed_scene_text(const Scene& scene, const std::filesystem::path& out) {
   scene::SceneText text(scene.text);
   if (!scene.specimen.file) text.set_seed(scene.specimen.seed);
@@ -173,8 +170,6 @@ std::string changed_scene_text(const Scene& scene, const std::filesystem::path& 
   for (const std::string& change : scene.changes) head += "#   --set " + change + "\n";
   return head + "\n" + text.text();
 }
-
-}  // namespace
 
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
                        const std::function<void()>& remove_results) {

@@ -9,8 +9,10 @@
 #include "host/cli/terminal/job.hpp"
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/scene_commands/run_scenes.hpp"
+#include "host/cli/scene_commands/run_seeds.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
 #include "host/experiments/experiment.hpp"
+#include "macadam/error.hpp"
 #include "macadam/macadam.hpp"
 #include "macadam/overrides.hpp"
 
@@ -23,7 +25,19 @@ struct RunArguments {
   Overrides instead;
   bool resume = false, ranks = false;
   int at_once = 0;
+  std::optional<int> seeds;
 };
+
+/// Refuses options that have no effect with --seeds. \throws InputError.
+void require_seeds_alone(const RunArguments& arguments) {
+  const auto refuse = [](const std::string& found, const std::string& expected) {
+    throw InputError("macadam run", 0, "--seeds", found, expected);
+  };
+  if (arguments.scenes.size() > 1) refuse(fmt::format("{} scenes", arguments.scenes.size()), "one scene");
+  if (arguments.ranks) refuse("--ranks", "this option without --ranks, because the seeds are runs of their own");
+  if (arguments.resume)
+    refuse("--resume", "the same command without --resume, because it continues the seeds that have a checkpoint");
+}
 
 /// Runs one scene. Sets `stepping` to true when planning is done and the time steps begin.
 void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
@@ -73,8 +87,12 @@ void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   say("\n{} | files in {}: {}\n", result.solver, arguments.job.out, files);
 }
 
-void run_command(RunArguments arguments) {
+void run_command(const CLI::App& command, RunArguments arguments) {
   arguments.job.scene = arguments.scenes.front();
+  if (arguments.seeds) {
+    require_seeds_alone(arguments);
+    run_seeds(command, arguments.job, arguments.instead, *arguments.seeds, arguments.at_once);
+  }
   const auto run_all = [&](bool* stepping) {
     if (arguments.scenes.size() == 1) return run_one(arguments, stepping);
     run_scenes(arguments.scenes, arguments.job, arguments.instead, arguments.at_once, arguments.resume);
@@ -99,17 +117,24 @@ void add_run_command(CLI::App& app) {
                    "continue from the checkpoint that an interrupted run left in the folder");
   add_ranks(command, arguments->ranks);
   add_number(command, "--at-once", arguments->at_once,
-             "number of scenes that run at the same time; 0: four on each CUDA device, or one on each CPU core", 0,
-             1024);
+             "number of scenes or seeds that run at the same time; 0: four scenes on each CUDA device, or one on each "
+             "CPU core",
+             0, 1024);
+  add_number(
+      command, "--seeds", arguments->seeds,
+      "run the scene with this number of seeds, from its seed on, and write the mean and standard deviation of each "
+      "result (by the Python package)",
+      2, 10000);
   add_set(command, arguments->job.set);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam run examples/demo/scene.toml --out results",
                          "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",
                          "macadam run examples/demo/scene.toml --out results/fast --set solver.tolerance=1e-2 --set "
                          "\"loading.frequencies=[1, 10]\"",
+                         "macadam run examples/demo/scene.toml --out results/seeds --method harmonic --seeds 3",
                          "macadam run mixes/*.toml --out results --at-once 4",
                          "mpirun -n 2 macadam run examples/demo/scene.toml --ranks --out results"});
-  command.callback([arguments] { run_command(*arguments); });
+  command.callback([&command, arguments] { run_command(command, *arguments); });
 }
 
 }  // namespace macadam
