@@ -7,6 +7,7 @@
 #include "host/fields/field_output.hpp"
 #include "host/network/clusters.hpp"
 #include "host/network/cell_volumes.hpp"
+#include "host/files/particle_files.hpp"
 #include "host/files/result_files.hpp"
 #include "host/files/result_folder.hpp"
 #include "host/base/seconds_of.hpp"
@@ -194,6 +195,8 @@ void write_preparation(const Scene& scene, const Preparation& prepared, const st
   if (!gradation && !same_specimen) remove_older(out / "gradation.csv");
   if (!scene.output.contacts) remove_older(out / "contacts.csv");
   if (scene.changes.empty() && !same_scene) remove_older(out / changed_scene_file);
+  for (const ParticleFormat format : {ParticleFormat::data, ParticleFormat::dump, ParticleFormat::xyz})
+    remove_older(out / particle_file_name(format));
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     const std::string name = entry.path().filename().string();
     if (!same_specimen && name.starts_with("section_") && name.ends_with(".csv")) remove_older(entry.path());
