@@ -3,6 +3,7 @@
 // mixture | study | completion | man. Exit code 0: done; 1: the run failed; 2: the input is wrong.
 #include <CLI/CLI.hpp>
 #include <new>
+#include <string_view>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/library_environment.hpp"
@@ -85,7 +86,7 @@ End run_program(CLI::App& app, int argc, char** argv) {
 int say_and_run(int argc, char** argv) {
   CLI::App app;
   make_command_line(app);
-  if (wants_json_lines(argc, argv)) begin_json_lines();
+  if (wants_json_lines(argc, argv)) begin_json_lines(std::string_view(argv[1]) == "run");
   const auto [code, ran] = run_program(app, argc, argv);
   if (ran || code != 0) print_json_end(code);  // no events with the help or the version
   // `run` and `specimen` also write their results to files, so a failed write to standard output is not an error

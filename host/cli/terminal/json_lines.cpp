@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool on = false;
+bool on = false, streaming = false;
 
 /// The event that was written last about the progress of a scene.
 struct LastProgress {
@@ -61,8 +61,8 @@ bool wants_json_lines(int argc, const char* const* argv) {
   return false;
 }
 
-void begin_json_lines() {
-  on = true;
+void begin_json_lines(bool stream) {
+  on = true, streaming = stream;
   say_to_standard_error();
 }
 
@@ -105,15 +105,18 @@ void print_json_usage_error(const std::string& message) {
 
 void print_json_out_of_memory() {
   constexpr std::string_view event =
-      "{\"event\":\"error\",\"kind\":\"run\",\"file\":null,\"line\":null,\"key\":null,\"found\":null,\"expected\":null,"
-      "\"message\":\"out of memory\"}\n{\"event\":\"end\",\"code\":1}\n";
+                                 "{\"event\":\"error\",\"kind\":\"run\",\"file\":null,\"line\":null,\"key\":null,"
+                                 "\"found\":null,\"expected\":null,"
+                                 "\"message\":\"out of memory\"}\n",
+                             end = "{\"event\":\"end\",\"code\":1}\n";
   if (!on) return;
   std::fwrite(event.data(), 1, event.size(), stdout);
+  if (streaming) std::fwrite(end.data(), 1, end.size(), stdout);
   std::fflush(stdout);
 }
 
 void print_json_end(int code) {
-  if (on) print({{"event", "end"}, {"code", code}});
+  if (on && streaming) print({{"event", "end"}, {"code", code}});
 }
 
 }  // namespace macadam

@@ -13,8 +13,9 @@ namespace macadam {
 /// have an option of this name with another meaning.
 bool wants_json_lines(int argc, const char* const* argv);
 
-/// Turns JSON lines on. From now on say() writes to standard error.
-void begin_json_lines();
+/// Turns JSON lines on. From now on say() writes to standard error. `stream`: whether the command writes several
+/// events, as run does, of which the last one is `end`; otherwise standard output is a single JSON document.
+void begin_json_lines(bool stream);
 
 /// Returns whether JSON lines are on.
 bool json_lines_are_on();
@@ -37,7 +38,7 @@ void print_json_usage_error(const std::string& message);
 /// Writes the event `error` about a lack of memory without allocating memory, if JSON lines are on.
 void print_json_out_of_memory();
 
-/// Writes the event `end`, the last one, if JSON lines are on. `code`: the exit code of the program.
+/// Writes the event `end`, the last one of a stream, if JSON lines are on. `code`: the exit code of the program.
 void print_json_end(int code);
 
 }  // namespace macadam
