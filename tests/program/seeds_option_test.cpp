@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// seeds_option_test.cpp  Tests what `macadam run --seeds` refuses, and what it passes to the Python package.
+// seeds_option_test.cpp  Tests the scenes and options that `macadam run --seeds` refuses, and the arguments that it
+// passes to the Python package.
 #include <map>
 
 #include "tests/support/program.hpp"

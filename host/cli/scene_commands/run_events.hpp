@@ -18,7 +18,7 @@ void print_start_event(const std::vector<std::pair<std::string, std::filesystem:
 /// Writes the event `prepared`: the numbers of particles and contacts, and the times in which they were made.
 void print_prepared_event(const std::string& scene, const Preparation& prepared);
 
-/// Writes the event `planned`: the decisions of the program, and what the run leaves out.
+/// Writes the event `planned`: the decisions of the program, and the work that the run leaves out.
 void print_planned_event(const std::string& scene, const RunResult& planned);
 
 /// Writes the event `result`, with the results and settings of summary.json in the folder `out`. `files`: names of the

@@ -143,7 +143,7 @@ def _moments(values: list[float]) -> dict[str, Any]:
 
 
 def lines(summary: dict[str, Any]) -> list[str]:
-    """Returns the results over the seeds as lines of a table. Of a long table, the last rows are shown."""
+    """Returns the results over the seeds as lines of a table. A long table is shown without its first rows."""
     rows = []
     for entry in summary["results"]:
         at = ", ".join(f"{name} {entry[name]:.6g}" for name in AT if name in entry)
