@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "host/scene/known_keys.hpp"
+#include "host/scene/scene_changes.hpp"
 #include "host/scene/sections.hpp"
 #include "macadam/error.hpp"
 
@@ -269,6 +270,16 @@ Scene read_scene(const std::filesystem::path& file, const std::string& text, boo
   const toml::table table = scene::parse_toml(text, file, "scene");
   if (lines) return scene::read_tables({file}, text, table);
   return scene::read_tables({file}, text, scene::without_lines(table));
+}
+
+Scene read_changed_scene(const std::filesystem::path& file, const std::vector<std::string>& changes) {
+  if (changes.empty()) return read_scene(file);
+  std::string text;
+  toml::table table = scene::read_toml(file, "scene", text);
+  scene::ChangedScene changed = scene::with_changes(std::move(table), std::move(text), changes);
+  Scene out = scene::read_tables({file}, std::move(changed.text), changed.table);
+  out.changes = changes;
+  return out;
 }
 
 std::string read_scene_text(const std::filesystem::path& file) {

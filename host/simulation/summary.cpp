@@ -58,6 +58,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["warnings"] = result.warnings;
   out["macadam"] = version();
   out["scene"] = scene.file.string();
+  if (!scene.changes.empty()) out["set"] = scene.changes;
   out["particles"] = prepared.specimen.size();
   out["voids"] = prepared.specimen.voids.size();
   const Vec3d& size = prepared.specimen.box.size;

@@ -43,6 +43,16 @@ void add_out_and_seed(CLI::App& command, Job& job) {
       ->group(instead_of_scene);
 }
 
+void add_set(CLI::App& command, std::vector<std::string>& set) {
+  command
+      .add_option("--set", set,
+                  "value of a key of the scene, such as solver.method=harmonic, contacts.M-A.delta=2 or "
+                  "\"loading.frequencies=[1, 10]\"; may be given several times")
+      ->allow_extra_args(false)  // the argument that follows may be the scene
+      ->type_name("KEY=VALUE")
+      ->group(instead_of_scene);
+}
+
 void add_overrides(CLI::App& command, Overrides& instead) {
   add_choice(
       command, "--backend", instead.backend,
@@ -70,7 +80,7 @@ void add_overrides(CLI::App& command, Overrides& instead) {
 }
 
 Scene scene_of(const Job& job) {
-  Scene scene = read_scene(job.scene);
+  Scene scene = read_changed_scene(job.scene, job.set);
   Overrides instead;
   instead.seed = job.seed;
   apply(instead, scene);

@@ -119,11 +119,16 @@ def scene_of(f: Folder) -> tuple[str | None, str]:
     name = f.summary.get("scene")
     if not name:
         return None, "summary.json names no scene"
+    changed = f.path / "scene_as_run.toml" if f.summary.get("set") else None
     try:
-        text = Path(name).read_text(encoding="utf-8")
+        text = (changed or Path(name)).read_text(encoding="utf-8")
         tomllib.loads(text)
     except (OSError, ValueError):
+        if changed:
+            return None, f"{changed} is not there, or is not a scene"
         return None, f"{name} is not there, or is not a scene; run the report in the folder in which the run was started"
+    if changed:
+        return text, f"The scene file {name} with the values that --set gave, {changed.name}, without other options of the command"
     return text, f"The scene file {name}, as it was when this report was written, without options of the command"
 
 
