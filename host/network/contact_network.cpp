@@ -11,6 +11,7 @@
 #include <string>
 
 #include "host/base/counted.hpp"
+#include "host/tessellation/domain_walls.hpp"
 #include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
@@ -30,7 +31,7 @@ void check_input(const Specimen& specimen, const Tessellation& tessellation, con
                      std::to_string(specimen.cells()) + ", one for each particle and void of the specimen");
   if (spec.lateral_walls && !specimen.box.is_box())
     throw InputError("network", 0, "lateral_walls", std::string("true for a ") + specimen.box.name(),
-                     "false, because only a box has flat sides");
+                     "false, because only the sides of a box can be held");
   check_limits(spec, "");
   for (int k = 0; k < particle_pair_types; ++k)
     check_limits(spec.of_pair[k], std::string(" of ") + to_string(static_cast<PairType>(k)));
@@ -72,8 +73,7 @@ PairType pair_of(const Specimen& specimen, const Facet& f) {
 /// Returns the distance of a particle's centre from a wall [m]. \throws InputError if it is too small, because the
 /// stiffness of a wall contact is E·A/h.
 double distance_to_wall(const Specimen& specimen, const Facet& f) {
-  const Vec3d &p = specimen.centre[f.a], &box = specimen.box.size;
-  const double h = std::array<double, 6>{p.x, box.x - p.x, p.y, box.y - p.y, p.z, box.z - p.z}[-1 - f.b];
+  const double h = -height_above_wall(specimen.box, f, specimen.centre[f.a]);
   if (!(h > 1e-9 * specimen.radius[f.a])) {
     throw InputError(
         specimen.source, specimen.line_of(f.a),

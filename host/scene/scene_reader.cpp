@@ -115,8 +115,9 @@ void check_together(const Scene& scene, const Section& root) {
                                            "\"lumped\", or form = \"condensed\"");
   }
   if (scene.network.lateral_walls && !scene.specimen.box.is_box()) {
-    root.find("network")->section().refuse("lateral_walls", "true with domain = \"cylinder\" in [specimen]",
-                                           "false, because the curved side of a cylinder is free");
+    root.find("network")->section().refuse(
+        "lateral_walls", std::string("true with domain = \"") + scene.specimen.box.name() + "\" in [specimen]",
+        "false, because only the sides of a box can be held");
   }
   if (scene.output.fields.any() && !has_fields(scene)) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",

@@ -3,6 +3,10 @@
 /// its own.
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "host/scene/table.hpp"
 #include "host/scene/temperature_tables.hpp"
 #include "macadam/scene.hpp"
@@ -20,10 +24,10 @@ toml::table parse_toml(const std::string& text, const std::filesystem::path& fil
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
                            std::optional<MixDesign>& recipe);
 
-/// Returns the keys of `[specimen]` that give the domain, to be read before all keys that depend on it. `diameter` and
-/// `height` keep the dimensions of a cylinder while the keys are read. \throws InputError for an unknown kind of
-/// domain, or for dimensions of another kind
-std::vector<Key> keys_of_domain(const Section& section, double& diameter, double& height, Domain& domain);
+/// Returns the keys of `[specimen]` that give the domain, to be read before all keys that depend on it. `dimensions`
+/// keeps the dimensions [m], by key, while the keys are read. \throws InputError for an unknown kind of domain, or for
+/// dimensions of another kind
+std::vector<Key> keys_of_domain(const Section& section, std::map<std::string, double>& dimensions, Domain& domain);
 
 /// Reads `[specimen.recipe]`.
 /// \throws InputError

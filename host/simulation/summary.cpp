@@ -62,11 +62,16 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["voids"] = prepared.specimen.voids.size();
   const Vec3d& size = prepared.specimen.box.size;
   out["box_m"] = {size.x, size.y, size.z};
-  if (!prepared.specimen.box.is_box()) {
-    out["domain"] = {{"shape", prepared.specimen.box.name()},
-                     {"section_m2", section_area(prepared.specimen)},
-                     {"gauge_length_m", gauge_length(prepared.specimen)},
-                     {"volume_m3", prepared.specimen.box.volume()}};
+  if (const Domain& domain = prepared.specimen.box; domain.name() != std::string(domains::Box::name)) {
+    out["domain"] = {{"shape", domain.name()},
+                     {"section_m2", section_area(domain)},
+                     {"gauge_length_m", gauge_length(domain)},
+                     {"volume_m3", domain.volume()}};
+    const std::vector<domains::Dimension> keys = domain.keys();
+    const std::vector<double> values = domain.values();
+    for (std::size_t k = 0; k < keys.size(); ++k) out["domain"]["dimensions_m"][keys[k].key] = values[k];
+    for (int k = 0; k < wall_count; ++k)
+      if (const double area = domain.wall_area(k); area > 0) out["domain"]["walls_m2"][domain.wall_name(k)] = area;
   }
   for (const PairType pair : {PairType::aa, PairType::ma, PairType::mm, PairType::inner, PairType::aw, PairType::mw}) {
     out["contacts"][to_string(pair)] = prepared.network.count[static_cast<std::size_t>(pair)];
