@@ -175,7 +175,7 @@ Reader range_into(double& low, double& high) {
 }
 
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
-                           std::optional<MixDesign>& recipe) {
+                           std::optional<MixDesign>& recipe, std::vector<Notch>& notches) {
   SpecimenSpec spec;
   spec.source = section.file(), spec.line = section.line();
   const auto existing = [&](const Value& value, const char* what) {
@@ -233,7 +233,11 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
        "none"},
       {"voids", Need::optional,
        section_by([&](const Value& v) { spec.voids = read_voids(v.section(), spec.box, section.has("recipe")); }),
-       "air voids with cells of their own", "none"}};
+       "air voids with cells of their own", "none"},
+      {"notch", Need::optional, sections_by([&](const Value& v) {
+         for (const Section& entry : v.sections()) notches.push_back(read_notch(entry, spec.box));
+       }),
+       "a thin cut that no contact crosses", "none"}};
   keys.insert(keys.end(), others.begin(), others.end());
   section.read(keys);
   if (spec.file) {

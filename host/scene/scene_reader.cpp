@@ -195,7 +195,9 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
   Scene out;
   out.file = reading.file;
   const std::filesystem::path folder = reading.file.parent_path();
-  const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
+  const auto read_the_specimen = [&](const Value& v) {
+    out.specimen = read_specimen(v.section(), folder, out.recipe, out.network.notches);
+  };
   std::optional<SolverSpec> solver;
   PhaseLaws phases;
   TemperatureTables tables;

@@ -80,6 +80,14 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["loose_particles"] = prepared.loose_particles;
   out["second_moment_difference"] = prepared.network.second_moment_difference;
   out["dropped"] = {{"gap", prepared.network.dropped_gap}, {"area", prepared.network.dropped_area}};
+  for (const NotchCut& cut : prepared.network.notches) {
+    out["notches"].push_back({{"axis", std::string(1, "xyz"[cut.notch.axis])},
+                              {"at_m", cut.notch.position},
+                              {"removed_contacts", cut.removed},
+                              {"shortened_contacts", cut.shortened},
+                              {"cut_area_m2", cut.cut_area},
+                              {"ligament_m2", cut.ligament}});
+  }
   out["volume_fractions"] = volume_fractions(prepared.specimen, prepared.tessellation);
   if (prepared.rock) {
     const RockReport& rock = *prepared.rock;

@@ -172,6 +172,20 @@ def test_domains_of_laboratories(scene, keys, box, volume):
     assert again.domain == made.domain and again.volume == made.volume
 
 
+def test_notches(scene):
+    """A notch leaves the contacts of its ligament, also in a copy of the specimen."""
+    tables = scene.as_dict()
+    x, y, z = mc.specimen(scene).box
+    notch = {"axis": "x", "at": x / 2, "z": [0, z / 3]}
+    made = mc.specimen(mc.Scene({**tables, "specimen": {**tables["specimen"], "notch": [notch]}}))
+    (cut,) = made.contacts.notches
+    assert (cut["axis"], cut["at"]) == ("x", x / 2) and cut["removed"] > 0 and cut["shortened"] > 0
+    assert cut["ligament"] + cut["cut_area"] == pytest.approx(y * z, rel=1e-9)  # sums of some hundred facets
+    assert cut["cut_area"] == pytest.approx(y * z / 3, rel=1e-9)
+    assert pickle.loads(pickle.dumps(made)).contacts.notches == [cut]
+    assert mc.specimen(scene).contacts.notches == []
+
+
 def test_texts_have_numbers(specimen, tmp_path):
     n, contacts, cells = len(specimen), specimen.contacts, specimen.cells
     assert repr(specimen) == f"<macadam.Specimen: {n} particles, {len(contacts)} contacts, box 12 × 12 × 15 mm>"
