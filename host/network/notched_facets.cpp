@@ -55,7 +55,7 @@ bool NotchedFacets::keep(std::uint32_t facet) {
     });
     const int axis = notches_[k].axis;
     const double cut = projected(parts, f.normal, axis) - projected(left, f.normal, axis);
-    // A notch that only touches the facet leaves its area up to rounding, and then the facet stays as it is.
+    // A notch that only touches the facet removes no area but rounding; such a facet stays whole.
     if (!(cut > 1e-12 * f.area * std::abs(along(f.normal, axis)))) continue;
     is_cut = true;
     cuts_[k].cut_area += cut;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_domain.cpp  Reads the keys of `[specimen]` that give its domain: kind and dimensions. The keys of the dimensions
-// are those of the shapes (domains/all.hpp).
+// read_domain.cpp  Reads the keys of `[specimen]` that give its domain: kind and dimensions. Each shape
+// gives the keys of its dimensions (domains/all.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -111,7 +111,7 @@ struct ContactNetwork {
   std::int64_t dropped_gap = 0, dropped_area = 0;
   /// Area of the facets left out because of area_min, over the area of all facets between particles.
   double dropped_share = 0;
-  std::vector<NotchCut> notches;                 ///< what each notch of NetworkSpec did, in the same order
+  std::vector<NotchCut> notches;                 ///< the effect of each notch of NetworkSpec, in the same order
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;  ///< of the moment ss + tt, over all contacts: Σ|lumped − exact| / Σ exact
   ContactRule rule = ContactRule::centres;  ///< the rule by which the lengths of the contacts were set

@@ -16,8 +16,8 @@ namespace macadam {
 struct Notch {
   int axis = 0;         ///< 0 to 2: the normal of the rectangle
   double position = 0;  ///< coordinate of the plane along the axis [m]
-  /// Extents along x, y and z [m]; that of the axis itself is not used. Without limits the notch is as wide as the
-  /// specimen.
+  /// Limits along x, y and z [m]; the limits along the axis of the notch are not used. Without limits the notch is as
+  /// wide as the specimen.
   std::array<double, 3> low = unlimited(-1), high = unlimited(1);
   std::string source = "specimen";  ///< the scene's file, for messages
   int line = 0;                     ///< line in that file; 0: none
@@ -29,10 +29,10 @@ struct Notch {
   }
 };
 
-/// What a notch does to the contacts. Areas are projections along the axis of the notch.
+/// The effect of a notch on the contacts. Areas are projections along the axis of the notch.
 struct NotchCut {
   Notch notch;
-  std::int64_t removed = 0;    ///< number of facets that are no contacts, because they lie in the notch completely
+  std::int64_t removed = 0;    ///< number of facets that lie in the notch completely and are not contacts
   std::int64_t shortened = 0;  ///< number of contacts that lost a part of their facet
   double cut_area = 0;         ///< area of the facets that this notch removed; overlaps belong to the first notch [m²]
   double ligament = 0;         ///< area of the contacts that still join the two sides of the plane [m²]

@@ -124,7 +124,8 @@ void bind_contacts(nb::module_& m) {
             }
             return out;
           },
-          "What each notch did: axis, at [m], numbers of removed and shortened contacts, cut_area and ligament [m²].")
+          "The effect of each notch: axis, at [m], numbers of removed and shortened contacts, cut_area and ligament "
+          "[m²].")
       .def_prop_ro(
           "count",
           [](const ContactNetwork& n) {

@@ -150,7 +150,7 @@ TEST(Domain, MeasuresOfTheOtherShapesFollowFromTheirProfiles) {
 }
 
 // The walls of a prism have the areas of its ends and of its sides. The circumference of the polygon of a disc is
-// 1 + (π/n)²/6 times that of the circle, as for a cylinder.
+// 1 + (π/n)²/6 times the circumference of the circle, as for a cylinder.
 TEST(Domain, WallsOfPrismsHaveTheirAreas) {
   const double excess = 1 + std::pow(pi / domains::Disc::sides, 2) / 6;
   EXPECT_NEAR(disc.wall_area(0) / (4 * pi * 3), excess, 1e-8);

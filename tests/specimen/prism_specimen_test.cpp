@@ -80,7 +80,8 @@ double relative_density_at_surface(const Domain& domain) {
 }
 
 // Relaxed mastic is as dense at a curved or inclined surface as at the walls of a box. 0.1: some 700 spheres lie in a
-// layer; if they were independent, their number would have a standard deviation of 4 %, that of the box included 5 %.
+// layer. If spheres were independent, this number would have a standard deviation of 4 %, and the ratio of two such
+// numbers 5 %.
 TEST(GeneratedPrisms, MasticIsAsDenseAtTheSurfaceAsInABox) {
   const double in_box = relative_density_at_surface({{0.016, 0.012, 0.02}});
   for (const Domain& domain : {disc, half_disc, trapezoid})

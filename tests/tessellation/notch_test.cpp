@@ -112,7 +112,7 @@ TEST(Notches, InDifferentPlanesAreIndependent) {
 }
 
 // All contacts but those through the notch keep their bits. Shortened contacts have points whose areas sum to their
-// area, and whose centroid is that of the remaining part.
+// area, and whose first moments are the first moments of the contact.
 TEST(Notches, LeaveOtherContactsAsTheyAre) {
   const Specimen s = random_spheres(beam, 500, 6);
   const Tessellation t = tessellate(s);
