@@ -26,7 +26,7 @@ class Text {
   fmt::memory_buffer buffer_;
 };
 
-int type_of(Phase phase) { return phase == Phase::aggregate ? 1 : 2; }
+int lammps_type(Phase phase) { return phase == Phase::aggregate ? 1 : 2; }
 const char* name_of(Phase phase) { return phase == Phase::aggregate ? "aggregate" : "mastic"; }
 bool is_bond(const Contact& contact) { return contact.b >= 0; }
 
@@ -40,7 +40,7 @@ void add_data(Text& text, const Specimen& p, const ContactNetwork& network, cons
   text.add("0 {} xlo xhi\n0 {} ylo yhi\n0 {} zlo zhi\n\nAtoms # bpm/sphere\n\n", size.x, size.y, size.z);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double rho = p.phase[i] == Phase::aggregate ? density.aggregate : density.mastic;
-    text.add("{} {} {} {} {} {} {} {}\n", i + 1, p.body[i] + 1, type_of(p.phase[i]), 2 * p.radius[i], rho,
+    text.add("{} {} {} {} {} {} {} {}\n", i + 1, p.body[i] + 1, lammps_type(p.phase[i]), 2 * p.radius[i], rho,
              p.centre[i].x, p.centre[i].y, p.centre[i].z);
   }
   text.add("\nBonds\n\n");
@@ -56,7 +56,7 @@ void add_dump(Text& text, const Specimen& p) {
            size.x, size.y, size.z);
   text.add("ITEM: ATOMS id mol type x y z radius\n");
   for (std::size_t i = 0; i < p.size(); ++i)
-    text.add("{} {} {} {} {} {} {}\n", i + 1, p.body[i] + 1, type_of(p.phase[i]), p.centre[i].x, p.centre[i].y,
+    text.add("{} {} {} {} {} {} {}\n", i + 1, p.body[i] + 1, lammps_type(p.phase[i]), p.centre[i].x, p.centre[i].y,
              p.centre[i].z, p.radius[i]);
 }
 

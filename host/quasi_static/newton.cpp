@@ -24,7 +24,7 @@ constexpr double loose_part = 1e-4;
 constexpr double slow = 0.3;
 
 /// Numbers of contacts or particles in a piece of parallel work.
-constexpr std::size_t contacts_at_once = 512, particles_at_once = 1024;
+constexpr std::size_t contacts_in_piece = 512, particles_in_piece = 1024;
 
 /// Forces on all walls.
 struct WallForces {
@@ -90,7 +90,7 @@ void Newton::find_wall_stiffness() {
         const Eigen::Map<const Block> g(own.data()), stiffness(contacts_.stiffness(at_walls_[k]).data());
         return (g.transpose() * stiffness * g)(2, 2);
       },
-      contacts_at_once);
+      contacts_in_piece);
 }
 
 double Newton::size_of(const Vector& loads) const {
@@ -138,7 +138,7 @@ void Newton::evaluate(const WallIncrement& increment, Trial& trial) {
   trial.size = size_of(trial.residual);
   trial.scale = std::max(size_of(sizes), least_scale_);
   const auto forces =
-      sum_of_pieces<WallForces>(at_walls_.size(), contacts_at_once, [&](std::size_t from, std::size_t to) {
+      sum_of_pieces<WallForces>(at_walls_.size(), contacts_in_piece, [&](std::size_t from, std::size_t to) {
         WallForces sum;
         for (std::size_t k = from; k < to; ++k) {
           const Contact& c = network_.contacts[at_walls_[k]];
@@ -162,7 +162,7 @@ void Newton::assemble(bool symmetric, IncrementReport& report) {
       matrix_.add_to_diagonal(6 * i + k, (is_loose ? loose_part : held_part) * intact_[6 * i + k]);
     return std::int64_t{is_loose};
   };
-  report.loose = sum_in_parallel<std::int64_t>(particles_, hold, particles_at_once);
+  report.loose = sum_in_parallel<std::int64_t>(particles_, hold, particles_in_piece);
 }
 
 bool Newton::correct(const Trial& trial, double tolerance, bool wall_unknown, bool whole_tangent,
@@ -206,7 +206,7 @@ double Newton::opening_change(const Vector& motion) const {
     for (std::size_t k = 0; k < 6; ++k) out += rate[k] * u[k];
     return out;
   };
-  return sum_in_parallel<double>(network_.contacts.size(), change, contacts_at_once);
+  return sum_in_parallel<double>(network_.contacts.size(), change, contacts_in_piece);
 }
 
 double Newton::missed(const WallIncrement& increment, const Trial& trial) const {

@@ -116,8 +116,9 @@ void check_together(const Scene& scene, const Section& root) {
                                            "\"lumped\", or form = \"condensed\"");
   }
   if (scene.network.lateral_walls && !scene.specimen.box.is_box()) {
-    root.find("network")->section().refuse("lateral_walls", "true with domain = \"cylinder\" in [specimen]",
-                                           "false, because the curved side of a cylinder is free");
+    root.find("network")->section().refuse(
+        "lateral_walls", std::string("true with domain = \"") + scene.specimen.box.name() + "\" in [specimen]",
+        "false, because only the sides of a box can be held");
   }
   if (scene.output.fields.any() && !has_fields(scene)) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
@@ -200,7 +201,9 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
   Scene out;
   out.file = reading.file;
   const std::filesystem::path folder = reading.file.parent_path();
-  const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
+  const auto read_the_specimen = [&](const Value& v) {
+    out.specimen = read_specimen(v.section(), folder, out.recipe, out.network.notches);
+  };
   std::optional<SolverSpec> solver;
   PhaseLaws phases;
   TemperatureTables tables;

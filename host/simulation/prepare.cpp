@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // prepare.cpp  Makes specimen, tessellation and contact network of a scene, in this order.
+#include <algorithm>
 #include <span>
 #include <system_error>
 #include <unordered_map>
@@ -95,6 +96,21 @@ void apply_rule(const Scene& scene, const std::vector<Surface>& surfaces, Prepar
   out.rock = report;
 }
 
+/// Counts the clusters that join bottom and top wall, and the particles outside them. In a domain without these two
+/// walls the largest cluster is the specimen.
+void count_clusters(Preparation& out) {
+  const Domain& domain = out.specimen.box;
+  const bool has_platens = domain.wall_area(wall_index(wall_z_lo)) > 0 && domain.wall_area(wall_index(wall_z_hi)) > 0;
+  const std::vector<Cluster> clusters = find_clusters(out.network, out.specimen.size());
+  const auto largest = std::ranges::max_element(clusters, {}, [](const Cluster& c) { return c.particles.size(); });
+  for (auto cluster = clusters.begin(); cluster != clusters.end(); ++cluster) {
+    if (has_platens ? cluster->spans() : cluster == largest)
+      ++out.spanning_clusters;
+    else
+      out.loose_particles += static_cast<std::int64_t>(cluster->particles.size());
+  }
+}
+
 /// Makes the contacts between particles whose cells exist. `surfaces`: templates of the generated aggregates. \throws
 /// InputError if no path of contacts joins bottom and top wall.
 void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, const Progress& progress,
@@ -104,13 +120,7 @@ void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, con
     out.network = build_network(out.specimen, out.tessellation, scene.network);
     require_laws(scene, out.specimen, out.network);
     if (has_laws_of_phases(scene.network.rule)) apply_rule(scene, surfaces, out);
-    for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
-      if (cluster.spans()) {
-        ++out.spanning_clusters;
-      } else {
-        out.loose_particles += static_cast<std::int64_t>(cluster.particles.size());
-      }
-    }
+    count_clusters(out);
   });
   if (out.spanning_clusters == 0) {
     throw InputError(scene.file.string(), 0, "contact network", "no path of contacts from the bottom to the top wall",

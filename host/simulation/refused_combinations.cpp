@@ -27,9 +27,20 @@ void require_volumetric(const Scene& scene) {
            "\"cpu\", because the solver on GPUs does not compute the pressures of cells");
 }
 
+/// Refuses the tests of a domain that has no two platens with equal sections between them, because stress and strain
+/// of every test are those of such a domain. \throws InputError.
+[[noreturn]] void require_uniform_section(const Scene& scene) {
+  throw InputError(
+      scene.file.string(), 0, "kind in [loading]",
+      fmt::format("\"{}\" with domain = \"{}\" in [specimen]", kind_of(scene.experiment), scene.specimen.box.name()),
+      "a domain with two platens and equal sections between them, such as \"box\", \"cylinder\" or "
+      "\"beam\"; macadam specimen makes specimens of every domain");
+}
+
 }  // namespace
 
 void require_combination(const Scene& scene) {
+  if (!scene.specimen.box.has_uniform_section()) require_uniform_section(scene);
   if (scene.network.rule == ContactRule::volumetric) require_volumetric(scene);
   if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
     throw InputError(scene.file.string(), 0, "method",

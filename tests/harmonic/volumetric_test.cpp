@@ -124,6 +124,20 @@ TEST(Volumetric, FreeFacetsInsideAgreeWithTheReference) {
   EXPECT_GT(std::abs(modulus_of(closed.solve(7).top) / expected - 1.0), 1e-4);
 }
 
+// A notch leaves parts of facets free, which also deform their cells.
+TEST(Volumetric, NotchedSpecimensAgreeWithTheReference) {
+  const Specimen specimen = random_specimen(test_seed(), 3, 3, 4);
+  const Vec3d size = specimen.box.size;
+  NetworkSpec spec;
+  spec.notches.resize(1);
+  spec.notches[0].axis = 2, spec.notches[0].position = 0.5 * size.z, spec.notches[0].high = {0.4 * size.x, size.y, 0};
+  const VolumetricScene notched(specimen, mastic_am1(), {60e9, 0.35, 0.28}, spec);
+  EXPECT_GT(notched.network.notches[0].shortened, 0);
+  const Complex expected = reference_modulus(notched, stiffness_of(mastic_am1(), 7));
+  EXPECT_NEAR(std::abs(modulus_of(notched.solve(7).top) / expected - 1.0), 0, 1e-9);
+  EXPECT_LT(std::abs(expected), std::abs(modulus_of(two_phases(test_seed()).solve(7).top)));
+}
+
 TEST(Volumetric, FourLoadsAreSolvedSideBySide) {
   const VolumetricScene scene = two_phases(3);
   const Inertia inertia = make_inertia(scene.specimen, 2630, 2110);

@@ -133,6 +133,9 @@ void say_preparation(const Preparation& p) {
     say("facets that are not contacts: {} because of gap_max, {} because of area_min\n", p.network.dropped_gap,
         p.network.dropped_area);
   }
+  for (const NotchCut& cut : p.network.notches)
+    say("notch at {} = {:.6g} mm: {} contacts removed, {} shortened; ligament {:.6g} mm2\n", "xyz"[cut.notch.axis],
+        1e3 * cut.notch.position, cut.removed, cut.shortened, 1e6 * cut.ligament);
   if (p.loose_particles > 0)
     say("warning: {} particles have no path of contacts to the bottom wall, to the top wall or to both\n",
         p.loose_particles);
