@@ -56,8 +56,8 @@ void require_rule(const Section& section, ContactRule rule) {
     if (section.has(key))
       section.refuse(
           key, "this key with rule = \"centres\" in [network]",
-          "rule = \"series\" or \"volumetric\" in [network], or no law of a phase, because with \"centres\" each "
-          "pair has its own law in [[contacts]]");
+          "this key only with rule = \"series\" or \"volumetric\", because with \"centres\" the laws are those of "
+          "pairs in [[contacts]]");
   }
 }
 
