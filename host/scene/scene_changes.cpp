@@ -75,7 +75,8 @@ SetValue parsed(const std::string& change) {
   }
   const toml::node* at = &out.line;
   while (at->is_table() && !at->as_table()->is_inline()) {
-    const auto& [part, below] = *at->as_table()->begin();
+    const auto first = at->as_table()->begin();  // the pair below lives in the iterator
+    const auto& [part, below] = *first;
     out.path.push_back(part), at = &below;
   }
   out.value = at;
