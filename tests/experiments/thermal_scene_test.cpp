@@ -102,7 +102,8 @@ TEST_F(ThermalScene, AHeldColumnBreaksSuddenly) {
         "id,x,y,z,radius,phase,body\n0,0.005,0.005,0.005,0.005,mastic,-1\n1,0.005,0.005,0.015,0.005,mastic,-1\n");
   all.replace(all.find("0.04"), 4, "0.02");
   all.insert(all.find(wall),
-             "alpha = 0.1\ncrack = { tensile_strength = \"0.2 MPa\", fracture_energy = \"0.25 J/m2\" }\n");
+             "alpha = 1.0\ncrack = { tensile_strength = \"0.2 MPa\", shear_strength = \"0.2 MPa\", fracture_energy = "
+             "\"0.25 J/m2\" }\n");
   const RunResult result = run(scene(all), out("out"));
   const auto& found = std::get<SteppedResponse>(result.found);
   ASSERT_TRUE(found.increments && found.increments->sudden_break);

@@ -204,7 +204,7 @@ TEST_F(SurfaceReading, JoiningDoesNotChain) {
   for (int k = 0; k <= 5; ++k) EXPECT_EQ(r.points[1 + k].x, fan.points[1 + 2 * k].x);
   EXPECT_EQ(r.facets.size(), 5u);
   EXPECT_TRUE(r.reading.starts_with("merged 5 points on open edges")) << r.reading;
-  EXPECT_TRUE(r.reading.ends_with(", which left 5 facets without area")) << r.reading;
+  EXPECT_TRUE(r.reading.ends_with("; 5 facets then have no area")) << r.reading;
 }
 
 TEST_F(SurfaceReading, SpellingsOfAsciiStlAreRead) {
