@@ -222,11 +222,10 @@ void SteppedLoad::judge(const SteppedResponse& found, std::vector<std::string>& 
   std::vector<SteppedPoint> whole = found.points;
   if (found.rupture && !whole.empty()) whole.pop_back();  // at the last point the specimen was in two pieces
   if (sudden_break_) {
-    warnings.push_back(
-        fmt::format("after t = {:.6g} s ({:.5g} degrees C, {:.4g} MPa) no equilibrium was found: the specimen breaks "
-                    "suddenly, and the test ends there",
-                    sudden_break_->time_s, test_.temperature.at(sudden_break_->time_s),
-                    sudden_break_->stress_pa / 1e6));
+    warnings.push_back(fmt::format(
+        "after t = {:.6g} s ({:.5g} degrees C, {:.4g} MPa) no equilibrium was found: the specimen breaks "
+        "suddenly, and the test ends there",
+        sudden_break_->time_s, test_.temperature.at(sudden_break_->time_s), sudden_break_->stress_pa / 1e6));
   }
   if (quasi_static_) warn_of_increments(quasi_static_->report(), warnings);
   if (quasi_static_ && !at_.unstepped) return;
