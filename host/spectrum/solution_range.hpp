@@ -4,8 +4,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 
+#include "macadam/harmonic.hpp"
 #include "macadam/spectrum.hpp"
 
 namespace macadam::solution_range {
@@ -26,6 +30,20 @@ inline constexpr double of_residuals = 0.1;
 inline constexpr int first_places = 9, most_rounds = 4;
 /// Number of frequencies at which the series is compared with solutions that were not used to make it.
 inline constexpr int checks = 3;
+
+/// Compares a series with solutions that were not used to make it, at frequencies within the range of times. Returns
+/// the largest difference of the modulus, relative to |E*|. `exact`: returns E* of the solution for a load.
+template <class F>
+double largest_difference(const PronySeries& series, const SpectrumOptions& options, F&& exact) {
+  const double slow = 1 / (2 * std::numbers::pi * options.longest),
+               fast = 1 / (2 * std::numbers::pi * options.shortest);
+  double out = 0;
+  for (int i = 0; i < checks; ++i) {
+    const HarmonicLoad load{slow * std::pow(fast / slow, (i + 0.5) / checks)};
+    out = std::max(out, std::abs(series.stiffness(load.s()) / exact(load) - 1.0));
+  }
+  return out;
+}
 
 /// Returns the shortest relaxation time of all laws [s], infinity if no law flows.
 inline double fastest_time(const LawTable& laws) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "host/harmonic/law_stiffness.hpp"
 #include "host/spectrum/reduced_spectrum.hpp"
@@ -119,14 +118,8 @@ class Finder {
   /// Compares the series with solutions that were not used to make it, at frequencies within the range. Returns whether
   /// the largest difference is within the tolerance.
   bool checked() {
-    const double slow = 1 / (2 * std::numbers::pi * options_.longest),
-                 fast = 1 / (2 * std::numbers::pi * options_.shortest);
-    out_.checked = 0;
-    for (int i = 0; i < checks; ++i) {
-      const HarmonicLoad load{slow * std::pow(fast / slow, (i + 0.5) / checks)};
-      const Complex exact = solve(load).parts.modulus();
-      out_.checked = std::max(out_.checked, std::abs(out_.relaxation.stiffness(load.s()) / exact - 1.0));
-    }
+    out_.checked = solution_range::largest_difference(
+        out_.relaxation, options_, [&](const HarmonicLoad& load) { return solve(load).parts.modulus(); });
     return out_.checked <= options_.tolerance;
   }
 

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import statistics
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from macadam import _toml
+from macadam._files import write_text
 from macadam.study.design import AT
 from macadam.study.errors import StudyError
 from macadam.study.scenes import read_toml
@@ -87,8 +87,8 @@ def compute(asked: dict[str, Any], out: str | Path, **how: Any) -> tuple[Any, di
     found = study(asked, out, **how)
     design = read_design(asked, version_of(how.get("program") or find_program()))
     summary = summary_of(asked["scene"], {job.values[KEY]: job.key for job in design.jobs}, found.folder)
-    _write(found.folder / "study.toml", _toml.dumps(asked))
-    _write(found.folder / "summary.json", json.dumps(summary, indent=2, ensure_ascii=False) + "\n")
+    write_text(found.folder / "study.toml", _toml.dumps(asked))
+    write_text(found.folder / "summary.json", json.dumps(summary, indent=2, ensure_ascii=False) + "\n")
     return found, summary
 
 
@@ -160,16 +160,6 @@ def lines(summary: dict[str, Any]) -> list[str]:
     widths = [max(len(row[k]) for row in table) for k in range(6)]
     out = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in table]
     return out + ([f"{left_out} more rows are in summary.json"] if left_out else [])
-
-
-def _write(file: Path, text: str) -> None:
-    """Writes a file completely, or leaves the old one."""
-    part = file.with_name(f".{file.name}.{os.getpid()}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(file)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 def run(options: Any, progress: Callable[[int, int, int], None]) -> tuple[Any, dict[str, Any]]:
