@@ -20,17 +20,17 @@ namespace {
 
 /// Sums over the contacts of a pair type: products in normal and in shear direction, and their parts that follow the
 /// rock in series.
-struct Products {
+struct PairParts {
   Complex normal = 0, shear = 0, normal_rock = 0, shear_rock = 0;
 
   Complex rock() const { return normal_rock + shear_rock; }
   Complex law() const { return normal + shear - rock(); }
-  void operator+=(const Products& o) {
+  void operator+=(const PairParts& o) {
     normal += o.normal, shear += o.shear, normal_rock += o.normal_rock, shear_rock += o.shear_rock;
   }
 };
 
-struct ProductsOfPairs : std::array<Products, pair_types> {
+struct ProductsOfPairs : std::array<PairParts, pair_types> {
   void operator+=(const ProductsOfPairs& o) {
     for (std::size_t pair = 0; pair < pair_types; ++pair) (*this)[pair] += o[pair];
   }
@@ -105,7 +105,7 @@ void add_phase_derivatives(const ContactNetwork& network, const PairStiffness& s
                by_opening = 1 / (1 + nu) - 2 / (1 - 2 * nu) + 1 / (1 - nu);
   Complex mastic = 0, rock = 0;  // minus the derivatives with respect to ν
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
-    const Products& p = products[pair];
+    const PairParts& p = products[pair];
     if (static_cast<PairType>(pair) == PairType::aa)
       mastic += by_opening * (p.normal - p.normal_rock) + by_shear * (p.shear - p.shear_rock);
     else if (volumetric && is_of_mastic(static_cast<PairType>(pair)))

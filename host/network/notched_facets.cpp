@@ -37,6 +37,7 @@ NotchedFacets::NotchedFacets(const Specimen& specimen, const Tessellation& tesse
       notches_(checked_notches(specimen.box, notches)),
       tolerance_(rounding_bound(specimen.box.size)) {
   for (const Notch& notch : notches) cuts_.push_back({notch, 0, 0, 0, 0});
+  meets_facet_.assign(notches_.size(), false);
 }
 
 bool NotchedFacets::keep(std::uint32_t facet) {
@@ -45,9 +46,10 @@ bool NotchedFacets::keep(std::uint32_t facet) {
   if (std::ranges::none_of(notches_, is_separated)) return true;
   const std::span<const Vec3d> polygon = tessellation_.polygon(f);
   std::vector<Polygon> parts{{polygon.begin(), polygon.end()}};
-  bool is_cut = false;
+  std::vector<std::size_t> shortening;  // the notches that removed a part
   for (std::size_t k = 0; k < notches_.size(); ++k) {
     if (!is_separated(notches_[k])) continue;
+    meets_facet_[k] = true;
     std::vector<Polygon> left = outside_of(notches_[k], parts, tolerance_);
     std::erase_if(left, [&](const Polygon& p) {
       const PolygonMeasure m = measure(p, f.normal);
@@ -57,19 +59,19 @@ bool NotchedFacets::keep(std::uint32_t facet) {
     const double cut = projected(parts, f.normal, axis) - projected(left, f.normal, axis);
     // A notch that only touches the facet removes no area but rounding; such a facet stays whole.
     if (!(cut > 1e-12 * f.area * std::abs(along(f.normal, axis)))) continue;
-    is_cut = true;
     cuts_[k].cut_area += cut;
     if (left.empty()) {
       ++cuts_[k].removed;
       removed_.push_back({f.a, f.b, k});
       return false;
     }
-    ++cuts_[k].shortened;
+    shortening.push_back(k);
     parts = std::move(left);
   }
   for (std::size_t k = 0; k < notches_.size(); ++k)
     if (is_separated(notches_[k])) cuts_[k].ligament += projected(parts, f.normal, notches_[k].axis);
-  if (!is_cut) return true;
+  if (shortening.empty()) return true;
+  for (const std::size_t k : shortening) ++cuts_[k].shortened;
   const std::size_t begin = pieces_.size();
   std::ranges::move(parts, std::back_inserter(pieces_));
   shortened_.push_back({facet, begin, pieces_.size()});
@@ -102,6 +104,11 @@ std::pair<std::size_t, std::size_t> NotchedFacets::sizes(std::uint32_t facet) co
 }
 
 void NotchedFacets::finish(ContactNetwork& network) const {
+  for (std::size_t k = 0; k < notches_.size(); ++k) {
+    if (meets_facet_[k]) continue;
+    throw InputError(notches_[k].source, notches_[k].line, "[[specimen.notch]]",
+                     words_of(notches_[k]) + " that meets no contact", "a notch between centres of particles");
+  }
   network.notches = cuts_;
   if (!removed_.empty()) require_one_piece(network);
 }

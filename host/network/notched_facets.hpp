@@ -13,9 +13,9 @@ namespace macadam {
 
 /// A convex part of a facet.
 struct FacetPart {
-  double area = 0;   ///< [m²]
-  Vec3d centroid{};  ///< [m]
-  std::span<const Vec3d> polygon;
+  double area = 0;                 ///< [m²]
+  Vec3d centroid{};                ///< [m]
+  std::span<const Vec3d> polygon;  ///< vertices, counter-clockwise about the normal of the facet [m]
 };
 
 /// Cuts facets by notches, one facet after the other.
@@ -36,7 +36,7 @@ class NotchedFacets {
   std::pair<std::size_t, std::size_t> sizes(std::uint32_t facet) const;
 
   /// Stores in `network` what the notches did. \throws InputError if the notches separate at least 1 % of the
-  /// particles from the others.
+  /// particles from the others, or if all centres are on one side of a notch.
   void finish(ContactNetwork& network) const;
 
  private:
@@ -57,6 +57,7 @@ class NotchedFacets {
   const Tessellation& tessellation_;
   std::vector<Notch> notches_;
   std::vector<NotchCut> cuts_;
+  std::vector<char> meets_facet_;  ///< whether the notch lies between two particles that have a facet
   double tolerance_;
   std::vector<Shortened> shortened_;
   std::vector<Removed> removed_;

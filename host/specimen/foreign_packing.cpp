@@ -70,6 +70,9 @@ class Reader {
         row(line, words);
     }
     if (out_.centre.empty()) refuse(0, "spheres", "none", "rows with x, y, z and a radius");
+    if (expected_ && *expected_ != static_cast<double>(out_.centre.size()))
+      refuse(number_, "spheres of the last snapshot", fmt::format("{}", out_.centre.size()),
+             fmt::format("{} as the dump says; the file may be incomplete", *expected_));
     return std::move(out_);
   }
 
@@ -105,6 +108,7 @@ class Reader {
   /// A line of a dump that begins with ITEM:. A new snapshot replaces the previous one.
   void item(const std::vector<std::string_view>& words) {
     dump_ = true, atoms_ = false;
+    counts_ = words.size() > 1 && words[1] == "NUMBER";
     if (words.size() < 2 || words[1] != "ATOMS") return;
     atoms_ = true;
     out_ = {};
@@ -119,7 +123,9 @@ class Reader {
   }
 
   void atom(const std::vector<std::string_view>& words) {
-    if (atoms_) sphere(words);  // other lines are the number of the step, the number of atoms and the box
+    if (atoms_) return sphere(words);  // other lines are the number of the step, the number of atoms and the box
+    if (counts_) expected_ = number_in(words[0]);
+    counts_ = false;
   }
 
   /// A line of a text. Names of columns may stand in a line before all spheres.
@@ -163,6 +169,8 @@ class Reader {
   std::size_t at_ = 0;
   int number_ = 0;  ///< of the line that was read last
   bool dump_ = false, atoms_ = false;
+  bool counts_ = false;             ///< whether the next line has the number of atoms
+  std::optional<double> expected_;  ///< number of atoms of the last snapshot, if the dump says it
   Columns columns_;
   ForeignPacking out_;
 };

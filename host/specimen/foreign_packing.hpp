@@ -29,9 +29,9 @@ struct ForeignPacking {
 /// cannot be read
 ForeignPacking read_packing(const std::filesystem::path& file, double unit);
 
-/// Returns the spheres as a specimen of mastic whose domain is the smallest box around them or, for `cylinder`, the
-/// smallest upright cylinder whose axis is in the middle of this box. The corner of the box becomes the origin.
-/// `source` begins messages. \throws InputError as validate().
+/// Returns the spheres, at least one, as a specimen of mastic whose domain is the smallest box around them or, for
+/// `cylinder`, the smallest upright cylinder whose axis is in the middle of this box. The corner of the box becomes the
+/// origin. `source` begins messages. \throws InputError as validate().
 Specimen specimen_of(const ForeignPacking& packing, bool cylinder, const std::string& source);
 
 }  // namespace macadam

@@ -45,7 +45,7 @@ double largest_difference(const PronySeries& series, const SpectrumOptions& opti
   return out;
 }
 
-/// Returns the shortest relaxation time of all laws [s], infinity if no law flows.
+/// Returns the shortest relaxation time of all laws [s], infinity if no law relaxes.
 inline double fastest_time(const LawTable& laws) {
   double out = std::numeric_limits<double>::infinity();
   for (const auto& law : laws) {

@@ -3,8 +3,9 @@
 ///
 /// The facets between the particles on the two sides of a plane form one surface. Every such facet is perpendicular to
 /// the line of the two centres, so its normal points from one side of the plane to the other, and a line along the
-/// axis crosses the surface once. The projections of the facets therefore cover the section of a box without gaps or
-/// overlaps, and the areas of a cut are exact.
+/// axis crosses the surface once, if it crosses cells of particles on both sides. Except within the cells at a wall,
+/// the projections of the facets therefore cover the section of a box without gaps or overlaps, and the areas of a cut
+/// are exact.
 #pragma once
 
 #include <span>

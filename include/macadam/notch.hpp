@@ -32,7 +32,8 @@ struct Notch {
 /// The effect of a notch on the contacts. Areas are projections along the axis of the notch.
 struct NotchCut {
   Notch notch;
-  std::int64_t removed = 0;    ///< number of facets that lie in the notch completely and are not contacts
+  std::int64_t removed =
+      0;  ///< number of facets of which this notch removed the last part, so that they are not contacts
   std::int64_t shortened = 0;  ///< number of contacts that lost a part of their facet
   double cut_area = 0;         ///< area of the facets that this notch removed; overlaps belong to the first notch [m²]
   double ligament = 0;         ///< area of the contacts that still join the two sides of the plane [m²]

@@ -39,7 +39,9 @@ double reduced_time(const laws::Shift& shift, const TemperatureHistory& history,
 /// Coefficients of linear thermal expansion of the phases [1/K].
 struct Expansion {
   double aggregate = 0, mastic = 0;
+  /// Returns whether a phase expands.
   bool any() const { return aggregate != 0 || mastic != 0; }
+  /// Returns the coefficient of a phase [1/K]; 0 for voids.
   double of(Phase phase) const { return phase == Phase::aggregate ? aggregate : phase == Phase::mastic ? mastic : 0; }
 };
 

@@ -52,7 +52,7 @@ TEST(VolumetricSpectrum, WithoutRelaxationItIsTheElasticModulus) {
   const VolumetricScene scene(all_mastic(random_specimen(2, 3, 3, 3)), laws::Elastic{3e9, 1}, {0, 0.3, 0});
   const Spectrum found = spectrum(scene, 1e-3, 1, 1e-6);
   EXPECT_TRUE(found.relaxation.units.empty());
-  EXPECT_NEAR(found.relaxation.long_term, 3e9, 3);
+  EXPECT_NEAR(found.relaxation.long_term, 3e9, 1e-9 * 3e9);  // the rounding of the direct solver
   EXPECT_EQ(found.solutions, 1);
 }
 

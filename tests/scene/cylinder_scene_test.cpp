@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
-#include <numbers>
 #include <string>
 
 #include "host/simulation/refused_combinations.hpp"
@@ -104,50 +102,6 @@ SpecimenSpec small_mix(const Domain& domain, std::uint64_t seed) {
   spec.aggregate = {{0.002, 0.00475, 0.2, {}}, {0.00475, 0.0095, 0.2, {}}};
   spec.mastic = MasticSpec{0.00075, 0.001, 0.05, {}};
   return spec;
-}
-
-/// Expects all aggregates inside the domain, all centres too, and cells that fill the domain.
-void expect_inside(const GeneratedWithCells& made) {
-  const Specimen& s = made.made.specimen;
-  // Positions are doubles, rounded by half a unit in the last place of the dimensions.
-  const double rounding = 8 * std::numeric_limits<double>::epsilon() * norm(s.box.size);
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    EXPECT_TRUE(s.box.contains(s.centre[i])) << i;
-    if (s.phase[i] == Phase::aggregate) { EXPECT_LE(s.box.signed_distance(s.centre[i]), rounding - s.radius[i]) << i; }
-  }
-  double volume = 0;
-  for (const double v : made.tessellation.value().cell_volume) volume += v;
-  EXPECT_NEAR(volume / s.box.volume(), 1, 1e-12);  // rounding of some hundred terms
-}
-
-TEST(GeneratedCylinder, SpheresLieInside) {
-  const Domain domain = cylinder_domain(0.015, 0.014);
-  const GeneratedWithCells made = generate_with_cells(small_mix(domain, 2), {});
-  EXPECT_STREQ(made.made.specimen.box.name(), "cylinder");
-  expect_inside(made);
-  // with 5 % porosity, the spheres fill 95 % of the volume of the cylinder, to within one sphere of mastic
-  double solid = 0;
-  for (const double r : made.made.specimen.radius) solid += 4 * std::numbers::pi / 3 * r * r * r;
-  EXPECT_NEAR(solid / domain.volume(), 0.95, 4 * std::numbers::pi / 3 * 1e-9 / domain.volume());
-}
-
-TEST(GeneratedCylinder, ShapesLieInside) {
-  for (const PlacementMethod placement : {PlacementMethod::insertion, PlacementMethod::packing}) {
-    SpecimenSpec spec = small_mix(cylinder_domain(0.024, 0.022), 3);
-    spec.aggregate = {{4.75e-3, 9.5e-3, std::nullopt, 6}, {2e-3, 4.75e-3, std::nullopt, 30}};
-    spec.shapes.emplace();
-    spec.shapes->library = ShapeSpec::Library::icosahedron;
-    spec.shapes->placement = placement;
-    spec.shapes->fill.radius_min = 0.75e-3;
-    spec.shapes->fill.radius_max = 1e-3;
-    spec.shapes->fill.porosity = 0;
-    const GeneratedSpecimen made = generate_specimen(spec);
-    for (const Aggregate& a : made.aggregates) {
-      if (a.surface < 0) continue;
-      for (const Vec3d& p : made.surfaces[static_cast<std::size_t>(a.surface)].points)
-        EXPECT_LT(spec.box.signed_distance(a.pose(p)), 1e-9) << a.body;  // packing accepts overlaps of this depth
-    }
-  }
 }
 
 TEST_F(CylinderScene, ASpecimenFileGivesTheSameSpecimen) {

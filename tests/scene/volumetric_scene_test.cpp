@@ -100,6 +100,7 @@ TEST_F(VolumetricSceneFile, RelaxationOfMastic) {
   EXPECT_EQ(refusal(specimen + chain + rule + loading + harmonic), "");
   const RunResult result = run(scene, folder_ / "out");
   const auto& found = std::get<experiments::SpectrumResponse>(result.found);
+  ASSERT_FALSE(found.points.empty());
   for (const auto& p : found.points) EXPECT_NEAR(p.ratio / (4e9 * std::exp(-2 * p.time_s)), 1, 1e-7) << p.time_s;
 }
 

@@ -204,7 +204,8 @@ TEST(Domain, DistancesOfAllShapesAreConsistent) {
       }
       inside += at_p <= 0;
     }
-    // the part of 4000 points in a cube of 10 m that lie inside has a standard deviation of at most √(4000/4)
+    // The number of points inside, of 4000 in a cube of 10 m, is binomial with a standard deviation below
+    // √(4000·V/1000).
     EXPECT_NEAR(inside, 4000 * d.volume() / 1000, 4 * std::sqrt(4000 * d.volume() / 1000)) << d.name();
   }
 }

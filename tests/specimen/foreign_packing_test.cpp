@@ -75,6 +75,8 @@ TEST_F(ForeignPackings, WrongFilesAreRefusedAtTheirLine) {
            {"a,b,c\n1,2,3\n", ":1: columns: found \"a\", expected the names x, y, z and radius"},
            {"1 2 3 1\nend\n", ":2: x: found \"end\", expected a number"},
            {"", ": spheres: found none, expected rows with x, y, z and a radius"},
+           {"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS id x y z radius\n1 0 0 0 1\n",
+            ":6: spheres of the last snapshot: found 1, expected 2 as the dump says"},
            {"ITEM: TIMESTEP\n0\nITEM: ATOMS id xs ys zs radius\n",
             ":3: columns of the dump: found \"id xs ys zs radius\""}}) {
     try {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// prism_specimen_test.cpp  Tests generated specimens whose domain is a disc, a half disc, a beam or a trapezoid.
+// prism_specimen_test.cpp  Tests generated specimens whose domain is a cylinder, a disc, a half disc, a beam or a
+// trapezoid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ SpecimenSpec small_mix(const Domain& domain, std::uint64_t seed) {
 
 // All aggregates lie inside, all centres do, and the cells fill the domain.
 TEST(GeneratedPrisms, SpheresLieInside) {
-  for (const Domain& domain : {disc, half_disc, beam, trapezoid}) {
+  for (const Domain& domain : {disc, half_disc, beam, trapezoid, cylinder_domain(0.015, 0.014)}) {
     SCOPED_TRACE(domain.name());
     const SpecimenSpec spec = small_mix(domain, 2);
     const GeneratedWithCells made = generate_with_cells(spec, {});
@@ -90,7 +91,7 @@ TEST(GeneratedPrisms, MasticIsAsDenseAtTheSurfaceAsInABox) {
 
 TEST(GeneratedPrisms, ShapesLieInside) {
   for (const Domain& domain : {domain_of("disc", {0.026, 0.02}), domain_of("half_disc", {0.04, 0.018}),
-                               domain_of("trapezoid", {0.026, 0.02, 0.018, 0.03})}) {
+                               domain_of("trapezoid", {0.026, 0.02, 0.018, 0.03}), cylinder_domain(0.024, 0.022)}) {
     for (const PlacementMethod placement : {PlacementMethod::insertion, PlacementMethod::packing}) {
       SpecimenSpec spec = small_mix(domain, 3);
       spec.aggregate = {{4.75e-3, 8e-3, std::nullopt, 6}, {2e-3, 4.75e-3, std::nullopt, 30}};
@@ -101,11 +102,14 @@ TEST(GeneratedPrisms, ShapesLieInside) {
       spec.shapes->fill.radius_max = 1e-3;
       spec.shapes->fill.porosity = 0;
       const GeneratedSpecimen made = generate_specimen(spec);
+      std::size_t checked = 0;
       for (const Aggregate& a : made.aggregates) {
         if (a.surface < 0) continue;
+        checked += made.surfaces[static_cast<std::size_t>(a.surface)].points.size();
         for (const Vec3d& p : made.surfaces[static_cast<std::size_t>(a.surface)].points)
           EXPECT_LT(domain.signed_distance(a.pose(p)), 1e-9) << domain.name();  // packing accepts such overlaps
       }
+      EXPECT_GT(checked, 0U) << domain.name();
     }
   }
 }

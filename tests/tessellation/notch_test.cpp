@@ -84,7 +84,17 @@ TEST(Notches, OfAnyExtentAreExact) {
   const auto left = [&](std::vector<Notch> notches) {
     const ContactNetwork network = build_network(s, t, with(notches));
     double cut = 0;
-    for (const NotchCut& c : network.notches) cut += c.cut_area;
+    std::int64_t shortened = 0, removed = 0;
+    for (const NotchCut& c : network.notches) cut += c.cut_area, shortened += c.shortened, removed += c.removed;
+    // every contact that lost area counts once for each notch that cuts it
+    std::map<std::pair<std::int32_t, std::int32_t>, double> whole;
+    for (const Contact& c : build_network(s, t).contacts) whole[{c.a, c.b}] = c.area;
+    const auto changed = std::ranges::count_if(network.contacts, [&](const Contact& c) {
+      return c.area < whole.at({c.a, c.b}) * (1 - 1e-12);
+    });
+    EXPECT_GE(shortened, changed);
+    EXPECT_LE(shortened, changed * static_cast<std::int64_t>(notches.size()));
+    EXPECT_EQ(removed, static_cast<std::int64_t>(whole.size() - network.contacts.size()));
     const double area = area_across(s, network, 0.031);
     EXPECT_NEAR(area + cut, 0.03 * 0.04, 1e-9 * 0.03 * 0.04);
     return area;
@@ -190,6 +200,8 @@ TEST(Notches, OutsideTheSpecimenOrThroughItAreRefused) {
   };
   EXPECT_HAS(refusal(beam, {notch_at(0, 0.11)}), "a notch at x = 0.11 m, which is outside the specimen");
   EXPECT_HAS(refusal(beam, {notch_at(1, 0.02, {0, 0, 0.05}, {0.1, 0, 0.06})}), "limits outside the specimen");
+  EXPECT_HAS(refusal(beam, {notch_at(2, 1e-6, {0, 0, 0}, {0.05, 0.03, 0})}),
+             "a notch at z = 1e-06 m that meets no contact, expected a notch between centres of particles");
   EXPECT_HAS(refusal(beam, {notch_at(2, 0.02)}), "a notch at z = 0.02 m that severs the specimen");
   const Notch lower = notch_at(0, 0.05, {0, 0, 0}, {0, 0.03, 0.02}),
               upper = notch_at(0, 0.05, {0, 0, 0.02}, {0, 0.03, 0.04});

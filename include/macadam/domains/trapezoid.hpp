@@ -81,7 +81,7 @@ struct Trapezoid : PrismAlongY<Trapezoid> {
 
   Vec3d pulled_inside(const Vec3d& size, const Vec3d& p) const {
     const double z = std::clamp(p.z, 1e-3 * size.z, 0.999 * size.z);
-    const double t = slope(size), low = t * z + 1e-3 * top_width * std::sqrt(1 + t * t);
+    const double t = slope(size), low = std::min(t * z + 1e-3 * top_width * std::sqrt(1 + t * t), 0.5 * size.x);
     return {std::clamp(p.x, low, size.x - low), std::clamp(p.y, 1e-3 * size.y, 0.999 * size.y), z};
   }
 
