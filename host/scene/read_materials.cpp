@@ -56,8 +56,7 @@ void require_rule(const Section& section, ContactRule rule) {
     if (section.has(key))
       section.refuse(key, "this key with rule = \"centres\" in [network]",
                      "this key only with rule = \"series\" or \"volumetric\", because with \"centres\" each pair has "
-                     "its own law in "
-                     "[[contacts]]");
+                     "its own law in [[contacts]]");
   }
 }
 
