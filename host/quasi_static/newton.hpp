@@ -31,6 +31,12 @@ class Newton {
 
   ContactIncrements& contacts() { return contacts_; }
   const ContactIncrements& contacts() const { return contacts_; }
+  /// Whether a correction with a symmetric tangent was slow, so that later corrections use the whole tangent. It is
+  /// part of the state of a test.
+  /// @{
+  bool friction_matters() const { return friction_matters_; }
+  void set_friction_matters(bool matters) { friction_matters_ = matters; }
+  /// @}
   const char* solver_name() const { return solver_->name(); }
   std::int64_t bytes() const { return contacts_.bytes() + matrix_.bytes(); }
 

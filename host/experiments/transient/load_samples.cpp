@@ -43,11 +43,16 @@ void SteppedLoad::follow_peak(const Observation& now) {
     at_.stresses.push_back({strain, stress});
 }
 
+std::vector<experiments::CrackEvent> SteppedLoad::read_cracks(double time) {
+  read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
+  auto events = cracks_.look(contact_state_, time);
+  at_.cracks.insert(at_.cracks.end(), events.begin(), events.end());
+  return events;
+}
+
 std::vector<experiments::CrackEvent> SteppedLoad::look_for_cracks(SteppedPoint& point, const ParticleState& particles) {
   if (!cracks_.active()) return {};
-  read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
-  auto events = cracks_.look(contact_state_, point.time_s);
-  at_.cracks.insert(at_.cracks.end(), events.begin(), events.end());
+  auto events = read_cracks(point.time_s);
   point.broken_points = cracks_.found().points();
   const Observation now = stepper_->observe();
   if (cracks_.sums()) {
