@@ -35,14 +35,15 @@ void add_data(Text& text, const Specimen& p, const ContactNetwork& network, cons
   text.add("Macadam {}: SI units; atom types 1 aggregate, 2 mastic; bond types", version());
   for (int pair = 0; pair < particle_pair_types; ++pair)
     text.add("{} {} {}", pair > 0 ? "," : "", pair + 1, to_string(static_cast<PairType>(pair)));
-  text.add("\n\n{} atoms\n{} bonds\n2 atom types\n{} bond types\n\n", p.size(),
-           std::count_if(network.contacts.begin(), network.contacts.end(), is_bond), particle_pair_types);
+  const auto bonds = std::count_if(network.contacts.begin(), network.contacts.end(), is_bond);
+  text.add("\n\n{} atoms\n{} bonds\n2 atom types\n{} bond types\n\n", p.size(), bonds, particle_pair_types);
   text.add("0 {} xlo xhi\n0 {} ylo yhi\n0 {} zlo zhi\n\nAtoms # bpm/sphere\n\n", size.x, size.y, size.z);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double rho = p.phase[i] == Phase::aggregate ? density.aggregate : density.mastic;
     text.add("{} {} {} {} {} {} {} {}\n", i + 1, p.body[i] + 1, lammps_type(p.phase[i]), 2 * p.radius[i], rho,
              p.centre[i].x, p.centre[i].y, p.centre[i].z);
   }
+  if (bonds == 0) return;  // an empty section is an error for LAMMPS
   text.add("\nBonds\n\n");
   std::size_t number = 0;
   for (const Contact& contact : network.contacts)

@@ -56,6 +56,8 @@ SetValue parsed(const std::string& change) {
   const std::string key = trimmed(change.substr(0, sign));
   out.written = trimmed(change.substr(sign + 1));
   if (key.empty()) refuse("no key");
+  // in TOML these begin a comment and the header of a section
+  if (key[0] == '#' || key[0] == '[') refuse("the key " + in_quotes(key));
   if (out.written.empty()) refuse("no value");
   if (std::any_of(change.begin(), change.end(), [](unsigned char c) { return c < ' '; })) refuse("a control character");
   const auto read = [&] { out.line = parse_toml(key + " = " + out.written, out.source, out.source); };
@@ -75,6 +77,7 @@ SetValue parsed(const std::string& change) {
   }
   const toml::node* at = &out.line;
   while (at->is_table() && !at->as_table()->is_inline()) {
+    if (at->as_table()->empty()) refuse("the key " + in_quotes(key));
     const auto first = at->as_table()->begin();  // the pair below lives in the iterator
     const auto& [part, below] = *first;
     out.path.push_back(part), at = &below;
@@ -110,6 +113,21 @@ const toml::node* step(const toml::node& at, const SetValue& set, std::size_t pa
              "a section or a list there");
 }
 
+std::string key_text(const toml::key& key) {
+  const std::string name(key.str());
+  const bool bare = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+  return bare ? name : in_toml_quotes(name);
+}
+
+/// Returns parts of the path with dots between them.
+std::string dotted(const SetValue& set, std::size_t begin, std::size_t end) {
+  std::string out;
+  for (std::size_t k = begin; k < end; ++k) out += (k > begin ? "." : "") + key_text(set.path[k]);
+  return out;
+}
+
 /// Sets the value in the tables of the scene. Nodes are moved out of the line, because a copy of a node has no source.
 void set_in(toml::table& root, SetValue& set) {
   toml::node *at = &root, *from = &set.line;
@@ -123,6 +141,12 @@ void set_in(toml::table& root, SetValue& set) {
     }
     if (!next || k + 1 == set.path.size()) {
       toml::table& table = *at->as_table();
+      if (!next && k + 1 < set.path.size()) {
+        const std::string number(set.path[k + 1].str());
+        if (std::all_of(number.begin(), number.end(), [](unsigned char c) { return std::isdigit(c) != 0; }))
+          set.refuse("no list " + dotted(set, 0, k + 1) + " in the scene",
+                     dotted(set, 0, k + 1) + "=[{…}], the whole list");
+      }
       table.erase(set.path[k].str());  // otherwise the table would keep the old key with its old source
       below->visit([&](auto& one) { table.insert_or_assign(set.path[k], std::move(one)); });
       return;
@@ -167,21 +191,6 @@ std::string formatted(const toml::table& table) {
   std::ostringstream out;
   out << toml::toml_formatter(table) << '\n';
   return out.str();
-}
-
-std::string key_text(const toml::key& key) {
-  const std::string name(key.str());
-  const bool bare = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
-  return bare ? name : in_toml_quotes(name);
-}
-
-/// Returns parts of the path with dots between them.
-std::string dotted(const SetValue& set, std::size_t begin, std::size_t end) {
-  std::string out;
-  for (std::size_t k = begin; k < end; ++k) out += (k > begin ? "." : "") + key_text(set.path[k]);
-  return out;
 }
 
 /// Returns the texts that may have the value, the most readable one first. Not each of them is right.

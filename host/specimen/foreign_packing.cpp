@@ -50,6 +50,7 @@ std::string in_lower_case(std::string_view word) {
 struct Columns {
   std::array<std::size_t, 4> index{0, 1, 2, 3};
   bool diameter = false;  ///< whether the last one is a diameter
+  std::size_t names = 0;  ///< number of columns; 0: the file has no names
 };
 
 /// Reads the spheres of one file.
@@ -102,7 +103,7 @@ class Reader {
     const auto x = find({"x", "xu"}), y = find({"y", "yu"}), z = find({"z", "zu"}), r = find({"radius", "r", "rad"}),
                d = find({"diameter", "d"});
     if (!x || !y || !z || !(r || d)) return {};
-    return Columns{{*x, *y, *z, r ? *r : *d}, !r};
+    return Columns{{*x, *y, *z, r ? *r : *d}, !r, names.size()};
   }
 
   /// A line of a dump that begins with ITEM:. A new snapshot replaces the previous one.
@@ -143,12 +144,17 @@ class Reader {
       }
       return;
     }
+    if (columns_.names == 0 && line.find(';') != std::string_view::npos && line.find(',') != std::string_view::npos)
+      refuse(number_, "numbers", in_quotes(std::string(line)), "decimal points, not commas");
     if (out_.format.empty()) out_.format = "text";
     sphere(words);
   }
 
   void sphere(const std::vector<std::string_view>& words) {
     constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
+    if (columns_.names > 0 && words.size() != columns_.names)
+      refuse(number_, "columns", fmt::format("{}", words.size()),
+             fmt::format("{} as names, numbers with decimal points, and no empty cells", columns_.names));
     std::array<double, 4> value{};
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t column = columns_.index[k];

@@ -108,8 +108,10 @@ def test_results_of_a_whole_test_and_of_its_points() -> None:
 
 def test_a_long_table_ends_with_the_number_of_rows_left_out() -> None:
     moments = {"mean": 1.0, "standard_deviation": 0.1, "count": 2}
-    found = seeds.lines({"results": [{"time_s": float(k), "strain": moments} for k in range(30)]})
-    assert len(found) == 1 + 24 + 1 and found[-1] == "6 more rows are in summary.json"
+    rows = [{"time_s": float(k), "strain": moments} for k in range(30)]
+    found = seeds.lines({"results": [{"strength_pa": moments}, *rows]})
+    assert len(found) == 1 + 1 + 24 + 1 and found[-1] == "6 more rows are in summary.json"
+    assert found[1].split() == ["strength_pa", "1", "0.1", "10", "%", "2"]
     assert found[-2].split() == ["time_s", "29", "strain", "1", "0.1", "10", "%", "2"]
 
 

@@ -118,6 +118,9 @@ TEST_F(JsonLines, ErrorsNameFileLineAndKey) {
   EXPECT_EQ(usage["kind"], "usage");
   EXPECT_TRUE(usage["file"].is_null() && usage["line"].is_null() && usage["key"].is_null()) << usage;
   EXPECT_TRUE(contains(usage["message"], "found \"--fast\"")) << usage;
+  // the option has no value; otherwise the output would be text although a program asked for JSON
+  const auto with_value = macadam("check --json=true " + path("scene.toml"));
+  EXPECT_EQ(with_value.code, 2);
 }
 
 TEST_F(JsonLines, OfSeveralScenesEachHasItsResultOrItsError) {

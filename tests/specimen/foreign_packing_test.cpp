@@ -70,6 +70,10 @@ TEST_F(ForeignPackings, WrongFilesAreRefusedAtTheirLine) {
   for (const auto& [text, message] : std::map<std::string, std::string>{
            {"1 2 3 1\n1 2 x 2\n", ":2: z: found \"x\", expected a number"},
            {"1 2 3 1\n1 2 inf 2\n", ":2: z: found \"inf\", expected a number"},
+           {"x;y;z;radius\n0,1;0,2;0,3;0,05\n",
+            ":2: columns: found 8, expected 4 as names, numbers with decimal points"},
+           {"x,y,z,radius,mat\n,1,0,0.5,1\n", ":2: columns: found 4, expected 5 as names"},
+           {"0,1;0,2;0,3;0,05\n", ":1: numbers: found \"0,1;0,2;0,3;0,05\", expected decimal points"},
            {"1 2 3 0\n", ":1: radius: found 0, expected a positive number"},
            {"1 2 3\n", ":1: radius: found 3 columns, expected one more column"},
            {"a,b,c\n1,2,3\n", ":1: columns: found \"a\", expected the names x, y, z and radius"},

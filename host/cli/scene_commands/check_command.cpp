@@ -133,8 +133,7 @@ void check_command(const CheckArguments& arguments) {
   apply(arguments.instead, scene);
   const Forecast f = forecast(scene);
   if (arguments.json)
-    print_json_line(
-        as_json(arguments.scene, scene, f).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    print_json_line(as_json(arguments.scene, scene, f));
   else
     say_forecast(arguments.scene, scene, f);
 }
@@ -146,7 +145,8 @@ void add_check_command(CLI::App& app) {
       *app.add_subcommand("check", "predict the particles, memory, time and files of a run, without running it");
   const auto arguments = std::make_shared<CheckArguments>();
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
-  command.add_flag("--json", arguments->json, "print one JSON object per line, for other programs");
+  command.add_flag("--json", arguments->json, "print one JSON object per line, for other programs")
+      ->disable_flag_override();
   add_set(command, arguments->set);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam check examples/demo/scene.toml",

@@ -72,7 +72,7 @@ void print_info_event() {
       {"why_no_ranks", alone.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(alone)},
       {"backend", to_string(chosen)},
       {"reason", reason}};
-  print_json_line(event.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  print_json_line(event);
 }
 
 }  // namespace
@@ -84,7 +84,9 @@ void add_info_command(CLI::App& app) {
       add_choice(command, "--keys", *keys, "print only the list of all keys of a scene, in this format",
                  {{"markdown", Keys::markdown}, {"json", Keys::json}});
   const auto json = std::make_shared<bool>(false);
-  command.add_flag("--json", *json, "print one JSON object per line, for other programs")->excludes(of_keys);
+  command.add_flag("--json", *json, "print one JSON object per line, for other programs")
+      ->disable_flag_override()
+      ->excludes(of_keys);
   add_examples(command, {"macadam info", "macadam info --json", "macadam info --keys markdown"});
   command.callback([keys, json] {
     if (*json)

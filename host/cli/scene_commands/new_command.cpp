@@ -77,8 +77,11 @@ void write_packing(const NewArguments& arguments) {
   const ForeignPacking packing = read_packing(arguments.packing, *unit);
   const Specimen specimen = specimen_of(packing, arguments.cylinder, arguments.packing);
   const std::filesystem::path csv = std::filesystem::path(arguments.file).replace_extension(".csv");
+  if (csv == std::filesystem::path(arguments.file))
+    throw InputError(arguments.file, 0, "scene", "a scene with the ending .csv",
+                     "another ending, such as .toml, because the specimen gets this name");
   for (const std::filesystem::path& file : {std::filesystem::path(arguments.file), csv})
-    if (std::filesystem::exists(file) || csv == std::filesystem::path(arguments.file))
+    if (std::filesystem::exists(file))
       throw InputError(
           file.string(), 0, "scene", "an existing file",
           "the name of a new file, because macadam new never replaces a file, and writes the specimen beside "

@@ -125,8 +125,10 @@ void add_run_command(CLI::App& app) {
              "number of scenes or seeds that run at the same time; 0: four scenes on each CUDA device, or one on each "
              "CPU core",
              0, 1024);
-  command.add_flag("--json", arguments->json,
-                   "print progress, results and errors as one JSON object per line, for other programs");
+  command
+      .add_flag("--json", arguments->json,
+                "print progress, results and errors as one JSON object per line, for other programs")
+      ->disable_flag_override();
   add_number(
       command, "--seeds", arguments->seeds,
       "run the scene with this number of seeds, from its seed on, and write the mean and standard deviation of each "

@@ -14,15 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void print_event(const Json& event) { print_json_line(event.dump(-1, ' ', false, Json::error_handler_t::replace)); }
-
 }  // namespace
 
 void print_start_event(const std::vector<std::pair<std::string, std::filesystem::path>>& scenes) {
   if (!json_lines_are_on()) return;
   Json event{{"event", "start"}, {"macadam", version()}, {"scenes", Json::array()}};
   for (const auto& [scene, out] : scenes) event["scenes"].push_back({{"scene", scene}, {"out", out.string()}});
-  print_event(event);
+  print_json_line(event);
 }
 
 void print_prepared_event(const std::string& scene, const Preparation& prepared) {
@@ -30,16 +28,16 @@ void print_prepared_event(const std::string& scene, const Preparation& prepared)
   Json contacts = Json::object();
   for (int pair = 0; pair < pair_types; ++pair)
     contacts[to_string(static_cast<PairType>(pair))] = prepared.network.count[static_cast<std::size_t>(pair)];
-  print_event({{"event", "prepared"},
-               {"scene", scene},
-               {"particles", prepared.specimen.size()},
-               {"voids", prepared.specimen.voids.size()},
-               {"contacts", contacts},
-               {"contact_points", prepared.network.point_area.size()},
-               {"loose_particles", prepared.loose_particles},
-               {"specimen_s", prepared.seconds_specimen},
-               {"tessellation_s", prepared.seconds_tessellation},
-               {"network_s", prepared.seconds_network}});
+  print_json_line({{"event", "prepared"},
+                   {"scene", scene},
+                   {"particles", prepared.specimen.size()},
+                   {"voids", prepared.specimen.voids.size()},
+                   {"contacts", contacts},
+                   {"contact_points", prepared.network.point_area.size()},
+                   {"loose_particles", prepared.loose_particles},
+                   {"specimen_s", prepared.seconds_specimen},
+                   {"tessellation_s", prepared.seconds_tessellation},
+                   {"network_s", prepared.seconds_network}});
 }
 
 void print_planned_event(const std::string& scene, const RunResult& planned) {
@@ -47,25 +45,25 @@ void print_planned_event(const std::string& scene, const RunResult& planned) {
   Json skips = Json::array();
   for (const Skip& skip : planned.skips)
     skips.push_back({{"what", skip.what}, {"why", skip.why}, {"effect", skip.effect}});
-  print_event({{"event", "planned"},
-               {"scene", scene},
-               {"backend", to_string(planned.backend)},
-               {"decisions", planned.decisions},
-               {"skips", skips}});
+  print_json_line({{"event", "planned"},
+                   {"scene", scene},
+                   {"backend", to_string(planned.backend)},
+                   {"decisions", planned.decisions},
+                   {"skips", skips}});
 }
 
 void print_result_event(const std::string& scene, const std::filesystem::path& out,
                         const std::vector<std::string>& files, const RunResult& result) {
   if (!json_lines_are_on()) return;
   const Json summary = Json::parse(read_whole(out / "summary.json"));
-  print_event({{"event", "result"},
-               {"scene", scene},
-               {"out", out.string()},
-               {"files", files},
-               {"warnings", result.warnings},
-               {"results", summary.at("results")},
-               {"solver", summary.at("solver")},
-               {"timing_s", summary.at("timing_s")}});
+  print_json_line({{"event", "result"},
+                   {"scene", scene},
+                   {"out", out.string()},
+                   {"files", files},
+                   {"warnings", result.warnings},
+                   {"results", summary.at("results")},
+                   {"solver", summary.at("solver")},
+                   {"timing_s", summary.at("timing_s")}});
 }
 
 std::vector<std::string> files_left(const Scene& scene, const std::filesystem::path& out) {

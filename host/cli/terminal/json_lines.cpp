@@ -26,11 +26,6 @@ struct LastProgress {
 };
 std::map<std::string, LastProgress> last_progress;
 
-void print(const Json& event) {
-  // replaces invalid bytes, because a path need not be UTF-8
-  print_json_line(event.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
 Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
 /// Returns the event about an error. The parts of a message are null if the error does not have them.
@@ -68,9 +63,10 @@ void begin_json_lines(bool stream) {
 
 bool json_lines_are_on() { return on; }
 
-void print_json_line(const std::string& event) {
+void print_json_line(const Json& event) {
   if (!on) return;
-  std::fwrite(event.data(), 1, event.size(), stdout);
+  const std::string text = event.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::fwrite(text.data(), 1, text.size(), stdout);
   std::fputc('\n', stdout);
   std::fflush(stdout);  // if this fails, the end of the program reports it
 }
@@ -81,11 +77,11 @@ void print_json_progress(const std::string& scene, const std::string& stage, dou
   const auto [last, is_first] = last_progress.try_emplace(scene);
   if (!is_first && last->second.stage == stage && now - last->second.time < std::chrono::seconds(1)) return;
   last->second = {stage, now};
-  print({{"event", "progress"}, {"scene", scene}, {"stage", stage}, {"fraction", fraction}});
+  print_json_line({{"event", "progress"}, {"scene", scene}, {"stage", stage}, {"fraction", fraction}});
 }
 
 void print_json_warning(const std::string& scene, const std::string& message) {
-  if (on) print({{"event", "warning"}, {"scene", scene}, {"message", message}});
+  if (on) print_json_line({{"event", "warning"}, {"scene", scene}, {"message", message}});
 }
 
 void print_json_error(const std::exception& error, const std::optional<std::string>& scene) {
@@ -96,11 +92,11 @@ void print_json_error(const std::exception& error, const std::optional<std::stri
   const InputCulprit* culprit = input ? input->culprit() : nullptr;
   Json event = error_event(kind_of(error), memory ? "out of memory" : error.what(), culprit ? *culprit : nothing);
   if (scene) event["scene"] = *scene;
-  print(event);
+  print_json_line(event);
 }
 
 void print_json_usage_error(const std::string& message) {
-  if (on) print(error_event("usage", message, {}));
+  if (on) print_json_line(error_event("usage", message, {}));
 }
 
 void print_json_out_of_memory() {
@@ -116,7 +112,7 @@ void print_json_out_of_memory() {
 }
 
 void print_json_end(int code) {
-  if (on && streaming) print({{"event", "end"}, {"code", code}});
+  if (on && streaming) print_json_line({{"event", "end"}, {"code", code}});
 }
 
 }  // namespace macadam

@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <optional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace macadam {
@@ -20,9 +21,9 @@ void begin_json_lines(bool stream);
 /// Returns whether JSON lines are on.
 bool json_lines_are_on();
 
-/// Writes one event, the text of a JSON object, as a line, and flushes standard output. Does nothing if JSON lines are
-/// off. Must not be called by two threads at the same time.
-void print_json_line(const std::string& event);
+/// Writes one event, a JSON object, as a line, and flushes standard output. Bytes that are not UTF-8, which a path may
+/// have, are replaced. Does nothing if JSON lines are off. Must not be called by two threads at the same time.
+void print_json_line(const nlohmann::ordered_json& event);
 
 /// Writes the event `progress` of a scene. Leaves out events that follow the last one of the same scene and stage
 /// within a second. `fraction`: part of the stage that is done, 0…1. Does nothing if JSON lines are off.

@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-bool to_standard_error = false;  ///< whether say() writes to standard error
+bool to_standard_error = false, silent = false;  ///< whether say() writes to standard error
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void hold_standard_streams() {
 }
 
 void say_text(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), to_standard_error ? stderr : stdout);
+  if (!silent) std::fwrite(text.data(), 1, text.size(), to_standard_error ? stderr : stdout);
 }
 
 void say_to_standard_error() { to_standard_error = true; }
@@ -40,6 +40,7 @@ bool say_error_text(std::string_view text) {
 }
 
 void silence_output() {
+  silent = true;
   if (!std::freopen("/dev/null", "w", stdout)) std::clearerr(stdout);
 }
 

@@ -143,20 +143,22 @@ def _moments(values: list[float]) -> dict[str, Any]:
 
 
 def lines(summary: dict[str, Any]) -> list[str]:
-    """Returns the results over the seeds as lines of a table. A long table is shown without its first rows."""
-    rows = []
+    """Returns the results over the seeds as lines of a table: those of the whole test, and then those at times or
+    frequencies. Of a long table the first rows of the second kind are left out."""
+    whole, rows = [], []
     for entry in summary["results"]:
+        to = rows if any(name in entry for name in AT) else whole
         at = ", ".join(f"{name} {entry[name]:.6g}" for name in AT if name in entry)
         for name in QUANTITIES:
             if name not in entry:
                 continue
             mean, deviation, count = (entry[name][key] for key in ("mean", "standard_deviation", "count"))
             relative = f"{100 * abs(deviation / mean):.2g} %" if deviation is not None and mean else ""
-            rows.append(
+            to.append(
                 [at, name, f"{mean:.6g}", f"{deviation:.3g}" if deviation is not None else "", relative, str(count)]
             )
     left_out = max(0, len(rows) - _ROWS)
-    table = [["at", "result", "mean", "standard deviation", "of the mean", "count"], *rows[left_out:]]
+    table = [["at", "result", "mean", "standard deviation", "of the mean", "count"], *whole, *rows[left_out:]]
     widths = [max(len(row[k]) for row in table) for k in range(6)]
     out = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in table]
     return out + ([f"{left_out} more rows are in summary.json"] if left_out else [])
