@@ -118,9 +118,9 @@ TEST_F(JsonLines, ErrorsNameFileLineAndKey) {
   EXPECT_EQ(usage["kind"], "usage");
   EXPECT_TRUE(usage["file"].is_null() && usage["line"].is_null() && usage["key"].is_null()) << usage;
   EXPECT_TRUE(contains(usage["message"], "found \"--fast\"")) << usage;
-  // the option has no value; otherwise the output would be text although a program asked for JSON
-  const auto with_value = macadam("check --json=true " + path("scene.toml"));
-  EXPECT_EQ(with_value.code, 2);
+  // "--json=true" is the same as "--json", and no other value is taken
+  EXPECT_EQ(all_of(events_of(macadam("check --json=true " + path("missing.toml"))), "error").size(), 1u);
+  EXPECT_EQ(macadam("check --json=false " + path("scene.toml")).code, 2);
 }
 
 TEST_F(JsonLines, OfSeveralScenesEachHasItsResultOrItsError) {

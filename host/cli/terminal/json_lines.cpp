@@ -52,7 +52,7 @@ bool wants_json_lines(int argc, const char* const* argv) {
   const std::string_view command = argv[1];
   if (command != "run" && command != "check" && command != "info") return false;
   for (int k = 2; k < argc && std::string_view(argv[k]) != "--"; ++k)
-    if (std::string_view(argv[k]) == "--json") return true;
+    if (const std::string_view word = argv[k]; word == "--json" || word == "--json=true") return true;
   return false;
 }
 
