@@ -62,7 +62,7 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
         "insertion: whether aggregates that find no space are left out"},
        {"test", Need::optional,
         into<PlacementTest>(out.test, {{"surfaces", PlacementTest::surfaces}, {"spheres", PlacementTest::spheres}}),
-        "insertion: objects that must not touch: surfaces of the shapes, or the spheres that fill them"},
+        "insertion: what is tested for overlap, the surfaces of the shapes or the spheres that fill them"},
        {"hold_out", Need::optional, into(out.hold_out, ratio, hold_out),
         "stiffness of the surfaces against mastic during relaxation, divided by the stiffness of a mastic pair"},
        {"gap", Need::optional, into(out.gap, ratio, gap),

@@ -220,7 +220,7 @@ def test_the_methods_show_the_values_of_set(tmp_path: Path, no_pictures) -> None
     assert "scene_as_run.toml is not there" in page
     (folder / "scene_as_run.toml").write_text('# delta\n[[contacts]]\npair = "M-A"\nlaw = "elastic"\ndelta = 2\n')
     page = report(folder, tmp_path / "r.html").read_text(encoding="utf-8")
-    assert "with the values that --set gave, scene_as_run.toml" in page and "delta = 2" in page
+    assert "scene_as_run.toml: the scene file" in page and "delta = 2" in page
 
 
 def test_folders_of_one_name_are_told_apart(tmp_path: Path, no_pictures) -> None:

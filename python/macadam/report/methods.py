@@ -128,7 +128,7 @@ def scene_of(f: Folder) -> tuple[str | None, str]:
             return None, f"{changed} is not there, or is not a scene"
         return None, f"{name} is not there, or is not a scene; run the report in the folder in which the run was started"
     if changed:
-        return text, f"The scene file {name} with the values that --set gave, {changed.name}, without other options of the command"
+        return text, f"{changed.name}: the scene file {name} with the values from --set. Other options of the command are not shown"
     return text, f"The scene file {name}, as it was when this report was written, without options of the command"
 
 
