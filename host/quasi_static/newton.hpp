@@ -2,61 +2,39 @@
 /// \file newton.hpp  Finds the equilibrium at the end of an increment by Newton's method.
 #pragma once
 
-#include <memory>
-
-#include "host/quasi_static/tangent_solver.hpp"
+#include "host/quasi_static/engine.hpp"
 
 namespace macadam::quasi_static {
 
-/// The motion of particles and walls in an increment, and the loads at its end.
+/// The motion of the walls in an increment, and the sums at its end. The engine has the motion of the particles.
 struct Trial {
-  Vector motion;                             ///< [6·particles]
-  std::array<Vec3d, wall_count> wall{};      ///< displacement in the increment [m]
-  std::vector<Six> relative;                 ///< relative displacements of the contacts
-  std::array<Vec3d, wall_count> reaction{};  ///< external forces that hold the walls [N]
-  Vector residual;                           ///< loads that are out of balance [6·particles]
-  double size = 0;                           ///< of the residual, see Newton::size_of
-  double scale = 0;                          ///< of all loads of contacts
+  Walls wall{};  ///< displacement in the increment [m]
+  TrialSums sums;
 };
 
 class Newton {
  public:
-  Newton(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
-         const QuasiStaticOptions& options);
+  Newton(std::unique_ptr<Engine> engine, const QuasiStaticOptions& options)
+      : options_(options), engine_(std::move(engine)) {}
 
-  /// Finds the equilibrium from the guess in `trial` (motion and wall). `scale`: the largest Trial::scale so far.
-  IncrementReport solve(const WallIncrement& increment, double scale, Trial& trial);
+  /// Finds the equilibrium, from the motion of the last increment times `factor`, and from the motion of the walls in
+  /// `trial`. `scale`: the largest TrialSums::scale so far.
+  IncrementReport solve(const WallIncrement& increment, double factor, double scale, Trial& trial);
 
-  ContactIncrements& contacts() { return contacts_; }
-  const ContactIncrements& contacts() const { return contacts_; }
-  const char* solver_name() const { return solver_->name(); }
-  std::int64_t bytes() const { return contacts_.bytes() + matrix_.bytes(); }
+  Engine& engine() { return *engine_; }
+  const Engine& engine() const { return *engine_; }
 
  private:
-  void evaluate(Trial& trial);
-  void assemble(bool symmetric, IncrementReport& report);
-  void find_wall_stiffness();
   /// Prepares the solver with the present tangent and solves for the correction and, if the motion of the top wall is
   /// unknown, for the motion that a unit displacement of the wall causes.
-  bool correct(const Trial& trial, double tolerance, bool wall_unknown, IncrementReport& report, Vector& correction,
-               Vector& by_wall);
+  bool correct(double tolerance, bool wall_unknown, IncrementReport& report);
   /// Returns the amount by which the condition for the wall is missed, divided by its scale.
-  double missed(const WallIncrement& increment, const Trial& trial) const;
+  double missed(const WallIncrement& increment, const TrialSums& sums) const;
   /// Returns the correction of the wall's displacement that fulfils the condition.
-  double wall_correction(const WallIncrement& increment, const Trial& trial, const Vector& correction,
-                         const Vector& by_wall) const;
-  /// Returns the change of ContactIncrements::opening() under a motion of the particles.
-  double opening_change(const Vector& motion) const;
-  double size_of(const Vector& loads) const;
+  double wall_correction(const WallIncrement& increment, const TrialSums& sums);
 
-  const ContactNetwork& network_;
   QuasiStaticOptions options_;
-  std::size_t particles_;
-  ContactIncrements contacts_;
-  TangentMatrix matrix_;
-  std::unique_ptr<TangentSolver> solver_;
-  Vector intact_;              ///< diagonal of the intact, instantaneous stiffness
-  double wall_stiffness_ = 0;  ///< derivative of the top wall's reaction with respect to its displacement
+  std::unique_ptr<Engine> engine_;
 };
 
 }  // namespace macadam::quasi_static

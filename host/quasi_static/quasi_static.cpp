@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "host/quasi_static/newton.hpp"
-#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -23,6 +22,15 @@ double sum_of(const QuasiStaticEnergies& e) {
 
 constexpr std::size_t top_wall = wall_index(wall_z_hi);
 
+std::unique_ptr<quasi_static::Engine> make_engine(const Specimen& specimen, const ContactNetwork& network,
+                                                  const LawTable& laws, const QuasiStaticOptions& options) {
+  if (options.backend == Backend::reference)
+    throw InputError("quasi-static: found backend reference, expected cpu, cuda or auto");
+  const bool on_device = select_backend(options.backend, nullptr, options.devices) == Backend::cuda;
+  return (on_device ? quasi_static::make_device_engine : quasi_static::make_cpu_engine)(specimen, network, laws,
+                                                                                        options);
+}
+
 }  // namespace
 
 double QuasiStaticEnergies::imbalance() const {
@@ -38,28 +46,28 @@ double QuasiStaticEnergies::increment_error() const {
 struct QuasiStatic::Parts {
   Parts(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
         const QuasiStaticOptions& options)
-      : network(network), particles(specimen.size()), newton(specimen, network, laws, options) {
-    displacement.assign(6 * particles, 0.0);
-    last.motion = displacement;
-  }
+      : network(network),
+        particles(specimen.size()),
+        newton(make_engine(specimen, network, laws, options), options) {}
 
   const ContactNetwork& network;
   std::size_t particles;
   Newton newton;
-  // The accepted state
+  // The accepted state; the engine has the states of particles and contacts
   double time = 0, last_dt = 0, scale = 0;
-  std::vector<double> displacement;  ///< [6·particles]
-  std::array<Vec3d, wall_count> wall{}, reaction{};
-  Trial last;  ///< motion of the last increment
+  quasi_static::Walls wall{}, reaction{};
+  quasi_static::Walls last_wall{};  ///< displacement in the last increment
   QuasiStaticEnergies energies;
   double last_opening = 0;
   // The solution, until it is accepted
   Trial trial;
   WallIncrement increment;
   bool solved = false;
-  std::array<Vec3d, wall_count> shown_force{}, shown_wall{};
+  quasi_static::Walls shown_force{}, shown_wall{};
 
-  void show(const std::array<Vec3d, wall_count>& at, const std::array<Vec3d, wall_count>& held) {
+  quasi_static::Engine& engine() { return newton.engine(); }
+
+  void show(const quasi_static::Walls& at, const quasi_static::Walls& held) {
     shown_wall = at;
     for (std::size_t w = 0; w < wall_count; ++w) shown_force[w] = -held[w];
   }
@@ -67,7 +75,7 @@ struct QuasiStatic::Parts {
   /// Returns the factor by which the motion of the last increment is multiplied to guess the next one.
   double growth(const WallIncrement& next) const {
     if (last_dt == 0) return 0;
-    const double by_time = next.dt / last_dt, before = last.wall[top_wall].z, now = next.wall[top_wall].z;
+    const double by_time = next.dt / last_dt, before = last_wall[top_wall].z, now = next.wall[top_wall].z;
     if (next.opening) return last_opening > 0 ? std::clamp(*next.opening / last_opening, 0.0, 2.0) : 0;
     if (next.load) return by_time;
     if (before == 0 && now == 0) return by_time;
@@ -77,16 +85,14 @@ struct QuasiStatic::Parts {
   IncrementReport solve(const WallIncrement& next) {
     increment = next;
     const double factor = growth(next);
-    trial.motion.resize(last.motion.size());
-    for (std::size_t i = 0; i < trial.motion.size(); ++i) trial.motion[i] = factor * last.motion[i];
     trial.wall = next.wall;
-    if (next.load || next.opening) trial.wall[top_wall].z = factor * last.wall[top_wall].z;
-    const IncrementReport out = newton.solve(next, scale, trial);
+    if (next.load || next.opening) trial.wall[top_wall].z = factor * last_wall[top_wall].z;
+    const IncrementReport out = newton.solve(next, factor, scale, trial);
     solved = out.converged;
     if (solved) {
       auto at = wall;
       for (std::size_t w = 0; w < wall_count; ++w) at[w] += trial.wall[w];
-      show(at, trial.reaction);
+      show(at, trial.sums.reaction);
     } else {
       show(wall, reaction);
     }
@@ -95,24 +101,22 @@ struct QuasiStatic::Parts {
 
   void accept() {
     if (!solved) throw RunError("quasi-static: accept() needs an increment that has converged");
-    const quasi_static::ContactEnergies sums = newton.contacts().accept(trial.relative);
+    const quasi_static::ContactEnergies sums = engine().accept();
     for (std::size_t w = 0; w < wall_count; ++w) {
-      energies.work_j += 0.5 * dot(reaction[w] + trial.reaction[w], trial.wall[w]);
+      energies.work_j += 0.5 * dot(reaction[w] + trial.sums.reaction[w], trial.wall[w]);
       wall[w] += trial.wall[w];
     }
-    reaction = trial.reaction;
+    reaction = trial.sums.reaction;
     energies.elastic_j = sums.elastic;
     energies.viscous_j += sums.viscous;
     energies.crack_j = sums.crack;
     energies.friction_j = sums.friction;
     energies.crack_work_j += sums.crack_work;
     last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
-    for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] += trial.motion[i];
-    last.motion = trial.motion;
-    last.wall = trial.wall;
+    last_wall = trial.wall;
     last_dt = increment.dt;
     time += increment.dt;
-    scale = std::max(scale, trial.scale);
+    scale = std::max(scale, trial.sums.scale);
     solved = false;
   }
 };
@@ -131,20 +135,20 @@ void QuasiStatic::reject() {
 }
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_force() const { return parts_->shown_force; }
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_displacement() const { return parts_->shown_wall; }
-double QuasiStatic::growing_area() const { return parts_->newton.contacts().growing_part(); }
+double QuasiStatic::growing_area() const { return parts_->engine().growing_part(); }
 double QuasiStatic::last_opening() const { return parts_->last_opening; }
 double QuasiStatic::time() const { return parts_->time; }
 const QuasiStaticEnergies& QuasiStatic::energies() const { return parts_->energies; }
-std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->newton.contacts().point_cracks(); }
-std::vector<Break> QuasiStatic::point_breaks() const { return parts_->newton.contacts().point_breaks(); }
-std::int64_t QuasiStatic::bytes() const { return parts_->newton.bytes(); }
+std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->engine().point_cracks(); }
+std::vector<Break> QuasiStatic::point_breaks() const { return parts_->engine().point_breaks(); }
+std::int64_t QuasiStatic::bytes() const { return parts_->engine().bytes(); }
 std::string QuasiStatic::description() const {
-  return std::string("quasi-static, cpu, double, ") + parts_->newton.solver_name();
+  return "quasi-static, " + parts_->engine().description();
 }
 
 ParticleState QuasiStatic::particles() const {
   ParticleState out;
-  const std::vector<double>& u = parts_->displacement;
+  const std::vector<double> u = parts_->engine().displacement();
   for (std::size_t i = 0; i < parts_->particles; ++i) {
     out.displacement.push_back({u[6 * i], u[6 * i + 1], u[6 * i + 2]});
     out.rotation.push_back({u[6 * i + 3], u[6 * i + 4], u[6 * i + 5]});
@@ -156,9 +160,9 @@ ParticleState QuasiStatic::particles() const {
 
 ContactState QuasiStatic::contacts() const {
   ContactState out;
-  const auto& contacts = parts_->newton.contacts();
+  const auto& contacts = parts_->engine().contacts();
   const auto& network = parts_->network;
-  const std::vector<double>& u = parts_->displacement;
+  const std::vector<double> u = parts_->engine().displacement();
   out.point_breaks = contacts.point_breaks();
   out.point_cracks = contacts.point_cracks();
   for (std::size_t number = 0; number < network.contacts.size(); ++number) {
@@ -190,17 +194,17 @@ ContactState QuasiStatic::contacts() const {
 std::vector<StateArray> QuasiStatic::state() const {
   const Parts& p = *parts_;
   std::vector<double> numbers{p.time, p.last_dt, p.scale, p.last_opening};
-  for (const auto* walls : {&p.wall, &p.reaction, &p.last.wall}) {
+  for (const auto* walls : {&p.wall, &p.reaction, &p.last_wall}) {
     for (const Vec3d& x : *walls) numbers.insert(numbers.end(), {x.x, x.y, x.z});
   }
   const QuasiStaticEnergies& e = p.energies;
   numbers.insert(numbers.end(), {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j});
-  const std::vector<char>& grew = p.newton.contacts().grew();
+  quasi_static::EngineState own = p.newton.engine().state();
   return {{"quasi_static", "s, s, 1, m, m, N, m, J", std::move(numbers)},
-          {"displacement", "m, 1", p.displacement},
-          {"motion", "m, 1", p.last.motion},
-          {"contacts", "Pa m, m", p.newton.contacts().states()},
-          {"growing", "1", std::vector<std::int64_t>(grew.begin(), grew.end())}};
+          {"displacement", "m, 1", std::move(own.displacement)},
+          {"motion", "m, 1", std::move(own.motion)},
+          {"contacts", "Pa m, m", std::move(own.states)},
+          {"growing", "1", std::vector<std::int64_t>(own.grew.begin(), own.grew.end())}};
 }
 
 void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
@@ -222,16 +226,14 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   const std::vector<double> numbers = doubles(0);
   p.time = numbers[0], p.last_dt = numbers[1], p.scale = numbers[2], p.last_opening = numbers[3];
   std::size_t at = 4;
-  for (auto* walls : {&p.wall, &p.reaction, &p.last.wall}) {
+  for (auto* walls : {&p.wall, &p.reaction, &p.last_wall}) {
     for (Vec3d& x : *walls) x = {numbers[at], numbers[at + 1], numbers[at + 2]}, at += 3;
   }
   QuasiStaticEnergies& e = p.energies;
   e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
   e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5];
-  p.displacement = doubles(1);
-  p.last.motion = doubles(2);
   const auto& grew = std::get<std::vector<std::int64_t>>(found[4]->values);
-  p.newton.contacts().set_states(doubles(3), {grew.begin(), grew.end()});
+  p.engine().set_state({doubles(1), doubles(2), doubles(3), {grew.begin(), grew.end()}});
   p.solved = false;
   p.show(p.wall, p.reaction);
 }

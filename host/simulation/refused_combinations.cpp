@@ -59,8 +59,9 @@ void require_combination(const Scene& scene) {
     };
     if (stepping_of(scene.experiment) != experiments::Stepping::if_asked)
       refuse("kind", kind_of(scene.experiment), "\"monotonic\", \"relaxation\", \"creep\" or \"history\"");
-    if (scene.solver.backend == Backend::cuda || scene.solver.backend == Backend::reference)
-      refuse("backend", to_string(scene.solver.backend), "cpu");
+    if (scene.solver.backend == Backend::reference) refuse("backend", "reference", "auto, cpu or cuda");
+    if (scene.solver.devices.size() > 1)
+      refuse("device", to_string(scene.solver.devices), "one device, because several cannot share such a test");
     if (scene.solver.precision.value_or(Precision::double_) != Precision::double_)
       refuse("precision", to_string(*scene.solver.precision), "double");
     if (scene.solver.inertia)

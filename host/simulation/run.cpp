@@ -97,8 +97,8 @@ class FoundBackend {
  public:
   /// Begins to look for the backend, and waits for the result for at most `wait`. \throws as select_backend(), if the
   /// search fails within that time. That a device exists but cannot be used may become known only later.
-  FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(requested_backend(solver)) {
-    const auto select = [solver] { return select_backend(requested_backend(solver), nullptr, solver.devices); };
+  FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(solver.backend) {
+    const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
     if (asked_ == Backend::cuda || asked_ == Backend::automatic) {
       waking_ = std::async(select);  // runs in this thread if no other thread can be started
       waking_.wait_for(wait);
@@ -220,7 +220,7 @@ class SceneRun {
     std::string decision;
     if (parts_.place) {
       parts_.place(scene_.solver);
-    } else if (is_stepped() && scene_.solver.devices.empty()) {
+    } else if (scene_.solver.method == SolverMethod::explicit_ && scene_.solver.devices.empty()) {
       scene_.solver.devices = choose_devices(prepared().network.contacts.size(), decision);
     }
     return decision.empty() ? std::vector<std::string>{} : std::vector{decision};

@@ -59,7 +59,7 @@ void require_folders_differ(const std::vector<SceneJob>& jobs) {
 /// second, only if a scene may use one.
 DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   const auto may = [](const SceneJob& job) {
-    const Backend backend = requested_backend(job.scene.solver);
+    const Backend backend = job.scene.solver.backend;
     return backend == Backend::cuda || backend == Backend::automatic;
   };
   if (std::ranges::none_of(jobs, may)) return {};

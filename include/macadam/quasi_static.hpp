@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "macadam/backend.hpp"
 #include "macadam/experiments/energies.hpp"
 #include "macadam/stepper.hpp"
 
@@ -23,6 +24,10 @@ struct QuasiStaticOptions {
   int passes = 25;
   /// Systems with at most this number of unknowns are solved by factors of their matrix, larger ones by iterations.
   std::size_t direct_below = 6000;
+  /// The processor that computes: the CPU, or one CUDA device.
+  Backend backend = Backend::cpu;
+  /// The CUDA device; empty: the first one.
+  DeviceList devices = {};
 };
 
 /// The motion of the walls in an increment. The displacement of the top wall along z is `wall` unless `load` or
@@ -64,7 +69,8 @@ struct QuasiStaticEnergies : experiments::Energies {
 class QuasiStatic {
  public:
   /// Starts from the undeformed state. Specimen and network must outlive this object. \throws InputError for a law that
-  /// is neither linear nor a linear law with a crack (brittle_bond), naming the pair and the law.
+  /// is neither linear nor a linear law with a crack (brittle_bond), naming the pair and the law, for the backend
+  /// reference, and for several devices; RunError for a device that cannot run, or has too little memory.
   QuasiStatic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
               const QuasiStaticOptions& options = {});
   ~QuasiStatic();

@@ -89,7 +89,7 @@ class SteppedLoad : public PlannedExperiment {
     drive_ = options.boundary.wall[wall_index(wall_z_hi)].axis[2].drive;
     const std::vector<StateArray> state = std::exchange(at_.state, {});
     try {
-      if (is_quasi_static()) return make_quasi_static(options.boundary, state);
+      if (is_quasi_static()) return make_quasi_static(options.boundary, state, result.backend);
       stepper_ = stepper_from(state, result.backend, scene_, prepared_, inertia_, options);
     } catch (const Error& error) {
       if (!state.empty())
@@ -213,9 +213,12 @@ class SteppedLoad : public PlannedExperiment {
     ledger_.start(stepper_->particles());
   }
   bool is_quasi_static() const { return scene_.solver.method == SolverMethod::quasi_static; }
-  void make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state) {
+  void make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state, Backend backend) {
+    quasi_static::CourseOptions options = course_options(test_, at_.plan, scene_, prepared_);
+    options.solver.backend = backend;
+    if (backend == Backend::cuda) options.solver.devices = scene_.solver.devices;
     auto made = std::make_unique<QuasiStaticStepper>(prepared_.specimen, prepared_.network, scene_.laws, boundary,
-                                                     course_options(test_, at_.plan, scene_, prepared_));
+                                                     std::move(options));
     if (!state.empty()) made->set_state(state);
     quasi_static_ = made.get();
     if (measures_peak()) made->after_each([this](const Observation& now) { follow_peak(now); });
@@ -267,7 +270,13 @@ class SteppedLoad : public PlannedExperiment {
   /// still bear load, so the test goes on.
   std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
     if (!cracks_.active()) return {};
-    ContactState state = read_contact_state(scene_, *stepper_, prepared_.network);
+    ContactState state;
+    if (quasi_static_) {  // its energies need no states of contacts
+      state.point_breaks = stepper_->point_breaks(prepared_.network);
+      state.point_cracks = stepper_->point_cracks(prepared_.network);
+    } else {
+      state = read_contact_state(scene_, *stepper_, prepared_.network);
+    }
     auto events = cracks_.look(state, point.time_s);
     at_.cracks = cracks_.found().events;
     point.broken_points = cracks_.found().points();
