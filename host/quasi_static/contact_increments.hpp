@@ -69,8 +69,6 @@ class ContactIncrements {
   const std::vector<std::size_t>& state_begin() const { return begin_; }
   const std::vector<char>& grew() const { return grew_; }
   void set_states(std::vector<double> states, std::vector<char> grew);
-  /// Replaces the results of the last evaluation by those of another processor.
-  void set_stiffness(std::vector<SixBySix> stiffness) { stiffness_ = std::move(stiffness); }
   std::int64_t bytes() const;
 
  private:

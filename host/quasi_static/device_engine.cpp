@@ -147,6 +147,18 @@ class DeviceEngine : public Engine {
     device_->read_cracks(&out, nullptr);
     return out;
   }
+  std::optional<experiments::CrackSurvey> survey_cracks() override {
+    kernels::CrackTotals found = device_->crack_totals();
+    experiments::CrackSurvey out;
+    out.cracked = found.cracked;
+    for (const std::int64_t number : found.cracked) out.sums.cracked += number;
+    out.sums.crack_energy_j = found.energy, out.sums.friction_energy_j = found.friction;
+    out.sums.cracked_area_m2 = found.area;
+    std::ranges::sort(found.broken, {}, &kernels::BrokenPoint::point);
+    for (const kernels::BrokenPoint& p : found.broken)
+      out.broken.push_back({contact_of_point(p.point), p.point, p.how, 0, p.opening, p.slip});
+    return out;
+  }
   std::vector<Break> point_breaks() const override {
     std::vector<Break> out(has_cracks_ ? system_.network_points : 0, Break::none);
     device_->read_cracks(nullptr, &out);
@@ -158,6 +170,11 @@ class DeviceEngine : public Engine {
   std::int64_t bytes() const override { return device_->bytes(); }
 
  private:
+  /// Returns the contact to which a point of the network belongs.
+  std::uint32_t contact_of_point(std::uint32_t point) const {
+    const auto after = std::ranges::upper_bound(network_.contacts, point, {}, &Contact::point_begin);
+    return static_cast<std::uint32_t>(after - network_.contacts.begin()) - 1;
+  }
   StateOrder order() const { return {network_, system_, state_begin_, increment_}; }
   /// Reorder six numbers per particle.
   /// @{

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "host/quasi_static/tangent_solver.hpp"
+#include "macadam/experiments/cracks.hpp"
 
 namespace macadam::quasi_static {
 
@@ -14,9 +16,9 @@ using Walls = std::array<Vec3d, wall_count>;  ///< by wall_index()
 
 /// Sums at a trial, which is a motion of particles and walls in the increment.
 struct TrialSums {
-  double size = 0;    ///< of the loads that are out of balance: root of Σ load²/intact stiffness
-  double scale = 0;   ///< the same of the loads of all contacts
-  Walls reaction{};   ///< external forces that hold the walls [N]
+  double size = 0;     ///< of the loads that are out of balance: root of Σ load²/intact stiffness
+  double scale = 0;    ///< the same of the loads of all contacts
+  Walls reaction{};    ///< external forces that hold the walls [N]
   double opening = 0;  ///< mean increase of the openings of the points that grew in the last increment, by area [m]
 };
 
@@ -44,8 +46,8 @@ class Engine {
 
   /// Whether the linear solver needs a symmetric matrix at first.
   virtual bool wants_symmetric() const = 0;
-  /// Assembles the tangent, or its symmetric part, at the last evaluation, and prepares its solution. `loose`: number of
-  /// particles without stiffness.
+  /// Assembles the tangent, or its symmetric part, at the last evaluation, and prepares its solution. `loose`: number
+  /// of particles without stiffness.
   virtual LinearReport prepare(bool symmetric, std::int64_t& loose) = 0;
   virtual LinearReport solve(Unknown unknown, double tolerance) = 0;
   /// Adds `factor` times the motion by the wall to the correction.
@@ -74,6 +76,8 @@ class Engine {
   /// Returns the contacts in the accepted state.
   virtual const ContactIncrements& contacts() const = 0;
   virtual std::vector<laws::PointCrack> point_cracks() const { return contacts().point_cracks(); }
+  /// Returns the cracks in short if the states are on a device.
+  virtual std::optional<experiments::CrackSurvey> survey_cracks() { return {}; }
   virtual std::vector<Break> point_breaks() const { return contacts().point_breaks(); }
 
   /// For example "cpu, double, direct solver".

@@ -46,9 +46,7 @@ double QuasiStaticEnergies::increment_error() const {
 struct QuasiStatic::Parts {
   Parts(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
         const QuasiStaticOptions& options)
-      : network(network),
-        particles(specimen.size()),
-        newton(make_engine(specimen, network, laws, options), options) {}
+      : network(network), particles(specimen.size()), newton(make_engine(specimen, network, laws, options), options) {}
 
   const ContactNetwork& network;
   std::size_t particles;
@@ -141,10 +139,9 @@ double QuasiStatic::time() const { return parts_->time; }
 const QuasiStaticEnergies& QuasiStatic::energies() const { return parts_->energies; }
 std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->engine().point_cracks(); }
 std::vector<Break> QuasiStatic::point_breaks() const { return parts_->engine().point_breaks(); }
+std::optional<experiments::CrackSurvey> QuasiStatic::survey_cracks() const { return parts_->engine().survey_cracks(); }
 std::int64_t QuasiStatic::bytes() const { return parts_->engine().bytes(); }
-std::string QuasiStatic::description() const {
-  return "quasi-static, " + parts_->engine().description();
-}
+std::string QuasiStatic::description() const { return "quasi-static, " + parts_->engine().description(); }
 
 ParticleState QuasiStatic::particles() const {
   ParticleState out;

@@ -22,8 +22,8 @@ class TangentMatrix {
   void assemble(const ContactIncrements& contacts, bool symmetric);
   bool is_symmetric() const { return symmetric_; }
   /// Takes blocks that another processor has assembled: the diagonal block of each row and then its other blocks in the
-  /// order of ContactNetwork::row(), each of them [6][6] column by column. first(particle): number of the first block of
-  /// a row. The top column is not known then.
+  /// order of ContactNetwork::row(), each of them [6][6] column by column. first(particle): number of the first block
+  /// of a row. The top column is not known then.
   template <class F>
   void set(const std::vector<double>& numbers, bool symmetric, F&& first) {
     symmetric_ = symmetric;

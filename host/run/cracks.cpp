@@ -95,6 +95,22 @@ std::vector<CrackEvent> CrackWatch::look(const ContactState& state, double time)
   return out;
 }
 
+std::vector<CrackEvent> CrackWatch::look(const experiments::CrackSurvey& survey, double time) {
+  std::vector<CrackEvent> out;
+  for (CrackEvent event : survey.broken) {
+    if (broken_[event.point]) continue;
+    event.time_s = time;
+    out.push_back(event);
+    add(event);
+  }
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    found_.by_pair[pair].cracked = survey.cracked[pair];
+    found_.by_pair[pair].cracked_area_m2 = survey.sums.cracked_area_m2[pair];
+  }
+  found_.sums = survey.sums;
+  return out;
+}
+
 void CrackWatch::sum(const std::vector<laws::PointCrack>& cracks) {
   experiments::CrackSums now;
   for (PairCracks& pair : found_.by_pair) pair.cracked = 0, pair.cracked_area_m2 = 0;

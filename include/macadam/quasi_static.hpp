@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "macadam/backend.hpp"
+#include "macadam/experiments/cracks.hpp"
 #include "macadam/experiments/energies.hpp"
 #include "macadam/stepper.hpp"
 
@@ -104,6 +105,9 @@ class QuasiStatic {
   /// Cracks, and breaks, of all points in the accepted state, network order.
   std::vector<laws::PointCrack> point_cracks() const;
   std::vector<Break> point_breaks() const;
+  /// Returns the cracks of the accepted state in short if a device has the states; point_cracks() would copy all of
+  /// them. Empty on the CPU.
+  std::optional<experiments::CrackSurvey> survey_cracks() const;
 
   /// Everything that accept() changes, as for Stepper::state().
   std::vector<StateArray> state() const;

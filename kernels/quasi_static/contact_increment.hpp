@@ -29,8 +29,15 @@ MACADAM_HD void load_on(const Placement<double>& c, const double* f, int end, do
 MACADAM_HD void motion_column(const Placement<double>& c, int end, int axis, double* u) {
   const double sign = end == 0 ? -1 : 1, arm = end == 0 ? c.arm_a : c.arm_b;
   const int k = axis < 3 ? axis : axis - 3;
-  const double n = k == 0 ? c.n.x : k == 1 ? c.n.y : c.n.z, s = k == 0 ? c.s.x : k == 1 ? c.s.y : c.s.z,
-               t = k == 0 ? c.t.x : k == 1 ? c.t.y : c.t.z;
+  const double n = k == 0   ? c.n.x
+                   : k == 1 ? c.n.y
+                            : c.n.z,
+               s = k == 0   ? c.s.x
+                   : k == 1 ? c.s.y
+                            : c.s.z,
+               t = k == 0   ? c.t.x
+                   : k == 1 ? c.t.y
+                            : c.t.z;
   const bool turns = axis >= 3;
   u[0] = turns ? 0 : sign * n;
   u[1] = turns ? -sign * t : 0;
@@ -38,6 +45,19 @@ MACADAM_HD void motion_column(const Placement<double>& c, int end, int axis, dou
   u[3] = turns ? -arm * t : sign * s;
   u[4] = turns ? arm * s : sign * t;
   u[5] = turns ? sign * n : 0;
+}
+
+/// Computes column `axis` of the block Gᵀ·k·G of two ends: the derivatives of the load on `end` with respect to a
+/// motion of `far_end`. `k`: stiffness of the contact, [6][6].
+MACADAM_HD void tangent_column(const Placement<double>& c, const double* k, int end, int far_end, int axis,
+                               double (&out)[6]) {
+  double column[6], v[6];
+  motion_column(c, far_end, axis, column);
+  for (int r = 0; r < 6; ++r) {
+    v[r] = 0;
+    for (int l = 0; l < 6; ++l) v[r] += k[6 * r + l] * column[l];
+  }
+  load_on(c, v, end, out);
 }
 
 /// Computes the six forces of a condensed contact with the densities f (model (7.1)). `m`: area moments over length.
@@ -110,9 +130,8 @@ struct PointTrial {
     out.shear[0] = p.base[1] + kappa_s * (u[3] - p.t * u[5]);
     out.shear[1] = p.base[2] + kappa_s * (u[4] + p.s * u[5]);
     const double open = (out.normal > 0 ? out.normal : 0) * law.over_strength, over_c0 = law.over_shear_strength;
-    out.intact =
-        !(p.old.largest > 0) &&
-        open * open + (out.shear[0] * out.shear[0] + out.shear[1] * out.shear[1]) * over_c0 * over_c0 <= 1;
+    out.intact = !(p.old.largest > 0) &&
+                 open * open + (out.shear[0] * out.shear[0] + out.shear[1] * out.shear[1]) * over_c0 * over_c0 <= 1;
     return out;
   }
 };

@@ -3,8 +3,8 @@
 /// (GPU), and declares the operations that the device computes.
 ///
 /// Bodies are the particles, ordered so that those of one box follow one another (kernels/layout). A contact end is one
-/// of the two sides of a contact. The tangent has one entry per body and end of a contact between two particles: a block
-/// of 6 × 6 numbers.
+/// of the two sides of a contact. The tangent has one entry per body and end of a contact between two particles: a
+/// block of 6 × 6 numbers.
 #pragma once
 
 #include <array>
@@ -37,25 +37,25 @@ struct BoxPair {
 };
 
 struct IncrementSystem {
-  std::vector<std::int32_t> particle;     ///< body → particle
-  std::vector<std::int32_t> box_body;     ///< box → first body; boxes + 1 entries
-  std::vector<std::int32_t> box_of;       ///< body → box
-  std::vector<Vec3d> lever;               ///< [body] from the centre of its box [m]
-  std::vector<std::uint32_t> contact_of;  ///< contact → contact of the network
+  std::vector<std::int32_t> particle;      ///< body → particle
+  std::vector<std::int32_t> box_body;      ///< box → first body; boxes + 1 entries
+  std::vector<std::int32_t> box_of;        ///< body → box
+  std::vector<Vec3d> lever;                ///< [body] from the centre of its box [m]
+  std::vector<std::uint32_t> contact_of;   ///< contact → contact of the network
   std::vector<IncrementContact> contacts;  ///< contacts without cracks are the first ones
   std::vector<LinearContact> linear;       ///< of the contacts without cracks
   /// Points of contacts with cracks: number in the network, contact, coordinates and areas.
   std::vector<std::uint32_t> point_of, point_contact;
   std::vector<double> point_s, point_t, point_area;
   std::size_t network_points = 0;
-  std::vector<std::uint32_t> end_begin;  ///< body → its first contact end; bodies + 1 entries
-  std::vector<std::uint32_t> ends;       ///< 2·contact + end (0: A, 1: B), in the order of the network's row
-  std::vector<std::int32_t> end_entry;   ///< entry of the tangent of each end; −1 at a wall
+  std::vector<std::uint32_t> end_begin;    ///< body → its first contact end; bodies + 1 entries
+  std::vector<std::uint32_t> ends;         ///< 2·contact + end (0: A, 1: B), in the order of the network's row
+  std::vector<std::int32_t> end_entry;     ///< entry of the tangent of each end; −1 at a wall
   std::vector<std::uint32_t> entry_begin;  ///< body → its first entry, which is the diagonal one; bodies + 1 entries
-  std::vector<std::int32_t> entry_row, entry_column;          ///< bodies
-  std::array<std::uint32_t, wall_count + 1> wall_begin{};     ///< first of the wall's contacts in wall_contact
-  std::vector<std::uint32_t> wall_contact;                    ///< contacts at walls
-  std::vector<BoxPair> pairs;                                 ///< the last one ends the list
+  std::vector<std::int32_t> entry_row, entry_column;       ///< bodies
+  std::array<std::uint32_t, wall_count + 1> wall_begin{};  ///< first of the wall's contacts in wall_contact
+  std::vector<std::uint32_t> wall_contact;                 ///< contacts at walls
+  std::vector<BoxPair> pairs;                              ///< the last one ends the list
   std::vector<std::uint32_t> pair_entry;
   int linear_words = 1, point_words = 3;  ///< largest numbers of states per component
 
@@ -83,6 +83,21 @@ struct IncrementStates {
   std::vector<double> displacement, motion;  ///< [6·bodies]
   std::vector<double> linear, points;        ///< 6 and 3 components
   std::vector<std::uint8_t> grew;            ///< [point]
+};
+
+/// A broken point: its number in the network, how it broke, and opening and slip of its crack [m].
+struct BrokenPoint {
+  std::uint32_t point;
+  Break how;
+  double opening, slip;
+};
+/// Cracks of all points: number and area of the points that have begun to crack, by PairType, energies, and the broken
+/// points in any order.
+struct CrackTotals {
+  std::array<std::int64_t, pair_types> cracked{};
+  std::array<double, pair_types> area{};
+  double energy = 0, friction = 0;
+  std::vector<BrokenPoint> broken;
 };
 
 /// Vectors of the device that the host may read or write.
@@ -124,6 +139,7 @@ class DeviceIncrements {
   virtual void set_states(const IncrementStates& states) = 0;
   /// Fills in cracks and breaks of all points of the network. Points that cannot crack stay as they are.
   virtual void read_cracks(std::vector<laws::PointCrack>* cracks, std::vector<Break>* breaks) const = 0;
+  virtual CrackTotals crack_totals() = 0;
   virtual std::int64_t bytes() const = 0;
 };
 

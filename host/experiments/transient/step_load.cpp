@@ -194,6 +194,9 @@ class SteppedLoad : public PlannedExperiment {
     finish();
     writer.close();
     if (cracks_writer) cracks_writer->close();
+    // a device keeps the states of the points until somebody needs them
+    if (quasi_static_ && cracks_.sums() && end_cracks_.empty() && !found.points.empty())
+      end_cracks_ = stepper_->point_cracks(prepared_.network);
     if (cracks_.sums())
       write_damage(out, prepared_, end_cracks_, found.points.empty() ? 0 : found.points.back().time_s);
     judge(found, result.warnings);
@@ -271,13 +274,14 @@ class SteppedLoad : public PlannedExperiment {
   std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
     if (!cracks_.active()) return {};
     ContactState state;
-    if (quasi_static_) {  // its energies need no states of contacts
+    const auto survey = quasi_static_ && cracks_.sums() ? quasi_static_->survey_cracks() : std::nullopt;
+    if (quasi_static_ && !survey) {  // its energies need no states of contacts
       state.point_breaks = stepper_->point_breaks(prepared_.network);
       state.point_cracks = stepper_->point_cracks(prepared_.network);
-    } else {
+    } else if (!survey) {
       state = read_contact_state(scene_, *stepper_, prepared_.network);
     }
-    auto events = cracks_.look(state, point.time_s);
+    auto events = survey ? cracks_.look(*survey, point.time_s) : cracks_.look(state, point.time_s);
     at_.cracks = cracks_.found().events;
     point.broken_points = cracks_.found().points();
     const Observation now = stepper_->observe();

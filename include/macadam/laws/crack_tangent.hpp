@@ -22,8 +22,8 @@ struct CrackTangent {
   /// Computes an increment. `normal`, `shear`: stresses if the crack did not move [Pa]; `kappa`: change of the normal
   /// stress per opening [Pa/m]; `old`: openings at the beginning.
   template <int passes>
-  MACADAM_HD static CrackTangent of(const CrackSolve<double, passes>& crack, double normal, const double (&shear)[2], double kappa,
-                         const CrackOpenings<double>& old) {
+  MACADAM_HD static CrackTangent of(const CrackSolve<double, passes>& crack, double normal, const double (&shear)[2],
+                                    double kappa, const CrackOpenings<double>& old) {
     CrackTangent out{{}, {}, old, PointBranch::rests};
     const auto stresses = crack(normal, shear, kappa, out.w);
     out.stress[0] = stresses.normal, out.stress[1] = stresses.shear[0], out.stress[2] = stresses.shear[1];

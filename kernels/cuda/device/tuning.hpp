@@ -114,9 +114,6 @@ inline constexpr int iterations_per_batch = 8;
 inline constexpr unsigned increment_threads = 256;
 /// Threads that share the points of one contact; a contact has seven points on average.
 inline constexpr unsigned point_lanes = 8;
-/// Largest number of boxes of the coarse level, and smallest number of particles per box. The coarse matrix has
-/// (6·boxes)² numbers, and its inverse is applied in each iteration.
-inline constexpr std::size_t increment_boxes = 256, particles_per_increment_box = 60;
 /// Thread blocks of the product with the tangent; each has one partial sum.
 inline constexpr unsigned product_blocks = 1056;
 /// Iterations of conjugate gradients that the host enqueues before it looks at the result of the previous batch.

@@ -51,20 +51,6 @@ __global__ void __launch_bounds__(increment_threads)
   out->size = sizes[0], out->scale = sizes[1], out->opening = opening;
 }
 
-/// Computes v = k·column for a column of the motion matrix, and Gᵀ·v for an end: one column of a block.
-__device__ inline void tangent_column(const IncrementContact& c, const double* k, int end, int far_end, int axis,
-                                      double (&out)[6]) {
-  double column[6], v[6];
-  motion_column(c.frame, far_end, axis, column);
-#pragma unroll
-  for (int r = 0; r < 6; ++r) {
-    v[r] = 0;
-#pragma unroll
-    for (int l = 0; l < 6; ++l) v[r] += k[6 * r + l] * column[l];
-  }
-  load_on(c.frame, v, end, out);
-}
-
 /// Assembles the rows of the tangent, and its column for the top wall. Lane `row` of a group computes column `row` of a
 /// block. Counts the bodies with less than `loose` of their intact stiffness.
 __global__ void __launch_bounds__(increment_threads)
@@ -81,10 +67,10 @@ __global__ void __launch_bounds__(increment_threads)
       const IncrementContact& c = d.contact[contact];
       const double* k = &d.stiffness[36 * static_cast<std::size_t>(contact)];
       double column[6];
-      tangent_column(c, k, end, end, axis, column);
+      tangent_column(c.frame, k, end, end, axis, column);
       for (int r = 0; r < 6; ++r) own[r] += column[r];
       if (c.b < 0 && c.b != top_wall) continue;
-      tangent_column(c, k, end, 1 - end, axis, column);
+      tangent_column(c.frame, k, end, 1 - end, axis, column);
       if (c.b >= 0) {
         double* out = &d.blocks[36 * static_cast<std::size_t>(d.end_entry[e]) + 6 * axis];
         for (int r = 0; r < 6; ++r) out[r] = column[r];
@@ -123,7 +109,7 @@ __global__ void __launch_bounds__(increment_threads)
   for (unsigned i = d.wall_begin[wall] + threadIdx.x; i < d.wall_begin[wall + 1]; i += increment_threads) {
     const unsigned contact = d.wall_contact[i];
     double column[6];
-    tangent_column(d.contact[contact], &d.stiffness[36 * static_cast<std::size_t>(contact)], 1, 1, 2, column);
+    tangent_column(d.contact[contact].frame, &d.stiffness[36 * static_cast<std::size_t>(contact)], 1, 1, 2, column);
     sum[0] += column[2];
   }
   sum_block<1>(sum, out);

@@ -2,9 +2,9 @@
 /// \file coarse_kernels.hpp  Defines the kernels that make the coarse level of the preconditioner: RᵀKR for the rigid
 /// motions R of boxes, and its inverse by elimination in tiles of 32 × 32 numbers.
 ///
-/// The elimination replaces the matrix by its inverse. Step k inverts tile (k, k) to W, multiplies the tiles of row k by
-/// W, subtracts (column k)·(new row k) from all other tiles, and multiplies column k by −W. A positive definite matrix
-/// has positive pivots only.
+/// The elimination replaces the matrix by its inverse. Step k inverts tile (k, k) to W, multiplies the tiles of row k
+/// by W, subtracts (column k)·(new row k) from all other tiles, and multiplies column k by −W. A positive definite
+/// matrix has positive pivots only.
 #pragma once
 
 #include "kernels/cuda/quasi_static/gradient_kernels.hpp"

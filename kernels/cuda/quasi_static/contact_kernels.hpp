@@ -180,6 +180,38 @@ __global__ void __launch_bounds__(increment_threads) increment_growing_area(Incr
   sum_block<1>(area, &d.partial[blockIdx.x]);
 }
 
+/// Returns whether and how a point is broken.
+__device__ inline Break break_of(const IncrementLaw& law, const DeviceState& state, double slip) {
+  const auto& crack = law.advance.crack;
+  if (!(state(0, 2) > 0 && state(0, 2) >= crack.curve.end)) return Break::none;
+  return crack.slip_weight * slip > state(0, 1) ? Break::shear : Break::tension;
+}
+
+/// Number of sums over cracks: number and area of cracked points of each pair type, energy, and work of friction.
+inline constexpr int crack_sums = 2 * pair_types + 2;
+/// Sums the cracks of all points, and lists the broken ones; their order differs from run to run.
+__global__ void __launch_bounds__(increment_threads)
+    increment_crack_totals(IncrementView d, BrokenPoint* broken, unsigned* count) {
+  const unsigned j = thread_number();
+  double sums[crack_sums] = {};
+  if (j < d.points) {
+    const int pair = d.contact[d.point_contact[j]].pair;
+    const IncrementLaw& law = d.laws[pair];
+    const DeviceState state{d.point_state + j, d.points, d.point_words};
+    const double slip = hypot(state(1, 1), state(2, 1)), area = d.point_area[j];
+    const CrackNumbers found = crack_numbers(law, state, slip);
+#pragma unroll
+    for (int p = 0; p < pair_types; ++p) {
+      const bool counts = p == pair && found.damage > 0;
+      sums[2 * p] = counts ? 1 : 0, sums[2 * p + 1] = counts ? area : 0;
+    }
+    sums[2 * pair_types] = found.energy * area, sums[2 * pair_types + 1] = double(state(1, 2)) * area;
+    const Break how = break_of(law, state, slip);
+    if (how != Break::none) broken[atomicAdd(count, 1u)] = {d.point_of[j], how, state(0, 1), slip};
+  }
+  sum_block<crack_sums>(sums, &d.partial[static_cast<std::size_t>(blockIdx.x) * crack_sums]);
+}
+
 /// Fills in the cracks and breaks of points, in the order of the network.
 __global__ void __launch_bounds__(increment_threads)
     increment_read_cracks(IncrementView d, laws::PointCrack* cracks, Break* breaks) {
@@ -194,13 +226,7 @@ __global__ void __launch_bounds__(increment_threads)
     out.opening = state(0, 1), out.slip = slip, out.damage = found.damage, out.energy = found.energy;
     out.friction = state(1, 2);
   }
-  if (breaks) {
-    const auto& crack = law.advance.crack;
-    const bool broken = state(0, 2) > 0 && state(0, 2) >= crack.curve.end;
-    breaks[d.point_of[j]] = !broken                                   ? Break::none
-                            : crack.slip_weight * slip > state(0, 1) ? Break::shear
-                                                                      : Break::tension;
-  }
+  if (breaks) breaks[d.point_of[j]] = break_of(law, state, slip);
 }
 
 /// Sums the rows of `partial`, by one block.

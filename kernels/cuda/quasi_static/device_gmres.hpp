@@ -62,8 +62,8 @@ class DeviceGmres {
  private:
   static constexpr int restart = 50;
 
-  /// Extends the basis by Arnoldi's method until the residual is below `goal`. Returns the number of vectors; h_ is then
-  /// triangular, and answer_ its right-hand side.
+  /// Extends the basis by Arnoldi's method until the residual is below `goal`. Returns the number of vectors; h_ is
+  /// then triangular, and answer_ its right-hand side.
   int extend_basis(double size, double goal, int& iterations) {
     const GradientView& g = m_.gradients;
     double cosine[restart], sine[restart];

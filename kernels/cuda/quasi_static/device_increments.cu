@@ -3,7 +3,6 @@
 // copies to the host.
 #include <optional>
 
-#include "kernels/cuda/quasi_static/contact_kernels.hpp"
 #include "kernels/cuda/quasi_static/device_gmres.hpp"
 
 namespace macadam::kernels {
@@ -49,8 +48,7 @@ class Increments : public DeviceIncrements {
     run("contact points", increment_point_forces, point_blocks(), with_openings, wall_, growing_area_);
     run("loads", increment_body_loads, warp_blocks(d.bodies), d, d.partial);
     run("reactions", increment_reactions, wall_count, d, m_.trial_sums);
-    run("sums", increment_finish_sums, 1, d.partial, warp_blocks(d.bodies), m_.openings, point_blocks(),
-        m_.trial_sums);
+    run("sums", increment_finish_sums, 1, d.partial, warp_blocks(d.bodies), m_.openings, point_blocks(), m_.trial_sums);
     trial_sums_.copy(m_.trial_sums, 1, 0);
     return *trial_sums_.wait(0);
   }
@@ -178,7 +176,24 @@ class Increments : public DeviceIncrements {
     if (cracks) copy_now(cracks->data(), of_cracks.data(), of_cracks.bytes(), "cracks");
     if (breaks) copy_now(breaks->data(), of_breaks.data(), of_breaks.bytes(), "cracks");
   }
-  std::int64_t bytes() const override { return m_.bytes(); }
+  CrackTotals crack_totals() override {
+    team_.use(0);
+    CrackTotals out;
+    const unsigned points = m_.view.points;
+    if (points == 0) return out;
+    if (broken_.size() == 0) broken_ = DeviceArray<BrokenPoint>(points), count_ = DeviceArray<unsigned>(1);
+    check_cuda(cudaMemsetAsync(count_.data(), 0, sizeof(unsigned), team_.stream()), "cracks");
+    run("crack totals", increment_crack_totals, blocks_of(points), m_.view, broken_.data(), count_.data());
+    const double* sums = sum<crack_sums>(blocks_of(points));
+    for (std::size_t pair = 0; pair < pair_types; ++pair)
+      out.cracked[pair] = static_cast<std::int64_t>(sums[2 * pair]), out.area[pair] = sums[2 * pair + 1];
+    out.energy = sums[2 * pair_types], out.friction = sums[2 * pair_types + 1];
+    out.broken.resize(count_.download().front());
+    if (!out.broken.empty())
+      copy_now(out.broken.data(), broken_.data(), out.broken.size() * sizeof(BrokenPoint), "cracks");
+    return out;
+  }
+  std::int64_t bytes() const override { return m_.bytes() + static_cast<std::int64_t>(broken_.bytes()); }
 
  private:
   unsigned degrees() const { return 6 * m_.view.bodies; }
@@ -241,6 +256,8 @@ class Increments : public DeviceIncrements {
   PinnedCopies<IncrementSums> trial_sums_;
   PinnedCopies<double> numbers_;
   PinnedCopies<unsigned long long> counts_;
+  DeviceArray<BrokenPoint> broken_;  ///< made when cracks are first summed
+  DeviceArray<unsigned> count_;
   WallArgument wall_{};  ///< of the last evaluation
   double growing_area_ = 0;
   bool symmetric_ = true, stale_ = true;

@@ -30,15 +30,13 @@ struct GradientView {
   const double* inverse;      ///< [body][36] inverse blocks of the particles
   const double* coarse;       ///< [6·boxes] rows of `coarse_stride` numbers: inverse matrix of the rigid motions
   unsigned coarse_stride, coarse_blocks;
-  double *box_loads, *box_moves;         ///< [6·boxes]
-  double *products, *fine, *coarse_sums; ///< sums of thread blocks
+  double *box_loads, *box_moves;          ///< [6·boxes]
+  double *products, *fine, *coarse_sums;  ///< sums of thread blocks
   GradientState* state;
 };
 
 /// Prepares the scalars. `goal`: rᵀz at the end over rᵀz at the beginning.
-__global__ void increment_begin_gradients(GradientState* s, double goal) {
-  *s = {{0, 0}, goal, {0, 1}, 0, 0, 0, 0};
-}
+__global__ void increment_begin_gradients(GradientState* s, double goal) { *s = {{0, 0}, goal, {0, 1}, 0, 0, 0, 0}; }
 
 /// Computes out = K·x, and xᵀKx if `partial` is given. `state`: of the iteration, which may have ended; or null.
 __global__ void __launch_bounds__(increment_threads)
@@ -94,7 +92,8 @@ __global__ void __launch_bounds__(increment_threads)
     step = s.rz[parity] / curvature;
   }
   const unsigned component = threadIdx.x % 6, box = blockIdx.x;
-  const unsigned begin = 6 * static_cast<unsigned>(d.box_body[box]), end = 6 * static_cast<unsigned>(d.box_body[box + 1]);
+  const unsigned begin = 6 * static_cast<unsigned>(d.box_body[box]),
+                 end = 6 * static_cast<unsigned>(d.box_body[box + 1]);
   const bool works = threadIdx.x < used;
   double load = 0, product[1] = {0};
   for (unsigned from = begin; from < end; from += used) {
@@ -169,7 +168,8 @@ __global__ void __launch_bounds__(increment_threads)
   if (threadIdx.x < 6) move[threadIdx.x] = g.box_moves[6 * box + threadIdx.x];
   __syncthreads();
   const double next = fine + coarse, keep = first ? 0 : next / s.rz[parity];
-  const unsigned begin = 6 * static_cast<unsigned>(d.box_body[box]), end = 6 * static_cast<unsigned>(d.box_body[box + 1]);
+  const unsigned begin = 6 * static_cast<unsigned>(d.box_body[box]),
+                 end = 6 * static_cast<unsigned>(d.box_body[box + 1]);
   for (unsigned i = begin + threadIdx.x; i < end; i += increment_threads) {
     const unsigned component = i % 6;
     double p = g.z[i] + move[component];

@@ -4,6 +4,7 @@
 
 #include "kernels/cuda/device/device_store.hpp"
 #include "kernels/cuda/quasi_static/coarse_kernels.hpp"
+#include "kernels/cuda/quasi_static/contact_kernels.hpp"
 
 namespace macadam::kernels {
 
@@ -21,9 +22,9 @@ class IncrementMemory {
  public:
   IncrementView view{};
   GradientView gradients{};
-  IncrementLaw* laws;                      ///< by pair type
-  double *intact, *correction, *by_wall;   ///< [6·bodies]
-  double *openings, *sums;                 ///< sums of thread blocks; results of sums
+  IncrementLaw* laws;                     ///< by pair type
+  double *intact, *correction, *by_wall;  ///< [6·bodies]
+  double *openings, *sums;                ///< sums of thread blocks; results of sums
   IncrementSums* trial_sums;
   unsigned long long* loose;
   double *coarse, *next_coarse, *pivot_tile, *row_tiles, *column_tiles;
@@ -47,7 +48,7 @@ class IncrementMemory {
     v.entry_begin = store_.keep(s.entry_begin);
     v.entry_row = store_.keep(s.entry_row), v.entry_column = store_.keep(s.entry_column);
     v.wall_begin = store_.keep(s.wall_begin), v.wall_contact = store_.keep(s.wall_contact);
-    v.box_body = store_.keep(s.box_body), v.box_of = store_.keep(s.box_of), v.lever = store_.keep(s.lever);
+    v.box_body = store_.keep(s.box_body), v.lever = store_.keep(s.lever);
     v.pairs = store_.keep(s.pairs), v.pair_entry = store_.keep(s.pair_entry);
     v.laws = laws = store_.zeros<IncrementLaw>(pair_types);
     v.intact = intact = numbers(degrees);
@@ -59,7 +60,7 @@ class IncrementMemory {
       *vector = numbers(degrees);
     v.loads = numbers(12 * contacts), v.stiffness = numbers(36 * contacts), v.rate = numbers(6 * contacts);
     v.blocks = numbers(36 * entries);
-    v.partial = numbers(energy_rows * (blocks_of(contacts) + blocks_of(points) + warp_blocks(bodies) + 1024));
+    v.partial = numbers(most_sums * (blocks_of(contacts) + blocks_of(points) + warp_blocks(bodies) + 1024));
     openings = numbers(blocks_of(point_lanes * contacts) + 1);
     sums = numbers(16);
     trial_sums = store_.zeros<IncrementSums>(1);
@@ -89,7 +90,7 @@ class IncrementMemory {
 
  private:
   /// Sums per thread block, at most.
-  static constexpr std::size_t energy_rows = 8;
+  static constexpr std::size_t most_sums = crack_sums;
   double* numbers(std::size_t count) { return store_.zeros<double>(count); }
 
   DeviceStore store_;

@@ -25,7 +25,7 @@ struct IncrementView {
   const std::uint32_t* entry_begin;
   const std::int32_t *entry_row, *entry_column;
   const std::uint32_t *wall_begin, *wall_contact;
-  const std::int32_t *box_body, *box_of;
+  const std::int32_t* box_body;
   const Vec3d* lever;
   const BoxPair* pairs;
   const std::uint32_t* pair_entry;
@@ -37,11 +37,11 @@ struct IncrementView {
   std::uint8_t *grew, *grows;          ///< [point]
 
   double *displacement, *last, *trial, *kept, *residual, *top;  ///< [6·bodies]
-  double* loads;      ///< [contact][end][6]: loads on both ends
-  double* stiffness;  ///< [contact][36]
-  double* rate;       ///< [contact][6] derivatives of the opening
-  double* blocks;     ///< [entry][36], column by column
-  double* partial;    ///< sums of thread blocks
+  double* loads;                                                ///< [contact][end][6]: loads on both ends
+  double* stiffness;                                            ///< [contact][36]
+  double* rate;                                                 ///< [contact][6] derivatives of the opening
+  double* blocks;                                               ///< [entry][36], column by column
+  double* partial;                                              ///< sums of thread blocks
 
   /// Relative displacements of a contact when the particles move by `x` and the walls by `wall`.
   __device__ void relative(const IncrementContact& c, const double* x, const WallArgument& wall, double (&u)[6]) const {
