@@ -7,6 +7,7 @@
 
 #include "kernels/contact/contact_data.hpp"
 #include "kernels/contact/contact_step.hpp"
+#include "kernels/contact/initial_contact.hpp"
 
 namespace macadam::kernels {
 
@@ -91,7 +92,7 @@ class GroupReading {
 
   /// Returns the current frame by Eq. 5–7. `apart`: displacement of B minus displacement of A.
   Placement<double> placement(std::size_t slot, const Contact& c, const Vector& apart) const {
-    Placement<double> out{c.n, c.s, c.t, c.arm_a, c.arm_b};
+    Placement<double> out = initial_placement(c);
     if (!updated_) return out;
     follow_branch(out, c.n, c.distance, c.distance * c.n + apart, shape_.view.wall);
     const std::size_t lanes = shape_.lanes, count = static_cast<std::size_t>(shape_.view.frame_words);
@@ -134,8 +135,8 @@ class GroupReading {
       if (!state_.change.empty() && !shape_.stateless)
         *own = f[k] += state_.change[6 * slot + static_cast<std::size_t>(k)];
     }
-    const AreaMoments& m = c.moments;
-    const double d = c.length, moments[6] = {m.a / d, m.s / d, m.t / d, m.ss / d, m.st / d, m.tt / d};
+    double moments[6];
+    moments_over_length(c, moments);
     return condensed_load(f, alpha_, moments);
   }
 
