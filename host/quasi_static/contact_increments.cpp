@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "host/quasi_static/pieces.hpp"
+#include "kernels/base/parallel.hpp"
 #include "kernels/contact/contact_kinematics.hpp"
 #include "kernels/contact/series_factors.hpp"
 #include "macadam/error.hpp"
@@ -16,6 +16,9 @@
 namespace macadam::quasi_static {
 
 namespace {
+
+/// Number of contacts in a piece of a parallel sum.
+constexpr std::size_t contacts_at_once = 1024;
 
 std::array<double, 6> moments_over_length(const Contact& c) {
   const AreaMoments& m = c.moments;
@@ -135,8 +138,7 @@ void ContactIncrements::begin(double dt) {
       if (l.cracked) l.increment.emplace(l.cracked->increment(dt));
     }
   }
-  growing_area_ = 0;
-  for (std::size_t j = 0; j < grew_.size(); ++j) growing_area_ += grew_[j] ? network_.point_area[j] : 0;
+  growing_area_ = area_of(grew_);
   for_each_of(network_.contacts.size(), [&](std::size_t c) { prepare(c); });
 }
 
@@ -288,22 +290,28 @@ Six ContactIncrements::accepted_force(std::size_t number) const {
   return out;
 }
 
-double ContactIncrements::growing_part() const {
-  double out = 0;
-  for (std::size_t j = 0; j < grows_.size(); ++j) out += grows_[j] ? network_.point_area[j] : 0;
-  return crackable_area_ > 0 ? out / crackable_area_ : 0;
+double ContactIncrements::area_of(const std::vector<char>& points) const {
+  return sum_in_parallel<double>(points.size(),
+                                 [&](std::size_t j) { return points[j] ? network_.point_area[j] : 0.0; });
 }
+
+double ContactIncrements::growing_part() const { return crackable_area_ > 0 ? area_of(grows_) / crackable_area_ : 0; }
 
 ContactEnergies ContactIncrements::accept(const std::vector<Six>& u) {
-  std::vector<ContactEnergies> each(network_.contacts.size());
-  for_each_of(each.size(), [&](std::size_t c) {
-    each[c] = law(network_.contacts[c]).cracked ? accept_points(c, u[c]) : accept_linear(c, u[c]);
-  });
+  const auto sums =
+      sum_of_pieces<ContactEnergies>(network_.contacts.size(), contacts_at_once, [&](std::size_t from, std::size_t to) {
+        ContactEnergies sum;
+        std::vector<double> before;  // states of one contact, or of one point
+        for (std::size_t c = from; c < to; ++c) {
+          sum += law(network_.contacts[c]).cracked ? accept_points(c, u[c], before) : accept_linear(c, u[c], before);
+        }
+        return sum;
+      });
   grew_ = grows_;
-  return sum_in_parallel<ContactEnergies>(each.size(), [&](std::size_t c) { return each[c]; });
+  return sums;
 }
 
-ContactEnergies ContactIncrements::accept_linear(std::size_t number, const Six& u) {
+ContactEnergies ContactIncrements::accept_linear(std::size_t number, const Six& u, std::vector<double>& before) {
   const Contact& c = network_.contacts[number];
   const PairLaw& l = law(c);
   const auto words = static_cast<std::size_t>(l.words);
@@ -313,7 +321,7 @@ ContactEnergies ContactIncrements::accept_linear(std::size_t number, const Six& 
   const double* base = base_.data() + base_begin_[number];
   const auto factors = kernels::SeriesFactors<double>::of(c.series, l.step.inv_c, l.chain.alpha);
   const auto form = [&](const Six& x) { return dot_six(x, condensed_forces(x, l.chain.alpha, m)); };
-  std::vector<double> before(state, state + 6 * words);
+  before.assign(state, state + 6 * words);
   for (std::size_t k = 0; k < 6; ++k) {
     double* own = state + k * words;
     const double f = base[k] + l.step.inv_c * factors.of_component(static_cast<int>(k)) * u[k];
@@ -343,7 +351,7 @@ ContactEnergies ContactIncrements::accept_linear(std::size_t number, const Six& 
   return out;
 }
 
-ContactEnergies ContactIncrements::accept_points(std::size_t number, const Six& u) {
+ContactEnergies ContactIncrements::accept_points(std::size_t number, const Six& u, std::vector<double>& before) {
   const Contact& c = network_.contacts[number];
   const PairLaw& l = law(c);
   const auto words = static_cast<std::size_t>(l.words);
@@ -351,7 +359,7 @@ ContactEnergies ContactIncrements::accept_points(std::size_t number, const Six& 
   constexpr std::size_t first_unit = 1 + CrackedChain::crack_numbers;
   const double d = c.length, alpha = l.chain.alpha;
   ContactEnergies out;
-  std::vector<double> before(3 * words);
+  before.resize(3 * words);
   for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) {
     double* state = states_.data() + begin_[number] + 3 * (j - c.point_begin) * words;
     std::copy(state, state + 3 * words, before.begin());

@@ -76,8 +76,11 @@ class ContactIncrements {
   void prepare(std::size_t c);
   void evaluate_linear(std::size_t c, const Six& u);
   void evaluate_points(std::size_t c, const Six& u);
-  ContactEnergies accept_linear(std::size_t c, const Six& u);
-  ContactEnergies accept_points(std::size_t c, const Six& u);
+  /// `before`: memory for the states before the increment.
+  ContactEnergies accept_linear(std::size_t c, const Six& u, std::vector<double>& before);
+  ContactEnergies accept_points(std::size_t c, const Six& u, std::vector<double>& before);
+  /// Returns the area of the points with a mark that is not 0.
+  double area_of(const std::vector<char>& points) const;
   const PairLaw& law(const Contact& c) const { return laws_[static_cast<std::size_t>(c.pair)]; }
 
   const ContactNetwork& network_;

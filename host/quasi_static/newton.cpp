@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/quasi_static/pieces.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::quasi_static {
 namespace {
@@ -20,6 +20,18 @@ constexpr double loose_part = 1e-4;
 /// Systems that are solved by iterations have the symmetric part of the tangent. If a correction leaves more than this
 /// part of the residual, friction makes the rest of the tangent matter.
 constexpr double slow = 0.3;
+
+/// Numbers of contacts or particles in a piece of parallel work.
+constexpr std::size_t contacts_at_once = 512, particles_at_once = 1024;
+
+/// Forces on all walls.
+struct WallForces {
+  std::array<Vec3d, wall_count> of{};
+  WallForces& operator+=(const WallForces& other) {
+    for (std::size_t w = 0; w < wall_count; ++w) of[w] += other.of[w];
+    return *this;
+  }
+};
 
 Six wall_motion(const std::array<Vec3d, wall_count>& walls, std::int32_t wall) {
   const Vec3d& x = walls[wall_index(wall)];
@@ -37,6 +49,9 @@ Newton::Newton(const Specimen& specimen, const ContactNetwork& network, const La
       matrix_(network, specimen.size()),
       solver_(6 * specimen.size() <= options.direct_below ? make_direct_solver() : make_iterative_solver(specimen)),
       intact_(6 * specimen.size()) {
+  for (std::size_t number = 0; number < network.contacts.size(); ++number) {
+    if (network.contacts[number].b < 0) at_walls_.push_back(static_cast<std::uint32_t>(number));
+  }
   contacts_.begin(1e-30);
   contacts_.evaluate(std::vector<Six>(network.contacts.size(), Six{}));
   matrix_.assemble(contacts_, true);
@@ -55,14 +70,16 @@ Newton::Newton(const Specimen& specimen, const ContactNetwork& network, const La
 }
 
 void Newton::find_wall_stiffness() {
-  wall_stiffness_ = 0;
-  for (std::size_t number = 0; number < network_.contacts.size(); ++number) {
-    const Contact& c = network_.contacts[number];
-    if (c.b != wall_z_hi) continue;
-    const SixBySix own = motion_matrix(c, 1);
-    const Eigen::Map<const Block> g(own.data()), k(contacts_.stiffness(number).data());
-    wall_stiffness_ += (g.transpose() * k * g)(2, 2);
-  }
+  wall_stiffness_ = sum_in_parallel<double>(
+      at_walls_.size(),
+      [&](std::size_t k) {
+        const Contact& c = network_.contacts[at_walls_[k]];
+        if (c.b != wall_z_hi) return 0.0;
+        const SixBySix own = motion_matrix(c, 1);
+        const Eigen::Map<const Block> g(own.data()), stiffness(contacts_.stiffness(at_walls_[k]).data());
+        return (g.transpose() * stiffness * g)(2, 2);
+      },
+      contacts_at_once);
 }
 
 double Newton::size_of(const Vector& loads) const {
@@ -92,34 +109,38 @@ void Newton::evaluate(Trial& trial) {
   });
   trial.size = size_of(trial.residual);
   trial.scale = size_of(sizes);
-  trial.reaction.fill({});
-  for (std::size_t number = 0; number < network_.contacts.size(); ++number) {
-    const Contact& c = network_.contacts[number];
-    if (c.b >= 0) continue;
-    const Six load = load_on(c, contacts_.force(number), 1);
-    trial.reaction[wall_index(c.b)] += Vec3d{load[0], load[1], load[2]};
-  }
+  const auto forces =
+      sum_of_pieces<WallForces>(at_walls_.size(), contacts_at_once, [&](std::size_t from, std::size_t to) {
+        WallForces sum;
+        for (std::size_t k = from; k < to; ++k) {
+          const Contact& c = network_.contacts[at_walls_[k]];
+          const Six load = load_on(c, contacts_.force(at_walls_[k]), 1);
+          sum.of[wall_index(c.b)] += Vec3d{load[0], load[1], load[2]};
+        }
+        return sum;
+      });
+  trial.reaction = forces.of;
 }
 
 void Newton::assemble(bool symmetric, IncrementReport& report) {
   matrix_.assemble(contacts_, symmetric);
   find_wall_stiffness();
-  report.loose = 0;
-  for (std::size_t i = 0; i < particles_; ++i) {
+  const auto hold = [&](std::size_t i) {
     const auto diagonal = matrix_.diagonal(i).diagonal();
     double now = 0, intact = 0;
     for (std::size_t k = 0; k < 3; ++k) now += diagonal(static_cast<Eigen::Index>(k)), intact += intact_[6 * i + k];
     const bool is_loose = now < loose_part * intact;
-    report.loose += is_loose;
     for (std::size_t k = 0; k < 6; ++k)
       matrix_.add_to_diagonal(6 * i + k, (is_loose ? loose_part : held_part) * intact_[6 * i + k]);
-  }
+    return std::int64_t{is_loose};
+  };
+  report.loose = sum_in_parallel<std::int64_t>(particles_, hold, particles_at_once);
 }
 
 bool Newton::correct(const Trial& trial, double tolerance, bool wall_unknown, bool whole_tangent,
                      IncrementReport& report, Vector& correction, Vector& by_wall) {
   Vector right(trial.residual.size()), top(trial.residual.size());
-  for (std::size_t i = 0; i < right.size(); ++i) right[i] = -trial.residual[i];
+  for_each_of(right.size(), [&](std::size_t i) { right[i] = -trial.residual[i]; });
   for (const bool symmetric : {true, false}) {
     if (symmetric && (whole_tangent || !solver_->wants_symmetric())) continue;
     assemble(symmetric, report);
@@ -130,7 +151,7 @@ bool Newton::correct(const Trial& trial, double tolerance, bool wall_unknown, bo
     LinearReport solved = solver_->solve(right, correction, tolerance);
     report.iterations += solved.iterations;
     if (solved.solved && wall_unknown) {
-      for (std::size_t i = 0; i < top.size(); ++i) top[i] = -matrix_.top_column()[i];
+      for_each_of(top.size(), [&](std::size_t i) { top[i] = -matrix_.top_column()[i]; });
       solved = solver_->solve(top, by_wall, 0.01 * tolerance);
       report.iterations += solved.iterations;
     }
@@ -147,7 +168,7 @@ double Newton::tolerance_of(double residual) const {
 
 double Newton::opening_change(const Vector& motion) const {
   static constexpr Six at_rest{};
-  return sum_in_parallel<double>(network_.contacts.size(), [&](std::size_t number) {
+  const auto change = [&](std::size_t number) {
     const Contact& c = network_.contacts[number];
     const Six& rate = contacts_.opening_rate(number);
     if (rate == Six{}) return 0.0;
@@ -156,7 +177,8 @@ double Newton::opening_change(const Vector& motion) const {
     double out = 0;
     for (std::size_t k = 0; k < 6; ++k) out += rate[k] * u[k];
     return out;
-  });
+  };
+  return sum_in_parallel<double>(network_.contacts.size(), change, contacts_at_once);
 }
 
 double Newton::missed(const WallIncrement& increment, const Trial& trial) const {
@@ -208,7 +230,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
     if (wall_unknown) {
       wall_step = wall_correction(increment, trial, correction, by_wall);
       if (!std::isfinite(wall_step)) return out;
-      for (std::size_t i = 0; i < correction.size(); ++i) correction[i] += wall_step * by_wall[i];
+      for_each_of(correction.size(), [&](std::size_t i) { correction[i] += wall_step * by_wall[i]; });
     }
     const Vector from = trial.motion;
     const double wall_from = top;

@@ -59,9 +59,10 @@ class Newton {
   ContactIncrements contacts_;
   TangentMatrix matrix_;
   std::unique_ptr<TangentSolver> solver_;
-  Vector intact_;                  ///< diagonal of the intact, instantaneous stiffness
-  bool friction_matters_ = false;  ///< whether a symmetric tangent has converged slowly
-  double wall_stiffness_ = 0;      ///< derivative of the top wall's reaction with respect to its displacement
+  Vector intact_;                        ///< diagonal of the intact, instantaneous stiffness
+  bool friction_matters_ = false;        ///< whether a symmetric tangent has converged slowly
+  double wall_stiffness_ = 0;            ///< derivative of the top wall's reaction with respect to its displacement
+  std::vector<std::uint32_t> at_walls_;  ///< the contacts at walls, in the network's order
 };
 
 }  // namespace macadam::quasi_static

@@ -92,7 +92,7 @@ struct QuasiStatic::Parts {
     energies.friction_j = sums.friction;
     energies.crack_work_j += sums.crack_work;
     last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
-    for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] += trial.motion[i];
+    for_each_of(displacement.size(), [&](std::size_t i) { displacement[i] += trial.motion[i]; });
     motions.accept(increment, trial, last_opening);
     time += increment.dt;
     scale = std::max(scale, trial.scale);
@@ -128,10 +128,11 @@ std::string QuasiStatic::description() const {
 ParticleState QuasiStatic::particles() const {
   ParticleState out;
   const std::vector<double>& u = parts_->displacement;
-  for (std::size_t i = 0; i < parts_->particles; ++i) {
-    out.displacement.push_back({u[6 * i], u[6 * i + 1], u[6 * i + 2]});
-    out.rotation.push_back({u[6 * i + 3], u[6 * i + 4], u[6 * i + 5]});
-  }
+  out.displacement.resize(parts_->particles), out.rotation.resize(parts_->particles);
+  for_each_of(parts_->particles, [&](std::size_t i) {
+    out.displacement[i] = {u[6 * i], u[6 * i + 1], u[6 * i + 2]};
+    out.rotation[i] = {u[6 * i + 3], u[6 * i + 4], u[6 * i + 5]};
+  });
   out.velocity.assign(parts_->particles, {});
   out.spin = out.velocity, out.force = out.velocity, out.moment = out.velocity;
   return out;
@@ -144,27 +145,30 @@ ContactState QuasiStatic::contacts() const {
   const std::vector<double>& u = parts_->displacement;
   out.point_breaks = contacts.point_breaks();
   out.point_cracks = contacts.point_cracks();
-  for (std::size_t number = 0; number < network.contacts.size(); ++number) {
+  const std::size_t n = network.contacts.size();
+  out.force.resize(n), out.moment.resize(n), out.relative.resize(n);
+  out.broken.resize(out.point_breaks.empty() ? 0 : n);
+  for_each_of(n, [&](std::size_t number) {
     const Contact& c = network.contacts[number];
     const Six f = contacts.accepted_force(number);
     // The force and moment on A about x0 are the negative of what moves B; model (7.1)
     const auto seen = [&](double n, double s, double t) { return n * c.n + s * c.s + t * c.t; };
-    out.force.push_back(seen(f[0], f[3], f[4]));
-    out.moment.push_back(seen(f[5], f[2], -f[1]));
+    out.force[number] = seen(f[0], f[3], f[4]);
+    out.moment[number] = seen(f[5], f[2], -f[1]);
     Six wall{};
     if (c.b < 0) {
       const Vec3d& x = parts_->wall[wall_index(c.b)];
       wall = {x.x, x.y, x.z, 0, 0, 0};
     }
-    out.relative.push_back(quasi_static::relative(c, &u[6 * static_cast<std::size_t>(c.a)],
-                                                  c.b < 0 ? wall.data() : &u[6 * static_cast<std::size_t>(c.b)]));
+    out.relative[number] = quasi_static::relative(c, &u[6 * static_cast<std::size_t>(c.a)],
+                                                  c.b < 0 ? wall.data() : &u[6 * static_cast<std::size_t>(c.b)]);
     if (!out.point_breaks.empty()) {
       double broken = 0;
       for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) broken += out.point_breaks[j] != Break::none;
       const std::uint32_t points = c.point_end - c.point_begin;
-      out.broken.push_back(points > 0 ? broken / points : 0);
+      out.broken[number] = points > 0 ? broken / points : 0;
     }
-  }
+  });
   out.chain = contacts.states();
   out.chain_begin = contacts.state_begin();
   return out;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "host/quasi_static/pieces.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::quasi_static {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/base/parallel.hpp"
 #include "kernels/layout/layout.hpp"
 #include "kernels/step/particle_motion.hpp"
 #include "macadam/stepper.hpp"
@@ -19,10 +20,11 @@ template <class R>
 ParticleState particle_state(const Layout& layout, const std::vector<R>& v, const std::vector<double>& u,
                              const std::vector<Twist<R>>& forces, const std::vector<Vec3d>* body_force) {
   const std::size_t n = layout.particles();
-  const std::vector<Vec3d> zero(n);
   const bool weigh = body_force && !body_force->empty();
-  ParticleState out{zero, zero, zero, zero, zero, zero};
-  for (std::size_t b = 0; b < n; ++b) {
+  ParticleState out;
+  for (auto* list : {&out.displacement, &out.rotation, &out.velocity, &out.spin, &out.force, &out.moment})
+    list->resize(n);
+  for_each_of(n, [&](std::size_t b) {
     const auto i = static_cast<std::size_t>(layout.particle[b]);
     const R* vb = &v[b * velocity_words];
     const double* ub = &u[b * displacement_words];
@@ -34,7 +36,7 @@ ParticleState particle_state(const Layout& layout, const std::vector<R>& v, cons
     out.force[i] = {f.linear.x, f.linear.y, f.linear.z};
     if (weigh) out.force[i] += (*body_force)[i];
     out.moment[i] = {f.angular.x, f.angular.y, f.angular.z};
-  }
+  });
   return out;
 }
 

@@ -99,6 +99,12 @@ class StepperImpl final : public Stepper {
   }
 
   ContactState contacts(const ContactNetwork& network) const override {
+    ContactState out;
+    read_contacts(network, out);
+    return out;
+  }
+
+  void read_contacts(const ContactNetwork& network, ContactState& out) const override {
     exec_.use_device();
     exec_.gather();
     if (network.contacts.size() != contacts_) {
@@ -106,7 +112,7 @@ class StepperImpl final : public Stepper {
                        " contacts, expected the network of " + std::to_string(contacts_) +
                        " contacts that the stepper was made from");
     }
-    return read_contacts(exec_, network, layout_, laws_, options_);
+    kernels::read_contacts(exec_, network, layout_, laws_, options_, out);
   }
 
   DeviceMotion device_motion() const override {

@@ -45,7 +45,8 @@ void CyclicSteps::write_cracks(std::size_t i, const std::vector<experiments::Cra
 
 void CyclicSteps::look_for_cracks(std::size_t i, CrackWatch& watch, const Observation& now) {
   FrequencyCracks& cracks = at_.cracks[i];
-  write_cracks(i, watch.look(read_contact_state(scene_, *stepper_, prepared_.network), now.time));
+  read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
+  write_cracks(i, watch.look(contact_state_, now.time));
   cracks.events = watch.found().events;
   const double strain = now.top_displacement() / gauge_length(prepared_.specimen);
   if (strain > 0 && !watch.joins_walls()) cracks.rupture = {now.time, strain, cracks.time_s, cracks.strain};

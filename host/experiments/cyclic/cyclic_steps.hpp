@@ -86,6 +86,7 @@ class CyclicSteps : public PlannedExperiment {
   DeviceList devices_;                ///< devices of the stepper
   bool may_move_ = true;              ///< whether the run may move to other devices
   std::unique_ptr<Stepper> stepper_;  ///< stepper of the running frequency or of the first one
+  ContactState contact_state_;        ///< at the last sample, if contact points can break
   bool used_ = false;                 ///< whether the stepper has run a frequency
   std::optional<FreeSides> sides_;    ///< empty if a side is held or has no cell
   std::optional<LineWriter> cracks_writer_;

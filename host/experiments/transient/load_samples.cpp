@@ -43,18 +43,17 @@ void SteppedLoad::follow_peak(const Observation& now) {
     at_.stresses.push_back({strain, stress});
 }
 
-std::vector<experiments::CrackEvent> SteppedLoad::look_for_cracks(SteppedPoint& point) {
+std::vector<experiments::CrackEvent> SteppedLoad::look_for_cracks(SteppedPoint& point, const ParticleState& particles) {
   if (!cracks_.active()) return {};
-  ContactState state = read_contact_state(scene_, *stepper_, prepared_.network);
-  auto events = cracks_.look(state, point.time_s);
-  at_.cracks = cracks_.found().events;
+  read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
+  auto events = cracks_.look(contact_state_, point.time_s);
+  at_.cracks.insert(at_.cracks.end(), events.begin(), events.end());
   point.broken_points = cracks_.found().points();
   const Observation now = stepper_->observe();
   if (cracks_.sums()) {
     point.cracks = *cracks_.found().sums;
     point.energies = quasi_static_ ? experiments::Energies(quasi_static_->energies())
-                                   : ledger_.sample(now, state, stepper_->particles(), point.cracks);
-    end_cracks_ = std::move(state.point_cracks);
+                                   : ledger_.sample(now, contact_state_, particles, point.cracks);
   }
   if (drive_->value(now.step) > 0 && !cracks_.joins_walls()) {
     const SteppedPoint before = at_.points.empty() ? SteppedPoint{} : at_.points.back();
@@ -63,7 +62,7 @@ std::vector<experiments::CrackEvent> SteppedLoad::look_for_cracks(SteppedPoint& 
   return events;
 }
 
-Course SteppedLoad::course_of(const std::function<void(SteppedPoint)>& add, Content content) {
+Course SteppedLoad::course_of(const std::function<void(SteppedPoint, const ParticleState&)>& add, Content content) {
   const std::vector<double>& times = test_.history.times;
   Course course;
   course.name = test_.kind;
@@ -75,7 +74,9 @@ Course SteppedLoad::course_of(const std::function<void(SteppedPoint)>& add, Cont
   };
   course.taken = [](std::int64_t k) { return k > 0; };
   course.take = [this, add](std::int64_t k, const Observation& now) {
-    if (k > 0) add(point(now));
+    if (k == 0) return;
+    const ParticleState particles = stepper_->particles();
+    add(point(now, particles), particles);
   };
   course.uses_stepper = [](std::int64_t) { return true; };  // point() computes the kinetic energy from it
   if (!quasi_static_ && (measures_peak() || cracks_.sums())) {
@@ -100,7 +101,7 @@ Course SteppedLoad::course_of(const std::function<void(SteppedPoint)>& add, Cont
   return course;
 }
 
-SteppedPoint SteppedLoad::point(const Observation& now) const {
+SteppedPoint SteppedLoad::point(const Observation& now, const ParticleState& particles) const {
   const double area = section_area(prepared_.specimen),
                load = drive_->value(now.step) / area + 0.0;  // + 0.0 turns −0 into 0
   SteppedPoint out{};
@@ -109,7 +110,6 @@ SteppedPoint SteppedLoad::point(const Observation& now) const {
   out.top_pa = -now.top_force() / area;  // in tension the particles pull the top wall down: negative force
   out.bottom_pa = now.wall_force[wall_index(wall_z_lo)].z / area;
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const ParticleState particles = stepper_->particles();
   out.kinetic_j = at_.plan.density_scaling * kinetic_energy(particles, inertia_);
   out.poisson_ratio = sides_ && out.strain != 0
                           ? sides_->contraction(motions_of(particles, sides_->particles())) / now.top_displacement()

@@ -166,8 +166,8 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
   const auto start = Clock::now();
   const double before = at_.seconds;
   const Course course = course_of(
-      [&](SteppedPoint point) {
-        const auto events = look_for_cracks(point);
+      [&](SteppedPoint point, const ParticleState& particles) {
+        const auto events = look_for_cracks(point, particles);
         write_cracks(events);
         at_.points.push_back(point);
         writer.add(line(words, point));
@@ -201,7 +201,8 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
   finish();
   writer.close();
   if (cracks_writer) cracks_writer->close();
-  if (cracks_.sums()) write_damage(out, prepared_, end_cracks_, found.points.empty() ? 0 : found.points.back().time_s);
+  if (cracks_.sums())
+    write_damage(out, prepared_, contact_state_.point_cracks, found.points.empty() ? 0 : found.points.back().time_s);
   judge(found, result.warnings);
 }
 

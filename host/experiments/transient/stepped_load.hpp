@@ -64,14 +64,15 @@ class SteppedLoad : public PlannedExperiment {
   /// Counts the contact points that are broken at a sample, sums the energies, and returns the events since the last
   /// sample. Under tension the test ends when no path of intact contacts joins the walls. In compression broken points
   /// still bear load, so the test goes on.
-  std::vector<experiments::CrackEvent> look_for_cracks(experiments::SteppedPoint& point);
+  std::vector<experiments::CrackEvent> look_for_cracks(experiments::SteppedPoint& point,
+                                                       const ParticleState& particles);
 
   /// Returns the course of the run: its samples, and the functions that are called at them. Sample 0 is the initial
   /// state, which is drawn in the field files. The other samples are the points of the result.
-  Course course_of(const std::function<void(experiments::SteppedPoint)>& add, Content content);
+  Course course_of(const std::function<void(experiments::SteppedPoint, const ParticleState&)>& add, Content content);
 
   /// Returns the point at the stepper's present step.
-  experiments::SteppedPoint point(const Observation& now) const;
+  experiments::SteppedPoint point(const Observation& now, const ParticleState& particles) const;
 
   /// Adds a warning if the error of a row is large. A specimen in two pieces has no equilibrium, so its rupture is
   /// reported instead of an error. In a strength test the rupture is a result and causes no warning.
@@ -90,7 +91,7 @@ class SteppedLoad : public PlannedExperiment {
   std::optional<FreeSides> sides_;                    ///< empty if a side is held or has no cell
   CrackWatch cracks_;
   EnergyLedger ledger_;
-  std::vector<laws::PointCrack> end_cracks_;  // of the contact points, at the last point of the result
+  ContactState contact_state_;  // at the last point of the result; chains: see EnergyLedger::sample()
   std::optional<experiments::Rupture> rupture_ = {};
   bool owns_checkpoint_;
 };
