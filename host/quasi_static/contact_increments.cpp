@@ -130,13 +130,13 @@ ContactIncrements::ContactIncrements(const ContactNetwork& network, const LawTab
   opening_rate_.assign(n, Six{});
 }
 
-void ContactIncrements::begin(double dt) {
-  if (dt != dt_) {
-    dt_ = dt;
-    for (PairLaw& l : laws_) {
-      l.step = l.chain.step<double>(dt);
-      if (l.cracked) l.increment.emplace(l.cracked->increment(dt));
-    }
+void ContactIncrements::begin(const LawTimes& dt) {
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    PairLaw& l = laws_[pair];
+    if (dt[pair] == l.dt) continue;
+    l.dt = dt[pair];
+    l.step = l.chain.step<double>(l.dt);
+    if (l.cracked) l.increment.emplace(l.cracked->increment(l.dt));
   }
   growing_area_ = area_of(grew_);
   for_each_of(network_.contacts.size(), [&](std::size_t c) { prepare(c); });
@@ -341,11 +341,11 @@ ContactEnergies ContactIncrements::accept_linear(std::size_t number, const Six& 
     out.elastic += 0.5 * c.series * dot_six(weighted, condensed_forces(f, l.chain.alpha, m));
   }
   if (std::isfinite(l.chain.C_m)) {
-    out.viscous += dt_ / l.chain.C_m * form(numbers([&](std::size_t k) { return 0.5 * (f[k] + before[k * words]); }));
+    out.viscous += l.dt / l.chain.C_m * form(numbers([&](std::size_t k) { return 0.5 * (f[k] + before[k * words]); }));
   }
   for (std::size_t n = 0; n < units; ++n) {
     out.elastic += 0.5 * l.chain.E[n] * form(numbers([&](std::size_t k) { return state[k * words + 1 + n]; }));
-    out.viscous += l.chain.C[n] / dt_ *
+    out.viscous += l.chain.C[n] / l.dt *
                    form(numbers([&](std::size_t k) { return state[k * words + 1 + n] - before[k * words + 1 + n]; }));
   }
   return out;
@@ -372,11 +372,11 @@ ContactEnergies ContactIncrements::accept_points(std::size_t number, const Six& 
       const double *now = state + k * words, *old = before.data() + k * words;
       const double weight = (k == 0 ? 1 : alpha) * area / d, mean = 0.5 * (now[0] + old[0]);
       double elastic = 0.5 * now[0] * now[0] / l.chain.E_m, viscous = 0;
-      if (std::isfinite(l.chain.C_m)) viscous += dt_ / l.chain.C_m * mean * mean;
+      if (std::isfinite(l.chain.C_m)) viscous += l.dt / l.chain.C_m * mean * mean;
       for (std::size_t n = 0; n < units; ++n) {
         const double x = now[first_unit + n], change = x - old[first_unit + n];
         elastic += 0.5 * l.chain.E[n] * x * x;
-        viscous += l.chain.C[n] / dt_ * change * change;
+        viscous += l.chain.C[n] / l.dt * change * change;
       }
       out.elastic += weight * elastic;
       out.viscous += weight * viscous;

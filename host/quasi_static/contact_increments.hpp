@@ -19,6 +19,9 @@ using Six = std::array<double, 6>;
 /// Derivatives of six forces with respect to six displacements, row by row.
 using SixBySix = std::array<double, 36>;
 
+/// Durations of an increment for the law of each pair type [s].
+using LawTimes = std::array<double, pair_types>;
+
 /// Sums over contacts at the end of an increment.
 struct ContactEnergies {
   double elastic = 0, viscous = 0, crack = 0, friction = 0, crack_work = 0;  ///< [J]
@@ -30,8 +33,8 @@ class ContactIncrements {
  public:
   ContactIncrements(const ContactNetwork& network, const LawTable& laws);
 
-  /// Prepares an increment of `dt` seconds from the accepted state.
-  void begin(double dt);
+  /// Prepares an increment from the accepted state. `dt`: its duration for the law of each pair type [s].
+  void begin(const LawTimes& dt);
   /// Computes forces and stiffnesses for the relative displacements `u` of each contact in the increment.
   void evaluate(const std::vector<Six>& u);
   const Six& force(std::size_t c) const { return force_[c]; }
@@ -69,6 +72,7 @@ class ContactIncrements {
     Chain chain;
     std::optional<CrackedChain> cracked;
     int words = 1;  ///< numbers per component
+    double dt = 0;  ///< duration of the increment for this law [s]
     Chain::Step<double> step{};
     std::optional<decltype(CrackedChain{}.increment(1.0))> increment;
   };
@@ -86,7 +90,6 @@ class ContactIncrements {
   const ContactNetwork& network_;
   std::array<PairLaw, pair_types> laws_;
   bool has_cracks_ = false;
-  double dt_ = 0;
   std::vector<double> states_;
   std::vector<std::size_t> begin_;       ///< of each contact in states_
   std::vector<double> base_;             ///< f (linear) or stresses (points) without motion

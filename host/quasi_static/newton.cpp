@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "kernels/base/parallel.hpp"
+#include "macadam/error.hpp"
 
 namespace macadam::quasi_static {
 namespace {
@@ -33,6 +35,12 @@ struct WallForces {
   }
 };
 
+LawTimes all_laws(double dt) {
+  LawTimes out;
+  out.fill(dt);
+  return out;
+}
+
 Six wall_motion(const std::array<Vec3d, wall_count>& walls, std::int32_t wall) {
   const Vec3d& x = walls[wall_index(wall)];
   return {x.x, x.y, x.z, 0, 0, 0};
@@ -49,10 +57,13 @@ Newton::Newton(const Specimen& specimen, const ContactNetwork& network, const La
       matrix_(network, specimen.size()),
       solver_(6 * specimen.size() <= options.direct_below ? make_direct_solver() : make_iterative_solver(specimen)),
       intact_(6 * specimen.size()) {
+  if (!options.expansion.empty() && options.expansion.size() != network.contacts.size())
+    throw InputError("quasi-static: found expansions of " + std::to_string(options.expansion.size()) +
+                     " contacts, expected " + std::to_string(network.contacts.size()));
   for (std::size_t number = 0; number < network.contacts.size(); ++number) {
     if (network.contacts[number].b < 0) at_walls_.push_back(static_cast<std::uint32_t>(number));
   }
-  contacts_.begin(1e-30);
+  contacts_.begin(all_laws(1e-30));
   contacts_.evaluate(std::vector<Six>(network.contacts.size(), Six{}));
   matrix_.assemble(contacts_, true);
   double typical = 0;
@@ -87,13 +98,30 @@ double Newton::size_of(const Vector& loads) const {
       sum_in_parallel<double>(loads.size(), [&](std::size_t i) { return loads[i] * loads[i] / intact_[i]; }));
 }
 
-void Newton::evaluate(Trial& trial) {
+double Newton::restrained_size(const WallIncrement& increment) const {
+  if (options_.expansion.empty() || increment.warming == 0) return 0;
+  Vector sizes(6 * particles_, 0.0);
+  for (std::size_t number = 0; number < network_.contacts.size(); ++number) {
+    const Contact& c = network_.contacts[number];
+    const double force = contacts_.stiffness(number)[0] * options_.expansion[number] * increment.warming;
+    for (const int end : {0, 1}) {
+      const std::int32_t particle = end == 0 ? c.a : c.b;
+      if (particle < 0) continue;
+      const Six load = load_on(c, {force, 0, 0, 0, 0, 0}, end);
+      for (std::size_t k = 0; k < 6; ++k) sizes[6 * static_cast<std::size_t>(particle) + k] += std::abs(load[k]);
+    }
+  }
+  return size_of(sizes);
+}
+
+void Newton::evaluate(const WallIncrement& increment, Trial& trial) {
   trial.relative.resize(network_.contacts.size());
   for_each_of(network_.contacts.size(), [&](std::size_t number) {
     const Contact& c = network_.contacts[number];
     const Six wall = c.b < 0 ? wall_motion(trial.wall, c.b) : Six{};
     const double* b = c.b < 0 ? wall.data() : &trial.motion[6 * static_cast<std::size_t>(c.b)];
     trial.relative[number] = relative(c, &trial.motion[6 * static_cast<std::size_t>(c.a)], b);
+    if (!options_.expansion.empty()) trial.relative[number][0] -= options_.expansion[number] * increment.warming;
   });
   contacts_.evaluate(trial.relative);
   trial.residual.resize(6 * particles_);
@@ -108,7 +136,7 @@ void Newton::evaluate(Trial& trial) {
     for (std::size_t k = 0; k < 6; ++k) trial.residual[6 * i + k] = sum[k], sizes[6 * i + k] = size[k];
   });
   trial.size = size_of(trial.residual);
-  trial.scale = size_of(sizes);
+  trial.scale = std::max(size_of(sizes), least_scale_);
   const auto forces =
       sum_of_pieces<WallForces>(at_walls_.size(), contacts_at_once, [&](std::size_t from, std::size_t to) {
         WallForces sum;
@@ -207,8 +235,13 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
   IncrementReport out;
   const bool wall_unknown = increment.load || increment.opening;
   double& top = trial.wall[wall_index(wall_z_hi)].z;
-  contacts_.begin(increment.dt);
-  evaluate(trial);
+  contacts_.begin(increment.reduced_dt.value_or(all_laws(increment.dt)));
+  least_scale_ = 0;
+  evaluate(increment, trial);
+  if (!options_.expansion.empty()) {
+    least_scale_ = std::max(scale, restrained_size(increment));
+    trial.scale = std::max(trial.scale, least_scale_);
+  }
   Vector correction, by_wall;
   int stuck = 0;
   // The condition for the wall is as accurate as the residual, relative to its own scale
@@ -238,7 +271,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
     const auto move = [&](double length) {
       for_each_of(from.size(), [&](std::size_t i) { trial.motion[i] = from[i] + length * correction[i]; });
       top = wall_from + length * wall_step;
-      evaluate(trial);
+      evaluate(increment, trial);
       return merit();
     };
     double length = 1;

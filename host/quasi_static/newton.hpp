@@ -12,11 +12,13 @@ namespace macadam::quasi_static {
 struct Trial {
   Vector motion;                             ///< [6·particles]
   std::array<Vec3d, wall_count> wall{};      ///< displacement in the increment [m]
-  std::vector<Six> relative;                 ///< relative displacements of the contacts
+  std::vector<Six> relative;                 ///< of the contacts, without their expansion
   std::array<Vec3d, wall_count> reaction{};  ///< external forces that hold the walls [N]
   Vector residual;                           ///< loads that are out of balance [6·particles]
   double size = 0;                           ///< of the residual, see Newton::size_of
-  double scale = 0;                          ///< of all loads of contacts
+  /// Size of all loads of contacts, or of the loads that expansion would cause in particles held in place, if those are
+  /// larger. The second number keeps passes from chasing rounding errors in a specimen that expands without stress.
+  double scale = 0;
 };
 
 class Newton {
@@ -33,7 +35,10 @@ class Newton {
   std::int64_t bytes() const { return contacts_.bytes() + matrix_.bytes(); }
 
  private:
-  void evaluate(Trial& trial);
+  void evaluate(const WallIncrement& increment, Trial& trial);
+  /// Returns the size of the loads that the expansion of an increment causes if no particle moves. The contacts must
+  /// have been evaluated for this increment.
+  double restrained_size(const WallIncrement& increment) const;
   void assemble(bool symmetric, IncrementReport& report);
   void find_wall_stiffness();
   /// Prepares the solver with the present tangent and solves for the correction and, if the motion of the top wall is
@@ -61,6 +66,7 @@ class Newton {
   std::unique_ptr<TangentSolver> solver_;
   Vector intact_;                        ///< diagonal of the intact, instantaneous stiffness
   bool friction_matters_ = false;        ///< whether a symmetric tangent has converged slowly
+  double least_scale_ = 0;               ///< of Trial::scale in this increment
   double wall_stiffness_ = 0;            ///< derivative of the top wall's reaction with respect to its displacement
   std::vector<std::uint32_t> at_walls_;  ///< the contacts at walls, in the network's order
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "host/quasi_static/motion_guess.hpp"
 #include "kernels/base/parallel.hpp"
@@ -19,14 +20,14 @@ using quasi_static::Trial;
 namespace {
 
 double sum_of(const QuasiStaticEnergies& e) {
-  return std::max(std::abs(e.work_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j));
+  return std::max({std::abs(e.work_j), std::abs(e.thermal_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j)});
 }
 
 }  // namespace
 
 double QuasiStaticEnergies::imbalance() const {
   const double sum = sum_of(*this);
-  return sum > 0 ? std::abs(work_j - elastic_j - viscous_j - crack_work_j) / sum : 0;
+  return sum > 0 ? std::abs(work_j + thermal_j - elastic_j - viscous_j - crack_work_j) / sum : 0;
 }
 
 double QuasiStaticEnergies::increment_error() const {
@@ -37,12 +38,17 @@ double QuasiStaticEnergies::increment_error() const {
 struct QuasiStatic::Parts {
   Parts(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
         const QuasiStaticOptions& options)
-      : network(network), particles(specimen.size()), newton(specimen, network, laws, options), motions(particles) {
+      : network(network),
+        particles(specimen.size()),
+        expansion(options.expansion),
+        newton(specimen, network, laws, options),
+        motions(particles) {
     displacement.assign(6 * particles, 0.0);
   }
 
   const ContactNetwork& network;
   std::size_t particles;
+  std::vector<double> expansion;  ///< as QuasiStaticOptions::expansion
   Newton newton;
   // The accepted state
   double time = 0, scale = 0;
@@ -78,8 +84,43 @@ struct QuasiStatic::Parts {
     return out;
   }
 
+  void start(const StartState& state) {
+    auto& contacts = newton.contacts();
+    if (contacts.has_cracks() || state.chain.size() != contacts.states().size() ||
+        state.displacement.size() != particles || state.rotation.size() != particles)
+      throw InputError("quasi-static: found a state of motion with " + std::to_string(state.chain.size()) +
+                       " numbers of contacts and " + std::to_string(state.displacement.size()) +
+                       " particles, expected " + std::to_string(contacts.states().size()) + " and " +
+                       std::to_string(particles) + ", and laws without cracks");
+    for (std::size_t i = 0; i < particles; ++i) {
+      const Vec3d &u = state.displacement[i], &r = state.rotation[i];
+      const double six[6] = {u.x, u.y, u.z, r.x, r.y, r.z};
+      std::copy(six, six + 6, &displacement[6 * i]);
+    }
+    contacts.set_states(state.chain, contacts.grew());
+    reaction.fill({});
+    for (std::size_t c = 0; c < network.contacts.size(); ++c) {
+      const Contact& contact = network.contacts[c];
+      if (contact.b >= 0) continue;
+      const Six load = quasi_static::load_on(contact, contacts.accepted_force(c), 1);
+      reaction[wall_index(contact.b)] += Vec3d{load[0], load[1], load[2]};
+    }
+    show(wall, reaction);
+  }
+
+  /// Returns the work of the contacts' forces against the expansion of the increment that is to be accepted [J].
+  double thermal_work() const {
+    if (expansion.empty() || increment.warming == 0) return 0;
+    const auto& contacts = newton.contacts();
+    return sum_in_parallel<double>(expansion.size(), [&](std::size_t c) {
+      const double mean = 0.5 * (contacts.accepted_force(c)[0] + contacts.force(c)[0]);
+      return -mean * expansion[c] * increment.warming;
+    });
+  }
+
   void accept() {
     if (!solved) throw RunError("quasi-static: accept() needs an increment that has converged");
+    energies.thermal_j += thermal_work();
     const quasi_static::ContactEnergies sums = newton.contacts().accept(trial.relative);
     for (std::size_t w = 0; w < wall_count; ++w) {
       energies.work_j += 0.5 * dot(reaction[w] + trial.reaction[w], trial.wall[w]);
@@ -106,6 +147,7 @@ QuasiStatic::QuasiStatic(const Specimen& specimen, const ContactNetwork& network
 QuasiStatic::~QuasiStatic() = default;
 QuasiStatic::QuasiStatic(QuasiStatic&&) noexcept = default;
 
+void QuasiStatic::start(const StartState& state) { parts_->start(state); }
 IncrementReport QuasiStatic::solve(const WallIncrement& increment) { return parts_->solve(increment); }
 void QuasiStatic::accept() { parts_->accept(); }
 void QuasiStatic::reject() {
@@ -184,7 +226,8 @@ std::vector<StateArray> QuasiStatic::state() const {
     for (const Vec3d& x : *walls) numbers.insert(numbers.end(), {x.x, x.y, x.z});
   }
   const QuasiStaticEnergies& e = p.energies;
-  numbers.insert(numbers.end(), {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j});
+  numbers.insert(numbers.end(),
+                 {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j, e.thermal_j});
   const std::vector<char>& grew = p.newton.contacts().grew();
   return {{"quasi_static", "s, 1, m, 1, s, m, m, s, m, m, m, N, J", std::move(numbers)},
           {"displacement", "m, 1", p.displacement},
@@ -222,7 +265,8 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   }
   QuasiStaticEnergies& e = p.energies;
   e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
-  e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5];
+  e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5],
+  e.thermal_j = numbers[at + 6];
   p.displacement = doubles(1);
   const auto& grew = std::get<std::vector<std::int64_t>>(found[5]->values);
   p.newton.contacts().set_states(doubles(4), {grew.begin(), grew.end()});

@@ -25,6 +25,9 @@ void require_volumetric(const Scene& scene) {
     refuse("rule in [network]", fmt::format("\"volumetric\" with kind \"{}\"", kind_of(scene.experiment)),
            "kind \"cyclic\" or \"sweep\", or rule \"series\", because with this rule only responses to cyclic loads "
            "can be computed");
+  if (scene.solver.method == SolverMethod::quasi_static)
+    refuse("rule in [network]", "\"volumetric\" with method \"quasi_static\"",
+           "method \"harmonic\", or rule \"series\", because increments do not compute the pressures of cells");
   if (scene.solver.backend == Backend::cuda)
     refuse("backend in [solver]", "\"cuda\" with rule \"volumetric\"",
            "\"cpu\", because the solver on GPUs does not compute the pressures of cells");
@@ -53,12 +56,17 @@ void require_combination(const Scene& scene) {
         fmt::format("{} temperature(s) with method \"explicit\"", temperatures_of(scene.experiment).size()),
         "method \"harmonic\", or a single temperature as temperature in [materials]");
   }
+  if (scene.solver.method != SolverMethod::quasi_static && !temperature_history_of(scene.experiment).empty()) {
+    throw InputError(scene.file.string(), 0, "temperature in [loading]",
+                     std::string("a list with method \"") + to_string(scene.solver.method) + "\"",
+                     "method \"quasi_static\", because only increments follow a changing temperature");
+  }
   if (scene.solver.method == SolverMethod::quasi_static) {
     const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
       throw InputError(scene.file.string(), 0, std::string(what) + " with method \"quasi_static\"", found, expected);
     };
-    if (stepping_of(scene.experiment) != experiments::Stepping::if_asked)
-      refuse("kind", kind_of(scene.experiment), "\"monotonic\", \"relaxation\", \"creep\" or \"history\"");
+    if (stepping_of(scene.experiment) == experiments::Stepping::never)
+      refuse("kind", kind_of(scene.experiment), "\"cyclic\", \"monotonic\", \"relaxation\", \"creep\" or \"history\"");
     if (scene.solver.backend == Backend::cuda || scene.solver.backend == Backend::reference)
       refuse("backend", to_string(scene.solver.backend), "cpu");
     if (scene.solver.precision.value_or(Precision::double_) != Precision::double_)

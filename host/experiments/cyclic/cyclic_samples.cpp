@@ -64,7 +64,7 @@ void CyclicSteps::warn_of_cracks(std::size_t i, const experiments::Cracks& found
 
 Course CyclicSteps::course_of(std::size_t i, LineWriter* writer, CrackWatch& cracks, const Content& content) {
   const FrequencyPlan& p = at_.plan.frequencies[i];
-  const std::int64_t per_cycle = scene_.cyclic().samples_per_cycle, per_period = p.loading.steps_per_period;
+  const std::int64_t per_cycle = at_.plan.samples_per_cycle, per_period = p.loading.steps_per_period;
   const std::int64_t stride = per_period / per_cycle;
   const std::int64_t kept = writer ? 0 : std::int64_t{std::max(0, p.cycles - p.fit_cycles - 1)} * per_cycle;
   Course course;
@@ -97,6 +97,10 @@ Course CyclicSteps::course_of(std::size_t i, LineWriter* writer, CrackWatch& cra
     if (writer) writer->add(response_line(at_.samples.back()));
   };
   course.shown = [=, this, &p](std::int64_t step, double steps_a_second) {
+    if (is_quasi_static())
+      return fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}", p.loading.frequency, i + 1,
+                         at_.plan.frequencies.size(), static_cast<double>(step) / static_cast<double>(per_period),
+                         p.cycles);
     return fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", p.loading.frequency, i + 1,
                        at_.plan.frequencies.size(), static_cast<double>(step) / static_cast<double>(per_period),
                        p.cycles, steps_a_second);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "host/experiments/cyclic/increment_plan.hpp"
 #include "host/experiments/cyclic/run_state.hpp"
 #include "host/files/result_files.hpp"
 #include "host/network/free_sides.hpp"
@@ -43,6 +44,12 @@ class CyclicSteps : public PlannedExperiment {
 
  private:
   void warn(const std::string& warning, RunResult& result);
+
+  bool is_quasi_static() const;
+  /// Makes the increments of a frequency.
+  std::unique_ptr<Stepper> make_increments(std::size_t i, const std::vector<StateArray>& from, RunResult& result);
+  /// Returns the numbers of increments of the frequency that has been run.
+  experiments::Increments increments_found() const;
 
   /// Makes the stepper of a frequency. If there is a stepper of another frequency, reuses its data. At this point the
   /// run may move to other devices (GPUs).
@@ -83,12 +90,13 @@ class CyclicSteps : public PlannedExperiment {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
-  DeviceList devices_;                ///< devices of the stepper
-  bool may_move_ = true;              ///< whether the run may move to other devices
-  std::unique_ptr<Stepper> stepper_;  ///< stepper of the running frequency or of the first one
-  ContactState contact_state_;        ///< at the last sample, if contact points can break
-  bool used_ = false;                 ///< whether the stepper has run a frequency
-  std::optional<FreeSides> sides_;    ///< empty if a side is held or has no cell
+  DeviceList devices_;                              ///< devices of the stepper
+  bool may_move_ = true;                            ///< whether the run may move to other devices
+  const QuasiStaticStepper* increments_ = nullptr;  ///< `stepper_`, if the method is quasi-static
+  std::unique_ptr<Stepper> stepper_;                ///< stepper of the running frequency or of the first one
+  ContactState contact_state_;                      ///< at the last sample, if contact points can break
+  bool used_ = false;                               ///< whether the stepper has run a frequency
+  std::optional<FreeSides> sides_;                  ///< empty if a side is held or has no cell
   std::optional<LineWriter> cracks_writer_;
   std::size_t samples_read_ = 0;  ///< number of samples of finished frequencies
   bool owns_checkpoint_;

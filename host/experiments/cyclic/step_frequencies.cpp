@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_frequencies.cpp  Steps the cyclic test in time, one frequency after another.
+// step_frequencies.cpp  Follows the cyclic test in time, by steps or by increments, one frequency after another.
 #include <fmt/format.h>
 #include <omp.h>
 
@@ -137,7 +137,26 @@ void CyclicSteps::warn(const std::string& warning, RunResult& result) {
   if (watcher_.warn) watcher_.warn(warning);
 }
 
+bool CyclicSteps::is_quasi_static() const { return scene_.solver.method == SolverMethod::quasi_static; }
+
+std::unique_ptr<Stepper> CyclicSteps::make_increments(std::size_t i, const std::vector<StateArray>& from,
+                                                      RunResult& result) {
+  const InPhase in(result.phases, &PhaseSeconds::stepper);
+  auto made = make_cycle_increments(scene_, prepared_, at_.plan, at_.plan.frequencies[i], from);
+  increments_ = made.get();
+  return made;
+}
+
+experiments::Increments CyclicSteps::increments_found() const {
+  const quasi_static::CourseReport& report = increments_->report();
+  experiments::Increments out;
+  out.increments = report.increments, out.rejected = report.rejected, out.systems = report.passes;
+  out.error = report.error, out.loose = report.loose;
+  return out;
+}
+
 std::unique_ptr<Stepper> CyclicSteps::make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
+  if (is_quasi_static()) return make_increments(i, from, result);
   const InPhase in(result.phases, &PhaseSeconds::stepper);
   const auto& all = at_.plan.frequencies;
   std::optional<StartState> start;
@@ -193,11 +212,12 @@ void CyclicSteps::step(std::size_t i, LineWriter* writer, SampledRuns& sampled_r
   CrackWatch cracks(scene_, prepared_, at_.cracks[i].events);
   const Course course =
       course_of(i, writer, cracks, [&](Checkpoint& to) { add_to(to, at_, before + seconds_since(start)); });
-  sampled_runs.begin_fields(fmt::format("{}Hz", p.loading.frequency), scene_.cyclic().samples_per_cycle,
+  sampled_runs.begin_fields(fmt::format("{}Hz", p.loading.frequency), at_.plan.samples_per_cycle,
                             stepper_->observe().time);
   sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
   warn_of_cracks(i, cracks.found(), result);
   at_.seconds.push_back(before + seconds_since(start));
+  if (is_quasi_static()) at_.increments.push_back(increments_found());
 }
 
 void CyclicSteps::finish(std::size_t i, RunResult& result) {
@@ -210,6 +230,10 @@ void CyclicSteps::finish(std::size_t i, RunResult& result) {
   if (counts_cracks(scene_)) {
     f.cracks = CrackWatch(scene_, prepared_, cracks.events).found();
     f.cracks->sums.reset();  // the stepper of this frequency may no longer exist
+  }
+  if (is_quasi_static()) {
+    f.increments = i < at_.increments.size() ? at_.increments[i] : experiments::Increments{};
+    if (f.cracks) f.cycle_stiffness = stiffness_of_cycles(samples, f.frequency_hz);
   }
   if (f.rupture) return;
   const bool linear = !first_without_stiffness(scene_.laws);
@@ -226,9 +250,11 @@ std::unique_ptr<PlannedExperiment> plan_steps(const Scene& scene, const Preparat
   if (resumed) {
     at = to_run_state(std::move(resumed->checkpoint), resumed->file);
   } else {
-    at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
+    const bool steps = scene.solver.method == SolverMethod::explicit_;
+    at.plan = steps ? make_plan(scene, prepared, inertia, watcher, result.backend, result.phases)
+                    : make_increment_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
     at.cracks.resize(at.plan.frequencies.size());
-    decide_blocks(scene, result.backend, at.plan);
+    if (steps) decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
       at.warnings.push_back(fmt::format(
           "law {} of {} has no complex stiffness: |E*| and phi describe the fundamental of the stepped loops at this "

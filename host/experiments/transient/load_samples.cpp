@@ -114,9 +114,11 @@ SteppedPoint SteppedLoad::point(const Observation& now, const ParticleState& par
   out.poisson_ratio = sides_ && out.strain != 0
                           ? sides_->contraction(motions_of(particles, sides_->particles())) / now.top_displacement()
                           : none;
+  if (!test_.temperature.empty()) out.temperature_c = test_.temperature.at(now.time);
   if (test_.by_stress) {
     out.stress_pa = load;
-    out.ratio = test_.when.release && now.time > *test_.when.release + 0.5 * at_.plan.dt ? none : out.strain / load;
+    const bool released = test_.when.release && now.time > *test_.when.release + 0.5 * at_.plan.dt;
+    out.ratio = released || load == 0 ? none : out.strain / load;
   } else {
     out.stress_pa = out.top_pa;
     out.ratio = out.strain == 0 ? none : out.stress_pa / out.strain;

@@ -141,8 +141,8 @@ std::string SteppedLoad::head(const LoadWords& words) const {
 }
 
 SteppedColumns SteppedLoad::columns() const {
-  return {test_.by_stress, cracks_.active(), cracks_.sums(), at_.plan.damping_kind != Damping::none,
-          sides_.has_value()};
+  return {test_.by_stress,    cracks_.active(),          cracks_.sums(), at_.plan.damping_kind != Damping::none,
+          sides_.has_value(), !test_.temperature.empty()};
 }
 
 void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, RunResult& result) {
