@@ -219,7 +219,7 @@ void Increments::advance_by_opening(std::int64_t stop) {
 }
 
 void Increments::fail(const IncrementReport& found) const {
-  throw RunError(fmt::format(
+  const std::string text = fmt::format(
       "quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} (the forces are out of balance by "
       "{:.1e} of their size{}), although increments became very short; either the specimen fails there, or it moves "
       "suddenly{}",
@@ -227,7 +227,9 @@ void Increments::fail(const IncrementReport& found) const {
       found.lost_stability ? "; its stiffness has a negative direction" : "",
       options_.temperature.empty()
           ? ", which method = \"explicit\" in [solver] can follow"
-          : fmt::format("; its temperature is {:.4g} degrees C", options_.temperature.at(network_.time()))));
+          : fmt::format("; its temperature is {:.4g} degrees C", options_.temperature.at(network_.time())));
+  const double strain = network_.wall_displacement()[driven].z / options_.height;
+  throw NoEquilibrium(text, {network_.time(), strain, past_.back().value});
 }
 
 std::vector<StateArray> Increments::state() const {

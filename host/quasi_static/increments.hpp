@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "macadam/drives/drive.hpp"
+#include "macadam/error.hpp"
 #include "macadam/quasi_static.hpp"
 #include "macadam/temperature.hpp"
 
@@ -47,13 +49,20 @@ struct CourseReport {
   std::int64_t by_opening = 0;  ///< number of increments that were controlled by the opening of cracks
 };
 
+/// No equilibrium was found, although increments became very short. Holds the last equilibrium.
+class NoEquilibrium : public RunError {
+ public:
+  NoEquilibrium(const std::string& message, const CourseReport::Unstable& last) : RunError(message), last(last) {}
+  CourseReport::Unstable last;  ///< `stress_pa` is the strain if the drive is a force
+};
+
 class Increments {
  public:
   Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, CourseOptions options);
 
   /// Starts from a state of motion, as QuasiStatic::start().
   void start(const StartState& state);
-  /// Takes one increment, which ends at the next stop or earlier. \throws RunError if no equilibrium is found.
+  /// Takes one increment, which ends at the next stop or earlier. \throws NoEquilibrium
   void advance();
   std::int64_t step() const { return step_; }
   const QuasiStatic& network() const { return network_; }

@@ -93,6 +93,28 @@ TEST_F(ThermalScene, AShiftSlowsRelaxationDownDuringTheTest) {
   EXPECT_EQ(row, found.size());
 }
 
+// One facet of 0.2 MPa softens over 2.5e-6 m, less than the 4e-6 m by which the column of 20 mm shortens at this
+// stress. So no equilibrium exists beyond the strength, which is reached after 10 K of cooling.
+TEST_F(ThermalScene, AHeldColumnBreaksSuddenly) {
+  const std::string wall = "[[contacts]]\npair = \"M-W\"\n";
+  std::string all = text(restrained + cooling);
+  write(folder_ / "column.csv",
+        "id,x,y,z,radius,phase,body\n0,0.005,0.005,0.005,0.005,mastic,-1\n1,0.005,0.005,0.015,0.005,mastic,-1\n");
+  all.replace(all.find("0.04"), 4, "0.02");
+  all.insert(all.find(wall), "alpha = 0.1\ncrack = { tensile_strength = \"0.2 MPa\", fracture_energy = 0.25 }\n");
+  const RunResult result = run(scene(all), out("out"));
+  const auto& found = std::get<SteppedResponse>(result.found);
+  ASSERT_TRUE(found.increments && found.increments->sudden_break);
+  // the last increment is at most a hundredth of the longest one, which lasts 900 s, or 7.5 K
+  EXPECT_NEAR(found.increments->temperature_at_break_c, 10, 0.1);
+  EXPECT_NEAR(found.increments->sudden_break->stress_pa, 2e5, 2e3);
+  EXPECT_EQ(found.points.size(), 1u);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_HAS(result.warnings.back(), "breaks suddenly");
+  EXPECT_HAS(read(out("out") / "summary.json"), "\"sudden_break\"");
+  EXPECT_HAS(read(out("out") / "history.csv"), "thermal_work_j");
+}
+
 TEST_F(ThermalScene, ChoosesIncrementsAndRefusesOtherMethods) {
   EXPECT_EQ(scene(text(restrained + cooling)).solver.method, SolverMethod::quasi_static);
   EXPECT_HAS(refusal(text(restrained + cooling, "[solver]\nmethod = \"harmonic\"\n")), "quasi_static");

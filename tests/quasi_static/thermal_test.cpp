@@ -169,6 +169,33 @@ TEST(ThermalSpecimen, CracksAsIfItWerePulled) {
   EXPECT_NEAR(cold.energies().thermal_j, pulled.energies().work_j, 1e-8 * pulled.energies().work_j);
 }
 
+// One facet of 0.2 MPa softens over 5e-7 m, less than the 8e-7 m by which the column shortens at this stress. So no
+// equilibrium exists beyond the strength, which is reached after 10 K of cooling.
+TEST(ThermalSpecimen, HasNoEquilibriumBeyondASuddenBreak) {
+  const HandMade made = column(2);
+  constexpr double soft = 1e9, strength = 2e5;
+  Laws laws = same_law(laws::Elastic{soft, 0});
+  laws[static_cast<std::size_t>(PairType::mm)] =
+      laws::Cracked<laws::Elastic>{laws::Elastic{soft, 0.1}, {strength, 0.05, 2 * strength, 0.1, 0, 0}};
+  quasi_static::CourseOptions options;
+  constexpr double unit = 3600.0 / 1'000'000;
+  options.drive = std::make_shared<drives::Table>(unit, std::vector<double>{0, 3600}, std::vector<double>{0, 0});
+  options.height = 2 * side, options.area = area, options.first = 200;
+  for (int k = 1; k <= 4; ++k) options.stops.push_back(250'000 * k);
+  options.temperature = {{0, 3600}, {20, -10}};
+  options.solver.expansion = free_openings(made.network, made.specimen, {0, coefficient});
+  quasi_static::Increments increments(made.specimen, made.network, laws, options);
+  try {
+    while (increments.step() < 1'000'000) increments.advance();
+    FAIL() << "an equilibrium was found beyond the strength";
+  } catch (const quasi_static::NoEquilibrium& error) {
+    // the last increment is at most a hundredth of the longest one, which lasts 900 s, or 7.5 K
+    EXPECT_NEAR(options.temperature.at(error.last.time_s), 10, 0.1);
+    EXPECT_NEAR(error.last.stress_pa, strength, 0.01 * strength);
+    EXPECT_EQ(error.last.strain, 0);
+  }
+}
+
 constexpr laws::Wlf wlf{12, 90, 20};
 
 /// Returns the stress of a held bar whose chain has one Kelvin unit, by Runge and Kutta's method in short steps.

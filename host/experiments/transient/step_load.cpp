@@ -187,13 +187,24 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
     if (measures_peak() && cracks_.sums())
       found.fitted = quasi_static_ ? interpolate_peak(at_.stresses) : fit_peak(at_.stresses, at_.peak);
     if (rupture_) found.steps = stepper_->observe().step;
-    if (quasi_static_) found.increments = increments_found(*quasi_static_);
+    if (!quasi_static_) return;
+    found.increments = increments_found(*quasi_static_);
+    if (!sudden_break_) return;
+    found.increments->sudden_break = sudden_break_;
+    found.increments->temperature_at_break_c = test_.temperature.at(sudden_break_->time_s);
     found.seconds = before + seconds_since(start);
     found.kinetic_share = kinetic_share(found.points, prepared_.specimen.box.volume());
     owns_checkpoint_ = sampled_runs.own_checkpoint();
   };
   try {
     sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+  } catch (const quasi_static::NoEquilibrium& error) {
+    // a specimen that cracks because its temperature changes ends its test by breaking
+    if (test_.temperature.empty() || !cracks_.active()) {
+      finish();
+      throw;
+    }
+    sudden_break_ = {error.last.time_s, error.last.strain, error.last.stress_pa};
   } catch (...) {
     finish();
     throw;
@@ -210,6 +221,13 @@ void SteppedLoad::judge(const SteppedResponse& found, std::vector<std::string>& 
   if (found.rupture && (!test_.grows || test_.reverses)) return warnings.push_back(rupture_words(*found.rupture));
   std::vector<SteppedPoint> whole = found.points;
   if (found.rupture && !whole.empty()) whole.pop_back();  // at the last point the specimen was in two pieces
+  if (sudden_break_) {
+    warnings.push_back(
+        fmt::format("after t = {:.6g} s ({:.5g} degrees C, {:.4g} MPa) no equilibrium was found: the specimen breaks "
+                    "suddenly, and the test ends there",
+                    sudden_break_->time_s, test_.temperature.at(sudden_break_->time_s),
+                    sudden_break_->stress_pa / 1e6));
+  }
   if (quasi_static_) warn_of_increments(quasi_static_->report(), warnings);
   if (quasi_static_ && !at_.unstepped) return;
   if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));

@@ -93,6 +93,7 @@ class SteppedLoad : public PlannedExperiment {
   EnergyLedger ledger_;
   ContactState contact_state_;  // at the last point of the result; chains: see EnergyLedger::sample()
   std::optional<experiments::Rupture> rupture_ = {};
+  std::optional<experiments::Peak> sudden_break_ = {};  ///< the last equilibrium, if the specimen then broke suddenly
   bool owns_checkpoint_;
 };
 

@@ -112,6 +112,12 @@ void add_increments(const experiments::Increments& found, nlohmann::ordered_json
   out["linear_systems"] = found.systems;
   out["increment_error"] = found.increment_error;
   out["loose_particles"] = found.loose;
+  if (found.sudden_break) {
+    out["sudden_break"] = {{"time_s", found.sudden_break->time_s},
+                           {"temperature_c", found.temperature_at_break_c},
+                           {"strain", found.sudden_break->strain},
+                           {"stress_pa", found.sudden_break->stress_pa}};
+  }
   if (!found.unstable) return;
   out["unstable"] = {{"time_s", found.unstable->time_s},
                      {"strain", found.unstable->strain},

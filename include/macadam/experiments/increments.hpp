@@ -23,6 +23,9 @@ struct Increments {
   double increment_error = 0;
   /// Largest number of particles without stiffness, and number of increments controlled by the opening of cracks.
   std::int64_t loose = 0, by_opening = 0;
+  /// The last equilibrium, if the specimen then broke suddenly while its temperature changed; empty otherwise.
+  std::optional<Peak> sudden_break = {};
+  double temperature_at_break_c = 0;  ///< of `sudden_break` [°C]
   std::optional<Peak> unstable = {};  ///< the state after which the test was controlled by opening
 };
 
