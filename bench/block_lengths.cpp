@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "host/run/error_model.hpp"
-#include "kernels/contact/contact_kinematics.hpp"
+#include "kernels/contact/initial_contact.hpp"
 #include "kernels/layout/layout.hpp"
 #include "tests/support/test_scenes.hpp"
 
@@ -83,8 +83,7 @@ Stiffness stepped(const test::TestScene& scene, const StartState& start, const d
     const auto pair = static_cast<std::size_t>(c.pair);
     Element e{};
     e.frame = kernels::canonical_placement(c.n, std::copysign(1.0, c.n.z), c.arm_a, c.arm_b);
-    const double moments[6] = {c.moments.a, c.moments.s, c.moments.t, c.moments.ss, c.moments.st, c.moments.tt};
-    for (int k = 0; k < 6; ++k) e.moments[k] = moments[k] / c.length;
+    kernels::moments_over_length(c, e.moments);
     e.a = static_cast<std::size_t>(c.a);
     e.b = c.b >= 0 ? static_cast<std::size_t>(c.b) : n + static_cast<std::size_t>(-1 - c.b);
     const double* chain = &start.chain[start.chain_begin[i]];

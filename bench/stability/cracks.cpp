@@ -83,7 +83,8 @@ void chatter_rows(Rows& rows, const Setting& setting, double ratio, std::int64_t
   double size = 0;
   const Vec3d before = momentum(scene, stepper->particles(), size);
   const auto energy = [&] {
-    const auto now = ledger.sample(stepper->observe(), stepper->contacts(scene.network), stepper->particles(), {});
+    ContactState contacts = stepper->contacts(scene.network);
+    const auto now = ledger.sample(stepper->observe(), contacts, stepper->particles(), {});
     return now.elastic_j + now.kinetic_j;
   };
   const double start = energy();

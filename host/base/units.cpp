@@ -22,6 +22,7 @@ constexpr Unit durations[] = {{"s", 0},        {"ms", -3}, {"us", -6},     {"\u0
 constexpr Unit rates[] = {{"1/s", 0}, {"s^-1", 0}, {"1/ms", 3}};
 constexpr Unit temperatures[] = {{"degC", 0}, {"\u00b0C", 0}, {"C", 0}};
 constexpr Unit differences[] = {{"K", 0}, {"degC", 0}, {"\u00b0C", 0}};
+constexpr Unit expansions[] = {{"1/K", 0}, {"K^-1", 0}, {"1/degC", 0}};
 constexpr Unit molar_energies[] = {{"J/mol", 0}, {"kJ/mol", 3}};
 constexpr Unit fracture_energies[] = {{"J/m2", 0},   {"J/m^2", 0},      {"J/m\u00b2", 0}, {"kJ/m2", 3},
                                       {"kJ/m^2", 3}, {"kJ/m\u00b2", 3}, {"N/m", 0},       {"N/mm", 3}};
@@ -62,6 +63,7 @@ const Quantity duration{"time", durations};
 const Quantity rate{"rate", rates};
 const Quantity temperature{"temperature", temperatures};
 const Quantity temperature_difference{"difference of temperatures", differences};
+const Quantity expansion{"coefficient of expansion", expansions};
 const Quantity molar_energy{"molar energy", molar_energies};
 const Quantity fracture_energy{"fracture energy", fracture_energies};
 const Quantity ratio{"ratio", ratios};

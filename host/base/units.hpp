@@ -32,6 +32,7 @@ extern const Quantity duration;                ///< [s]
 extern const Quantity rate;                    ///< [1/s]
 extern const Quantity temperature;             ///< [°C]
 extern const Quantity temperature_difference;  ///< [K]
+extern const Quantity expansion;               ///< [1/K]
 extern const Quantity molar_energy;            ///< [J/mol]
 extern const Quantity fracture_energy;         ///< [J/m²]
 extern const Quantity ratio;                   ///< [1]; text must be a percentage

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "host/scene/shift_keys.hpp"
 #include "macadam/spectrum.hpp"
 
 namespace macadam::scene {
@@ -16,6 +17,29 @@ Key poisson_key(double& target) {
   target = 0.35;
   return {"poisson_ratio", Need::optional, into(target, ratio, rule),
           "Poisson's ratio in the tables for finite-element programs; the specimen does not determine it"};
+}
+
+Key temperature_key(TemperatureHistory& target) {
+  constexpr const char* pairs = "a list of pairs [time, temperature], the first one at time 0";
+  const auto read = [&target](const Value& value) {
+    for (const Value& entry : value.entries(pairs)) {
+      const std::vector<Value> pair = entry.entries("a pair [time, temperature]");
+      if (pair.size() != 2) entry.refuse(fmt::format("{} numbers", pair.size()), "a pair [time, temperature]");
+      const double time = pair[0].number(duration, non_negative);
+      if (target.empty() && time != 0) entry.refuse(fmt::format("{} s as the first time", time), pairs);
+      if (!target.empty() && !(time > target.times.back()))
+        entry.refuse(fmt::format("{} s after {} s", time, target.times.back()), "times that ascend");
+      target.times.push_back(time);
+      target.temperatures.push_back(pair[1].number(temperature, celsius));
+    }
+    if (target.times.size() < 2) value.refuse(fmt::format("{} pairs", target.times.size()), "at least two pairs");
+  };
+  return {"temperature",
+          Need::optional,
+          {read, {"list of pairs", nullptr, "times [s] that ascend from 0, temperatures in degrees C"}},
+          "method \"quasi_static\": temperature of the specimen at given times, connected by straight lines; the "
+          "specimen is without thermal stress at the first temperature",
+          "the temperature does not change"};
 }
 
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,

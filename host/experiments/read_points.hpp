@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/scene/table.hpp"
+#include "macadam/temperature.hpp"
 
 namespace macadam::scene {
 
@@ -19,6 +20,9 @@ inline Key kind_key() {
 
 /// Sets the target to its default and returns the key `poisson_ratio` of `[loading]`.
 Key poisson_key(double& target);
+
+/// Returns the key `temperature` of `[loading]`: pairs of a time and a temperature.
+Key temperature_key(TemperatureHistory& target);
 
 /// Checks a list. \throws InputError if the key is given without entries, or has the same entry twice.
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,

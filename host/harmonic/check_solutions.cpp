@@ -8,14 +8,14 @@
 #include <cmath>
 
 #include "host/harmonic/cell_pressure.hpp"
-#include "host/harmonic/particle_contacts.hpp"
+#include "host/harmonic/group_lanes.hpp"
+#include "host/harmonic/solution_sums.hpp"
 #include "kernels/harmonic/particle_block.hpp"
 
 namespace macadam::harmonic {
 namespace {
 
 using L = FourNumbers;
-using kernels::Placement;
 using kernels::Twist;
 
 /// Returns the number of particles in a piece, the unit of work of a thread. Pieces are small, so that no thread waits
@@ -23,26 +23,6 @@ using kernels::Twist;
 /// piece may hold many of these particles.) Pieces are not smaller, because adding the sums of very many pieces would
 /// take time.
 std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
-
-/// Sums over some particles for one solution u: the squares of the residual, uᵀ·M·u, and the contributions of the pair
-/// types to E*.
-struct Sums {
-  /// Sums of squares [N²]: of the residual, and of the part of the residual that rounding does not explain.
-  double residual = 0, beyond = 0;
-  Complex inertia = 0;
-  ModulusParts parts;
-
-  void add(const Sums& o) {
-    residual += o.residual, beyond += o.beyond, inertia += o.inertia;
-    for (std::size_t pair = 0; pair < pair_types; ++pair) {
-      parts.normal[pair] += o.parts.normal[pair];
-      parts.shear[pair] += o.parts.shear[pair];
-      parts.normal_rock[pair] += o.parts.normal_rock[pair];
-      parts.shear_rock[pair] += o.parts.shear_rock[pair];
-    }
-  }
-};
-using AllSums = std::array<Sums, at_once>;
 
 /// Checks up to four solutions. If `single`, it checks one solution and processes four of its contacts at a time.
 template <bool single>
@@ -83,25 +63,6 @@ class Check {
   }
 
  private:
-  /// Sums of load times relative displacement over the contacts of one pair type. `share` is the fraction of a contact
-  /// that is added (see share()).
-  struct PairProducts {
-    Products<at_once> normal, shear, normal_rock, shear_rock;
-    /// Adds the parts of these products that the rock in series causes: the fraction series·k of a contact with the
-    /// stiffness k, of which α is a factor in shear.
-    void add_rock(const kernels::FacetLoad<L>& load, const L (&u)[6], L share, const Factor<at_once>& in_normal,
-                  const Factor<at_once>& in_shear) {
-      normal_rock.add(in_normal(load.n * share), u[0]), normal_rock.add(in_normal(-load.moment_t * share), u[1]);
-      normal_rock.add(in_normal(load.moment_s * share), u[2]);
-      shear_rock.add(in_shear(load.s * share), u[3]), shear_rock.add(in_shear(load.t * share), u[4]);
-      shear_rock.add(in_shear(load.moment_n * share), u[5]);
-    }
-    void add(const kernels::FacetLoad<L>& load, const L (&u)[6], L share) {
-      normal.add(load.n * share, u[0]), normal.add(-load.moment_t * share, u[1]);
-      normal.add(load.moment_s * share, u[2]);
-      shear.add(load.s * share, u[3]), shear.add(load.t * share, u[4]), shear.add(load.moment_n * share, u[5]);
-    }
-  };
   /// The load on a particle from all its contacts (`sum`), and the force and moment that result if the magnitudes of
   /// all terms are added.
   struct Total {
@@ -110,16 +71,6 @@ class Check {
   };
   static constexpr int step = single ? at_once : 1;  ///< number of contacts per group
   using Group = ContactGroup<step>;
-
-  /// Returns a property `of(f)` of the contacts of a group. If `single`, each lane has the value of its own contact.
-  /// Otherwise the group has one contact, and all lanes have its value.
-  template <class Of>
-  static L of_contact(Of&& of) {
-    if constexpr (single)
-      return real_lanes(of);
-    else
-      return L(of(0));
-  }
 
   /// Returns, for each solution, the sums over particles begin … end − 1.
   AllSums sums_of(std::size_t begin, std::size_t end) const {
@@ -143,7 +94,7 @@ class Check {
       }
     }
     for (int f = 0; f < at_once; ++f) {
-      Sums& own = out[static_cast<std::size_t>(f)];
+      SolutionSums& own = out[static_cast<std::size_t>(f)];
       own.residual = rest_squared.conjugated(f);
       own.inertia = motion_squared.plain(f);
     }
@@ -212,31 +163,14 @@ class Check {
   /// Adds the loads of a group of contacts to `out`, and their products with the relative displacements to `pairs`.
   /// `own` is the motion of the particle.
   void add_loads(const Group& g, const Twist<L>& own, Total& out, PairProducts (&pairs)[pair_types]) const {
-    const auto at = [&g](int f) -> const Contact& { return *g.contact[f]; };
     const Twist<L> other = motion_of([&](int f) { return g.far[f]; });
-    const Placement<L> frame{
-        {of_contact([&](int f) { return g.sign[f] * at(f).n.x; }),
-         of_contact([&](int f) { return g.sign[f] * at(f).n.y; }),
-         of_contact([&](int f) { return g.sign[f] * at(f).n.z; })},
-        {of_contact([&](int f) { return at(f).s.x; }), of_contact([&](int f) { return at(f).s.y; }),
-         of_contact([&](int f) { return at(f).s.z; })},
-        {of_contact([&](int f) { return g.sign[f] * at(f).t.x; }),
-         of_contact([&](int f) { return g.sign[f] * at(f).t.y; }),
-         of_contact([&](int f) { return g.sign[f] * at(f).t.z; })},
-        of_contact([&](int f) { return g.own_arm[f]; }),
-        of_contact([&](int f) { return g.far_arm[f]; })};
-    const L over_d = of_contact([&](int f) { return g.over_d[f]; }),
-            turned = of_contact([&](int f) { return g.sign[f]; }) * over_d;
-    const auto moment = [&](double AreaMoments::*which) {
-      return of_contact([&](int f) { return at(f).moments.*which; });
-    };
-    const L m[6] = {moment(&AreaMoments::a) * over_d,  moment(&AreaMoments::s) * over_d,
-                    moment(&AreaMoments::t) * turned,  moment(&AreaMoments::ss) * over_d,
-                    moment(&AreaMoments::st) * turned, moment(&AreaMoments::tt) * over_d};
+    const kernels::Placement<L> frame = frame_of(g);
+    L m[6];
+    moments_over_length(g, m);
     const Factor<at_once> k = single ? stiffness_of(g) : k_[g.pair[0]];
-    const L alpha = of_contact([&](int f) { return alpha_[g.pair[f]]; });
+    const L alpha = of_contact<step>([&](int f) { return alpha_[g.pair[f]]; });
     Factor<at_once> normal = k, shear = k;
-    const L series = g.in_series ? of_contact([&](int f) { return at(f).series; }) : L();
+    const L series = g.in_series ? of_contact<step>([&](int f) { return g.contact[f]->series; }) : L();
     if (g.in_series) normal = in_series(k, series), shear = in_series(k, alpha * series);
     L u[6], density[6];
     kernels::relative_rates(frame, own, other, u);
@@ -255,12 +189,15 @@ class Check {
                            {in_shear * shear.real, in_shear * shear.imaginary});
     };
     if (g.alike) {
-      add_products(g.pair[0], of_contact([&](int f) { return share(g.far[f]); }));
+      add_products(g.pair[0], of_contact<step>([&](int f) { return share(g.far[f]); }));
     } else {
       for (int i = 0; i < g.count; ++i)
-        add_products(g.pair[i], of_contact([&](int f) { return f == i ? share(g.far[f]) : 0.0; }));
+        add_products(g.pair[i], of_contact<step>([&](int f) { return f == i ? share(g.far[f]) : 0.0; }));
     }
-    if (rounding_ > 0) add_largest(g, normal, own, other, out);
+    if (rounding_ > 0) {
+      const LoadSizes largest = largest_load(g, normal, own, other);
+      out.force += largest.force, out.moment += largest.moment;
+    }
   }
 
   /// Adds to the relative displacements of a group the additional displacements that the pressures of cells cause.
@@ -289,26 +226,6 @@ class Check {
     for (int f = 0; f < g.count; ++f)
       k.set(f, k_[g.pair[f]].real.v[0] + Complex(0, k_[g.pair[f]].imaginary.v[at_once]));
     return k;
-  }
-
-  /// Adds the load of each contact for the worst case, in which the motions of its two ends do not cancel: the
-  /// magnitudes of the motions are added.
-  void add_largest(const Group& g, const Factor<at_once>& k, const Twist<L>& own, const Twist<L>& other,
-                   Total& out) const {
-    const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };
-    const auto moments = [&g](int f) -> const AreaMoments& { return g.contact[f]->moments; };
-    const L own_arm = of_contact([&](int f) { return std::abs(g.own_arm[f]); }),
-            far_arm = of_contact([&](int f) { return std::abs(g.far_arm[f]); }),
-            moves = of_contact([&](int f) { return g.far[f] < 0 ? 0.0 : 1.0; }),  // the motion of a wall is exact
-        area = of_contact([&](int f) { return moments(f).a * g.over_d[f]; }),
-            second = of_contact([&](int f) { return (moments(f).ss + moments(f).tt) * g.over_d[f]; }),
-            stiff = real_lanes([&](int f) { return std::abs(k.real.v[f]) + std::abs(k.imaginary.v[f]); });
-    const L turns = three(own.angular) + moves * three(other.angular);
-    const L force = area * stiff *
-                    (three(own.linear) + own_arm * three(own.angular) +
-                     moves * (three(other.linear) + far_arm * three(other.angular)));
-    out.force += force;
-    out.moment += second * stiff * turns + own_arm * force;
   }
 
   const ContactNetwork& network_;

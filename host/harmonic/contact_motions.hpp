@@ -5,8 +5,8 @@
 
 #include <Eigen/Dense>
 
-#include "kernels/contact/contact_kinematics.hpp"
-#include "macadam/contact_network.hpp"
+#include "host/network/contact_stiffness.hpp"
+#include "kernels/contact/initial_contact.hpp"
 
 namespace macadam::harmonic {
 
@@ -19,35 +19,25 @@ struct ContactMotions {
   /// Computes the displacements of a contact in all motions. `basis` is [6·particles][motions]. The first motion also
   /// moves the top wall by one.
   void set(const Contact& c, const Eigen::MatrixXd& basis) {
-    double u[6];
-    const kernels::Placement<double> placement{c.n, c.s, c.t, c.arm_a, c.arm_b};
     const auto twist = [&](std::int32_t end, Eigen::Index j) -> kernels::Twist<double> {
       if (end < 0) return {{0, 0, end == wall_z_hi && j == 0 ? 1.0 : 0.0}, {}};
       const auto x = [&](Eigen::Index k) { return basis(6 * static_cast<Eigen::Index>(end) + k, j); };
       return {{x(0), x(1), x(2)}, {x(3), x(4), x(5)}};
     };
     for (Eigen::Index j = 0; j < normal.cols(); ++j) {
-      kernels::relative_rates(placement, twist(c.a, j), twist(c.b, j), u);
-      for (Eigen::Index k = 0; k < 3; ++k) normal(k, j) = u[k], shear(k, j) = u[3 + k];
+      const auto u = kernels::relative_displacements(c, twist(c.a, j), twist(c.b, j));
+      for (std::size_t k = 0; k < 3; ++k) {
+        normal(static_cast<Eigen::Index>(k), j) = u[k];
+        shear(static_cast<Eigen::Index>(k), j) = u[3 + k];
+      }
     }
   }
 
   Rows normal, shear;
 };
 
-/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1. The matrices contain
-/// the same sums as condensed_load().
-inline Eigen::Matrix3d normal_form(const Contact& c) {
-  const auto& m = c.moments;
-  Eigen::Matrix3d out;
-  out << m.a, m.s, m.t, m.s, m.ss, m.st, m.t, m.st, m.tt;
-  return out / c.length;
-}
-inline Eigen::Matrix3d shear_form(const Contact& c) {
-  const auto& m = c.moments;
-  Eigen::Matrix3d out;
-  out << m.a, 0, -m.t, 0, m.a, m.s, -m.t, m.s, m.ss + m.tt;
-  return out / c.length;
-}
+/// Return the 3 × 3 matrices that map relative displacements to forces divided by k*, for α = 1.
+inline Eigen::Matrix3d normal_form(const Contact& c) { return normal_moments(c.moments) / c.length; }
+inline Eigen::Matrix3d shear_form(const Contact& c) { return shear_moments(c.moments) / c.length; }
 
 }  // namespace macadam::harmonic

@@ -13,9 +13,6 @@
 
 namespace macadam::harmonic {
 
-using kernels::Placement;
-using kernels::Twist;
-
 PairStiffness pair_stiffness(const LawTable& laws, Complex s) {
   PairStiffness out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -30,24 +27,16 @@ PairStiffness pair_stiffness(const LawTable& laws, Complex s) {
 
 namespace {
 
-Placement<double> placement_of(const Contact& c) { return {c.n, c.s, c.t, c.arm_a, c.arm_b}; }
-
-std::array<double, 6> moments_over_length(const Contact& c) {
-  return {c.moments.a / c.length,  c.moments.s / c.length,  c.moments.t / c.length,
-          c.moments.ss / c.length, c.moments.st / c.length, c.moments.tt / c.length};
-}
-
 /// Returns the six relative displacements of a contact. `a` and `b` are the motions of its two ends (six numbers each),
 /// or nullptr for a wall. `wall` is the displacement of the top wall along z.
 std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const Complex* b, Complex wall) {
-  const auto twist = [&](std::int32_t end, const Complex* x, auto part) -> Twist<double> {
+  const auto twist = [&](std::int32_t end, const Complex* x, auto part) -> kernels::Twist<double> {
     if (x) return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
     return {{0, 0, end == wall_z_hi ? part(wall) : 0.0}, {}};
   };
   std::array<Complex, 6> out;
   const auto rates = [&](auto part, auto&& set) {
-    double u[6];
-    kernels::relative_rates(placement_of(c), twist(c.a, a, part), twist(c.b, b, part), u);
+    const auto u = kernels::relative_displacements(c, twist(c.a, a, part), twist(c.b, b, part));
     for (std::size_t i = 0; i < 6; ++i) set(out[i], u[i]);
   };
   rates([](Complex z) { return z.real(); }, [](Complex& z, double v) { z.real(v); });
@@ -83,27 +72,22 @@ std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, C
 kernels::FacetLoad<Complex> facet_load(const Contact& c, const PairStiffness& stiffness,
                                        const std::array<Complex, 6>& u) {
   const auto pair = static_cast<std::size_t>(c.pair);
-  Complex density[6];
+  Complex density[6], m[6];
+  double real[6];
   const auto k = contact_stiffness(c, stiffness);
-  for (std::size_t i = 0; i < 6; ++i) density[i] = k[i / 3] * u[i];
-  const std::array<double, 6> real = moments_over_length(c);
-  const Complex alpha = stiffness.alpha[pair], m[6] = {real[0], real[1], real[2], real[3], real[4], real[5]};
-  return kernels::condensed_load(density, alpha, m);
+  kernels::moments_over_length(c, real);
+  for (std::size_t i = 0; i < 6; ++i) density[i] = k[i / 3] * u[i], m[i] = real[i];
+  return kernels::condensed_load(density, Complex(stiffness.alpha[pair]), m);
 }
 
 ContactOperator::Load ContactOperator::contact_load(const Contact& c, const PairStiffness& stiffness,
                                                     const std::array<Complex, 6>& u) {
-  const Placement<double> placement = placement_of(c);
-  const std::array<double, 6> moments = moments_over_length(c);
-  double m[6];
-  std::copy(moments.begin(), moments.end(), m);
-  const auto pair = static_cast<std::size_t>(c.pair);
-  const auto k = contact_stiffness(c, stiffness);
+  const kernels::FacetLoad<Complex> f = facet_load(c, stiffness, u);
   Load load;
-  const auto part = [&](auto&& part_of, auto&& set) {
-    double f[6];
-    for (std::size_t i = 0; i < 6; ++i) f[i] = part_of(k[i / 3] * u[i]);
-    const auto at = kernels::to_centres(placement, kernels::condensed_load(f, stiffness.alpha[pair], m));
+  const auto part = [&](auto&& of, auto&& set) {
+    const auto at = kernels::to_centres(
+        kernels::initial_placement(c),
+        kernels::FacetLoad<double>{of(f.n), of(f.s), of(f.t), of(f.moment_n), of(f.moment_s), of(f.moment_t)});
     const double on_a[6] = {at.force_a.x, at.force_a.y, at.force_a.z, at.moment_a.x, at.moment_a.y, at.moment_a.z};
     const double on_b[6] = {-at.force_a.x, -at.force_a.y, -at.force_a.z, at.moment_b.x, at.moment_b.y, at.moment_b.z};
     for (int i = 0; i < 6; ++i) set(load.a[i], on_a[i]), set(load.b[i], on_b[i]);
@@ -151,16 +135,23 @@ Loads ContactOperator::wall_loads_of_cells(const PairStiffness& stiffness) const
   const Vector pressures = cell_pressures(network_, stiffness, at_rest, 1.0);
   Loads out;
   for (std::size_t i = 0; i < particles_; ++i) {
-    ParticleLoad own{static_cast<std::int32_t>(i), {}};
-    for (const std::uint32_t number : network_.row(i)) {
-      const Contact& c = network_.contacts[number];
-      std::array<Complex, 6> u = relative_motion(c, at_rest, 1.0);
-      add_pressure_shift(c, pressures, u);
-      const Load load = contact_load(c, stiffness, u);
-      const bool is_a = static_cast<std::size_t>(c.a) == i;
-      for (std::size_t k = 0; k < 6; ++k) own.load[k] += is_a ? load.a[k] : load.b[k];
-    }
-    if (std::any_of(own.load.begin(), own.load.end(), [](const Complex& z) { return z != 0.0; })) out.push_back(own);
+    const auto load = load_on(i, stiffness, at_rest, 1.0, pressures);
+    if (std::any_of(load.begin(), load.end(), [](const Complex& z) { return z != 0.0; }))
+      out.push_back({static_cast<std::int32_t>(i), load});
+  }
+  return out;
+}
+
+std::array<Complex, 6> ContactOperator::load_on(std::size_t particle, const PairStiffness& stiffness,
+                                                const Vector& motion, Complex wall, const Vector& pressures) const {
+  std::array<Complex, 6> out{};
+  for (const std::uint32_t number : network_.row(particle)) {
+    const Contact& c = network_.contacts[number];
+    std::array<Complex, 6> u = relative_motion(c, motion, wall);
+    add_pressure_shift(c, pressures, u);
+    const Load load = contact_load(c, stiffness, u);
+    const bool is_a = static_cast<std::size_t>(c.a) == particle;
+    for (std::size_t k = 0; k < 6; ++k) out[k] += is_a ? load.a[k] : load.b[k];
   }
   return out;
 }
@@ -172,17 +163,9 @@ void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor,
 // dynamic, because large particles have hundreds of contacts each and have consecutive numbers
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t i = 0; i < particles_; ++i) {
-    Complex sum[6] = {};
-    for (const std::uint32_t number : network_.row(i)) {
-      const Contact& c = network_.contacts[number];
-      std::array<Complex, 6> u = relative_motion(c, motion, 0.0);
-      add_pressure_shift(c, pressures, u);
-      const Load load = contact_load(c, stiffness, u);
-      const bool is_a = static_cast<std::size_t>(c.a) == i;
-      for (std::size_t k = 0; k < 6; ++k) sum[k] -= is_a ? load.a[k] : load.b[k];
-    }
+    const auto load = load_on(i, stiffness, motion, 0.0, pressures);
     for (std::size_t k = 0; k < 6; ++k) {
-      out[6 * i + k] = sum[k] - factor * inertia_at(inertia, 6 * i + k) * motion[6 * i + k];
+      out[6 * i + k] = -load[k] - factor * inertia_at(inertia, 6 * i + k) * motion[6 * i + k];
     }
   }
 }

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/contact/contact_kinematics.hpp"
+#include "kernels/contact/initial_contact.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/sensitivity.hpp"
 
@@ -59,7 +59,10 @@ std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& mot
 kernels::FacetLoad<Complex> facet_load(const Contact& contact, const PairStiffness& stiffness,
                                        const std::array<Complex, 6>& u);
 
-/// The product with K*(s) of a network, computed contact by contact. The network must outlive this object.
+/// The product with K*(s) of a network, computed contact by contact. Two other products exist: the iterative solver has
+/// a faster one for several motions (iterative/apply_row.hpp), and check_solutions() has one of its own, so that the
+/// check of a solution does not use the code of a solver. All three use the kinematics of kernels/contact. The network
+/// must outlive this object.
 class ContactOperator {
  public:
   ContactOperator(const ContactNetwork& network, std::size_t particles);
@@ -83,6 +86,11 @@ class ContactOperator {
   };
   /// Returns the loads on both ends of a contact with relative displacements `u`.
   static Load contact_load(const Contact& contact, const PairStiffness& stiffness, const std::array<Complex, 6>& u);
+
+  /// Returns the load that the contacts of a particle exert on it if the particles move by `motion`, the top wall moves
+  /// by `wall` along z, and the cells have the given pressures (cell_pressures()).
+  std::array<Complex, 6> load_on(std::size_t particle, const PairStiffness& stiffness, const Vector& motion,
+                                 Complex wall, const Vector& pressures) const;
 
   /// Returns the result of wall_loads() for a network whose cells resist changes of volume. In such a network the cells
   /// at the wall press on their neighbours.

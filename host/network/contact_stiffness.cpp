@@ -26,12 +26,22 @@ Matrix6 generalised(const Contact& c, int end) {
 
 }  // namespace
 
+Eigen::Matrix3d normal_moments(const AreaMoments& m) {
+  Eigen::Matrix3d out;
+  out << m.a, m.s, m.t, m.s, m.ss, m.st, m.t, m.st, m.tt;
+  return out;
+}
+
+Eigen::Matrix3d shear_moments(const AreaMoments& m) {
+  Eigen::Matrix3d out;
+  out << m.a, 0, -m.t, 0, m.a, m.s, -m.t, m.s, m.ss + m.tt;
+  return out;
+}
+
 Matrix6 contact_block(const Contact& c, double k, double alpha, int i, int j) {
-  const AreaMoments& m = c.moments;
   Matrix6 d = Matrix6::Zero();
-  d.topLeftCorner<3, 3>() << m.a, m.s, m.t, m.s, m.ss, m.st, m.t, m.st, m.tt;
-  d.bottomRightCorner<3, 3>() << m.a, 0, -m.t, 0, m.a, m.s, -m.t, m.s, m.ss + m.tt;
-  d.bottomRightCorner<3, 3>() *= alpha;
+  d.topLeftCorner<3, 3>() = normal_moments(c.moments);
+  d.bottomRightCorner<3, 3>() = alpha * shear_moments(c.moments);
   if (c.series != 0) {
     d.topLeftCorner<3, 3>() /= 1 + c.series * k;
     d.bottomRightCorner<3, 3>() /= 1 + c.series * alpha * k;

@@ -7,12 +7,15 @@
 #include <cmath>
 #include <string>
 
-#include "host/quasi_static/pieces.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::quasi_static {
 
 namespace {
+
+/// Number of contacts in a piece of a parallel sum.
+constexpr std::size_t contacts_at_once = 1024;
 
 kernels::Placement<double> placement(const Contact& c) { return {c.n, c.s, c.t, c.arm_a, c.arm_b}; }
 
@@ -122,13 +125,11 @@ ContactIncrements::ContactIncrements(const ContactNetwork& network, const LawTab
   opening_rate_.assign(n, Six{});
 }
 
-void ContactIncrements::begin(double dt) {
-  if (dt != dt_) {
-    dt_ = dt;
-    for (std::size_t pair = 0; pair < pair_types; ++pair) increment_[pair] = laws_[pair].increment(dt);
+void ContactIncrements::begin(const LawTimes& dt) {
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (dt[pair] != increment_[pair].dt) increment_[pair] = laws_[pair].increment(dt[pair]);
   }
-  growing_area_ = 0;
-  for (std::size_t j = 0; j < grew_.size(); ++j) growing_area_ += grew_[j] ? network_.point_area[j] : 0;
+  growing_area_ = area_of(grew_);
   for_each_of(network_.contacts.size(), [&](std::size_t c) { prepare(c); });
 }
 
@@ -212,17 +213,22 @@ Six ContactIncrements::accepted_force(std::size_t number) const {
   return out;
 }
 
-double ContactIncrements::growing_part() const {
-  double out = 0;
-  for (std::size_t j = 0; j < grows_.size(); ++j) out += grows_[j] ? network_.point_area[j] : 0;
-  return crackable_area_ > 0 ? out / crackable_area_ : 0;
+double ContactIncrements::area_of(const std::vector<char>& points) const {
+  return sum_in_parallel<double>(points.size(),
+                                 [&](std::size_t j) { return points[j] ? network_.point_area[j] : 0.0; });
 }
 
+double ContactIncrements::growing_part() const { return crackable_area_ > 0 ? area_of(grows_) / crackable_area_ : 0; }
+
 ContactEnergies ContactIncrements::accept(const std::vector<Six>& u) {
-  std::vector<ContactEnergies> each(network_.contacts.size());
-  for_each_of(each.size(), [&](std::size_t c) { each[c] = accept_contact(c, u[c]); });
+  const auto sums =
+      sum_of_pieces<ContactEnergies>(network_.contacts.size(), contacts_at_once, [&](std::size_t from, std::size_t to) {
+        ContactEnergies sum;
+        for (std::size_t c = from; c < to; ++c) sum += accept_contact(c, u[c]);
+        return sum;
+      });
   grew_ = grows_;
-  return sum_in_parallel<ContactEnergies>(each.size(), [&](std::size_t c) { return each[c]; });
+  return sums;
 }
 
 ContactEnergies ContactIncrements::accept_contact(std::size_t number, const Six& u) {

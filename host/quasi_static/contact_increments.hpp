@@ -20,6 +20,9 @@ using Six = std::array<double, 6>;
 /// Derivatives of six forces with respect to six displacements, row by row.
 using SixBySix = std::array<double, 36>;
 
+/// Durations of an increment for the law of each pair type [s].
+using LawTimes = std::array<double, pair_types>;
+
 using kernels::ContactEnergies;
 
 /// The law of a pair type. Elastic laws are chains without dashpots.
@@ -40,8 +43,8 @@ class ContactIncrements {
  public:
   ContactIncrements(const ContactNetwork& network, const LawTable& laws);
 
-  /// Prepares an increment of `dt` seconds from the accepted state.
-  void begin(double dt);
+  /// Prepares an increment from the accepted state. `dt`: its duration for the law of each pair type [s].
+  void begin(const LawTimes& dt);
   /// Computes forces and stiffnesses for the relative displacements `u` of each contact in the increment.
   void evaluate(const std::vector<Six>& u);
   const Six& force(std::size_t c) const { return force_[c]; }
@@ -79,14 +82,15 @@ class ContactIncrements {
   void evaluate_linear(std::size_t c, const Six& u);
   void evaluate_points(std::size_t c, const Six& u);
   ContactEnergies accept_contact(std::size_t c, const Six& u);
+  /// Returns the area of the points with a mark that is not 0.
+  double area_of(const std::vector<char>& points) const;
   const kernels::IncrementLaw& law(const Contact& c) const { return increment_[static_cast<std::size_t>(c.pair)]; }
   const CrackedChain& cracked(const Contact& c) const { return *laws_[static_cast<std::size_t>(c.pair)].cracked; }
 
   const ContactNetwork& network_;
   PairLaws laws_;
-  std::array<kernels::IncrementLaw, pair_types> increment_;  ///< of the present length
+  std::array<kernels::IncrementLaw, pair_types> increment_;  ///< of the present lengths
   bool has_cracks_ = false;
-  double dt_ = 0;
   std::vector<double> states_;
   std::vector<std::size_t> begin_;       ///< of each contact in states_
   std::vector<double> base_;             ///< f (linear) or stresses (points) without motion

@@ -42,7 +42,7 @@ class DeviceEngine : public Engine {
       for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) crackable_area_ += network.point_area[j];
     }
     // Without motion the tangent is the intact, instantaneous stiffness
-    begin(1e-30, 0);
+    begin(all_laws(1e-30), Vector(6 * specimen.size()));
     device_->evaluate({});
     wall_stiffness_ = device_->assemble(true, 0, 0).wall_stiffness;
     const Vector intact = intact_stiffness(to_particles(device_->diagonal()), specimen);
@@ -52,14 +52,14 @@ class DeviceEngine : public Engine {
     matrix_.emplace(network, specimen.size());
   }
 
-  void begin(double dt, double factor) override {
-    if (dt != dt_) {
-      dt_ = dt;
-      for (std::size_t pair = 0; pair < pair_types; ++pair) increment_[pair] = laws_[pair].increment(dt);
+  void begin(const LawTimes& dt, const Vector& guess) override {
+    for (std::size_t pair = 0; pair < pair_types; ++pair) {
+      if (dt[pair] != increment_[pair].dt) increment_[pair] = laws_[pair].increment(dt[pair]);
     }
-    device_->begin(increment_, factor, growing_area_);
+    device_->write(IncrementVector::trial, to_bodies(guess));
+    device_->begin(increment_, growing_area_);
   }
-  TrialSums evaluate(const Walls& wall) override {
+  TrialSums evaluate(const Walls& wall, double /*warming*/) override {
     const kernels::IncrementSums found = device_->evaluate(wall);
     TrialSums out;
     out.size = std::sqrt(found.size), out.scale = std::sqrt(found.scale), out.opening = found.opening;
@@ -113,16 +113,17 @@ class DeviceEngine : public Engine {
   }
   double growing_part() override { return crackable_area_ > 0 ? device_->growing_area() / crackable_area_ : 0; }
 
+  Vector motion() const override { return to_particles(device_->read(IncrementVector::trial)); }
   EngineState state() const override {
     const kernels::IncrementStates found = device_->states();
-    EngineState out{to_particles(found.displacement), to_particles(found.motion), order().to_network(found), {}};
+    EngineState out{to_particles(found.displacement), order().to_network(found), {}};
     if (!has_cracks_) return out;
     out.grew.assign(system_.network_points, 0);
     for (std::size_t j = 0; j < found.grew.size(); ++j) out.grew[system_.point_of[j]] = found.grew[j] != 0;
     return out;
   }
   void set_state(EngineState state) override {
-    kernels::IncrementStates to{to_bodies(state.displacement), to_bodies(state.motion), {}, {}, {}};
+    kernels::IncrementStates to{to_bodies(state.displacement), {}, {}, {}};
     order().to_device(state.states, to);
     growing_area_ = 0;
     for (const std::uint32_t j : system_.point_of) {
@@ -200,7 +201,7 @@ class DeviceEngine : public Engine {
   std::vector<std::size_t> state_begin_;  ///< as ContactIncrements::state_begin()
   std::unique_ptr<kernels::DeviceIncrements> device_;
   kernels::IncrementLaws increment_{};
-  double dt_ = 0, growing_area_ = 0, crackable_area_ = 0, wall_stiffness_ = 0;
+  double growing_area_ = 0, crackable_area_ = 0, wall_stiffness_ = 0;
   bool has_cracks_ = false;
   std::unique_ptr<TangentSolver> direct_;  ///< small systems only
   std::optional<TangentMatrix> matrix_;
@@ -212,6 +213,8 @@ class DeviceEngine : public Engine {
 
 std::unique_ptr<Engine> make_device_engine(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const QuasiStaticOptions& options) {
+  if (!options.expansion.empty())
+    throw InputError("quasi-static: found expansions of contacts with backend cuda, expected backend cpu or auto");
   const DeviceList devices = device_numbers(options.devices);
   if (devices.size() != 1) {
     throw InputError("device: found " + to_string(devices) +

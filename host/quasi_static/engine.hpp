@@ -29,7 +29,6 @@ enum class Unknown : std::uint8_t { correction, by_wall };
 /// Motion and states that accept() changes, in the order of the specimen and of the network.
 struct EngineState {
   Vector displacement;         ///< since the undeformed state [6·particles]
-  Vector motion;               ///< in the last increment [6·particles]
   std::vector<double> states;  ///< as ContactIncrements::states()
   std::vector<char> grew;      ///< as ContactIncrements::grew()
 };
@@ -38,11 +37,17 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// Prepares an increment of `dt` seconds from the accepted state. The trial is the motion of the last increment times
-  /// `factor`.
-  virtual void begin(double dt, double factor) = 0;
-  /// Evaluates all contacts at the trial, with these displacements of the walls in the increment.
-  virtual TrialSums evaluate(const Walls& wall) = 0;
+  /// Prepares an increment from the accepted state. `dt`: its duration for the law of each pair type [s]; `guess`: the
+  /// motion at which the trial begins [6·particles].
+  virtual void begin(const LawTimes& dt, const Vector& guess) = 0;
+  /// Evaluates all contacts at the trial, with these displacements of the walls and this increase of the temperature
+  /// [K] in the increment.
+  virtual TrialSums evaluate(const Walls& wall, double warming) = 0;
+  /// Returns the size (TrialSums::scale) of the loads that this warming causes if no particle moves, with the
+  /// stiffnesses of the last evaluation.
+  virtual double restrained_size(double /*warming*/) const { return 0; }
+  /// Returns the work of the contacts' forces against the expansion of the increment, before accept() [J].
+  virtual double thermal_work(double /*warming*/) const { return 0; }
 
   /// Whether the linear solver needs a symmetric matrix at first.
   virtual bool wants_symmetric() const = 0;
@@ -69,6 +74,8 @@ class Engine {
   /// Returns the part of the area of points with a crack law that grows at the last evaluation.
   virtual double growing_part() = 0;
 
+  /// Returns the motion of the last evaluation, also after accept() [6·particles].
+  virtual Vector motion() const = 0;
   virtual EngineState state() const = 0;
   virtual void set_state(EngineState state) = 0;
   /// Returns displacements and rotations of the accepted state [6·particles].
@@ -89,6 +96,13 @@ class Engine {
 /// tangent [6·particles]. Entries that are much smaller than others of the same kind are enlarged.
 Vector intact_stiffness(const Vector& diagonal, const Specimen& specimen);
 
+/// Returns the same duration for all laws.
+inline LawTimes all_laws(double dt) {
+  LawTimes out;
+  out.fill(dt);
+  return out;
+}
+
 /// Part of the intact stiffness that is added to the diagonal of the tangent, so that rigid motions of the specimen,
 /// which no contact resists, do not make it singular. It changes corrections, not the equilibrium.
 inline constexpr double held_part = 1e-11;
@@ -99,7 +113,8 @@ inline constexpr double loose_part = 1e-4;
 /// Makes an engine on the CPU. \throws InputError as QuasiStatic.
 std::unique_ptr<Engine> make_cpu_engine(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                                         const QuasiStaticOptions& options);
-/// Makes an engine on a CUDA device. \throws InputError as QuasiStatic, and for several devices; RunError if the device
+/// Makes an engine on a CUDA device. \throws InputError as QuasiStatic, for several devices, and for contacts that
+/// expand; RunError if the device
 /// has too little memory.
 std::unique_ptr<Engine> make_device_engine(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const QuasiStaticOptions& options);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "host/quasi_static/pieces.hpp"
+#include "kernels/base/parallel.hpp"
 #include "kernels/layout/layout.hpp"
 
 namespace macadam::quasi_static {

@@ -41,6 +41,13 @@ Increments::Increments(const Specimen& specimen, const ContactNetwork& network, 
       length_(static_cast<double>(options_.first)),
       past_{{0, 0}} {}
 
+void Increments::start(const StartState& state) {
+  network_.start(state);
+  const double value = observed_value();
+  largest_ = std::abs(value);
+  past_ = {{0, value}};
+}
+
 std::int64_t Increments::next_stop() const {
   const auto at = std::upper_bound(options_.stops.begin(), options_.stops.end(), step_);
   if (at == options_.stops.end()) throw RunError("quasi-static: the test has no stop after its last sample");
@@ -56,37 +63,65 @@ std::int64_t Increments::length_to(std::int64_t stop) const {
   return 2 * wanted > left ? (left + 1) / 2 : wanted;
 }
 
+WallIncrement Increments::increment_of(std::int64_t steps) const {
+  WallIncrement out;
+  const double unit = options_.drive->dt();
+  out.dt = static_cast<double>(steps) * unit;
+  const TemperatureHistory& history = options_.temperature;
+  if (history.empty()) return out;
+  const double from = static_cast<double>(step_) * unit, to = static_cast<double>(step_ + steps) * unit;
+  out.warming = history.at(to) - history.at(from);
+  std::array<double, pair_types>& times = out.reduced_dt.emplace();
+  for (std::size_t pair = 0; pair < pair_types; ++pair)
+    times[pair] = reduced_time(options_.shifts[pair], history, from, to);
+  return out;
+}
+
 double Increments::observed_value() const {
   if (options_.by_force) return network_.wall_displacement()[driven].z / options_.height;
   return -network_.wall_force()[driven].z / options_.area;
 }
 
-double Increments::error_at(double step, double value) const {
-  const std::size_t n = past_.size();
-  if (n < 2) return -1;
-  // Lagrange's extrapolation through the last two or three values
-  double extrapolated = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+double Increments::extrapolated(double step) const {
+  double out = 0;
+  for (std::size_t i = 0; i < past_.size(); ++i) {
     double weight = 1;
-    for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t j = 0; j < past_.size(); ++j) {
       if (j != i) weight *= (step - past_[j].step) / (past_[i].step - past_[j].step);
     }
-    extrapolated += weight * past_[i].value;
+    out += weight * past_[i].value;
   }
-  const double scale = std::max(largest_, std::abs(value));
-  return scale > 0 ? error_per_difference * std::abs(value - extrapolated) / scale : 0;
+  return out;
 }
 
-void Increments::accept(std::int64_t steps, const IncrementReport& found, double error) {
+// Over a length h the rule has the error h³·y'''/12. The difference d from the extrapolation through the values at
+// three earlier times t1, t2, t3 is y'''·(t − t1)(t − t2)(t − t3)/6, so the error is d·h³/(2·(t − t1)(t − t2)(t − t3)).
+double Increments::error_of_rule(double step, double value) const {
+  if (past_.size() < 2) return 0;
+  const double difference = value - extrapolated(step);
+  if (past_.size() < 3) return error_per_difference * difference;
+  const double length = step - past_.back().step;
+  double product = 2;
+  for (const Past& p : past_) product *= (step - p.step) / length;
+  return difference / product;
+}
+
+double Increments::error_at(double step, double value) const {
+  if (past_.size() < 2) return -1;
+  const double scale = std::max(largest_, std::abs(value));
+  return scale > 0 ? error_per_difference * std::abs(value - extrapolated(step)) / scale : 0;
+}
+
+void Increments::accept(std::int64_t steps, const IncrementReport& found, bool by_time) {
   const double value = observed_value();
   network_.accept();
   step_ += steps;
   ++report_.increments;
   report_.loose = std::max(report_.loose, found.loose);
-  // errors are sums of stresses; they are shown relative to the largest one
-  const double before = report_.error * largest_;
+  if (by_time) error_sum_ += error_of_rule(static_cast<double>(step_), value);
+  largest_error_ = std::max(largest_error_, std::abs(error_sum_));
   largest_ = std::max(largest_, std::abs(value));
-  if (largest_ > 0) report_.error = before / largest_ + std::max(error, 0.0);
+  if (largest_ > 0) report_.error = largest_error_ / largest_;
   usual_ = std::max(static_cast<double>(steps), forgotten * usual_);
   usual_opening_ = std::max(network_.last_opening(), forgotten * usual_opening_);
   past_.push_back({static_cast<double>(step_), value});
@@ -100,8 +135,7 @@ void Increments::advance() {
   int halvings = 0;
   while (true) {
     const std::int64_t steps = length_to(stop);
-    WallIncrement next;
-    next.dt = static_cast<double>(steps) * options_.drive->dt();
+    WallIncrement next = increment_of(steps);
     const double moved = network_.wall_displacement()[driven].z;
     if (options_.by_force) {
       next.load = options_.drive->value(step_ + steps);
@@ -132,7 +166,7 @@ void Increments::advance() {
       length_ = static_cast<double>(steps) * std::max(shorter_at_most, caution * std::cbrt(part / error));
       continue;
     }
-    accept(steps, found, error);
+    accept(steps, found, true);
     const double by_error = error > 0 ? caution * std::cbrt(part / error) : longer_at_most;
     const double by_passes = found.passes > usual_passes ? 0.7 : longer_at_most;
     const double factor = std::clamp(std::min(by_error, by_passes), shorter_at_most, longer_at_most);
@@ -149,8 +183,7 @@ void Increments::advance() {
 void Increments::advance_by_opening(std::int64_t stop) {
   for (int halvings = 0; halvings <= 2 * most_halvings; ++halvings, opening_ *= 0.5) {
     const std::int64_t steps = std::min(opening_steps_, stop - step_);
-    WallIncrement next;
-    next.dt = static_cast<double>(steps) * options_.drive->dt();
+    WallIncrement next = increment_of(steps);
     next.opening = opening_;
     const double moved = network_.wall_displacement()[driven].z, before = past_.back().value;
     const IncrementReport found = network_.solve(next);
@@ -163,7 +196,7 @@ void Increments::advance_by_opening(std::int64_t stop) {
       continue;
     }
     const double stress = observed_value();
-    accept(steps, found, 0);
+    accept(steps, found, false);
     ++report_.by_opening;
     if (found.passes <= usual_passes) opening_ *= std::clamp(0.8 * stress_change / std::max(change, 1e-300), 0.7, 1.4);
     const double at = network_.wall_displacement()[driven].z;
@@ -186,12 +219,17 @@ void Increments::advance_by_opening(std::int64_t stop) {
 }
 
 void Increments::fail(const IncrementReport& found) const {
-  throw RunError(fmt::format(
+  const std::string text = fmt::format(
       "quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} (the forces are out of balance by "
       "{:.1e} of their size{}), although increments became very short; either the specimen fails there, or it moves "
-      "suddenly, which method = \"explicit\" in [solver] can follow",
+      "suddenly{}",
       network_.time(), network_.wall_displacement()[driven].z / options_.height, found.residual,
-      found.lost_stability ? "; its stiffness has a negative direction" : ""));
+      found.lost_stability ? "; its stiffness has a negative direction" : "",
+      options_.temperature.empty()
+          ? ", which method = \"explicit\" in [solver] can follow"
+          : fmt::format("; its temperature is {:.4g} degrees C", options_.temperature.at(network_.time())));
+  const double strain = network_.wall_displacement()[driven].z / options_.height;
+  throw NoEquilibrium(text, {network_.time(), strain, past_.back().value});
 }
 
 std::vector<StateArray> Increments::state() const {
@@ -215,7 +253,7 @@ std::vector<StateArray> Increments::state() const {
   const CourseReport::Unstable unstable = report_.unstable.value_or(CourseReport::Unstable{});
   numbers.insert(numbers.end(), {unstable.time_s, unstable.strain, unstable.stress_pa});
   numbers.push_back(static_cast<double>(past_.size()));
-  numbers.insert(numbers.end(), {usual_, usual_opening_});
+  numbers.insert(numbers.end(), {usual_, usual_opening_, error_sum_, largest_error_});
   for (std::size_t k = 0; k < 3; ++k) {
     const Past p = k < past_.size() ? past_[k] : Past{0, 0};
     numbers.insert(numbers.end(), {p.step, p.value});
@@ -229,18 +267,18 @@ void Increments::set_state(const std::vector<StateArray>& arrays) {
   for (const StateArray& array : arrays) {
     if (array.name == "increments") n = std::get_if<std::vector<double>>(&array.values);
   }
-  if (!n || n->size() != 28 || !((*n)[19] >= 1 && (*n)[19] <= 3))
-    throw RunError("state: found no array increments with 28 numbers for method \"quasi_static\"");
+  if (!n || n->size() != 30 || !((*n)[19] >= 1 && (*n)[19] <= 3))
+    throw RunError("state: found no array increments with 30 numbers for method \"quasi_static\"");
   network_.set_state(arrays);
   const auto whole = [&](std::size_t k) { return static_cast<std::int64_t>((*n)[k]); };
-  usual_ = (*n)[20], usual_opening_ = (*n)[21];
+  usual_ = (*n)[20], usual_opening_ = (*n)[21], error_sum_ = (*n)[22], largest_error_ = (*n)[23];
   step_ = whole(0), length_ = (*n)[1], largest_ = (*n)[2], by_opening_ = (*n)[3] != 0, opening_ = (*n)[4];
   opening_steps_ = whole(5), furthest_ = (*n)[6], lag_ = whole(7);
   report_ = {whole(8), whole(9), whole(10), whole(11), (*n)[12], whole(13), {}, whole(14)};
   if ((*n)[15] != 0) report_.unstable = {(*n)[16], (*n)[17], (*n)[18]};
   past_.clear();
   for (std::size_t k = 0; k < static_cast<std::size_t>((*n)[19]); ++k)
-    past_.push_back({(*n)[22 + 2 * k], (*n)[23 + 2 * k]});
+    past_.push_back({(*n)[24 + 2 * k], (*n)[25 + 2 * k]});
 }
 
 }  // namespace macadam::quasi_static

@@ -2,13 +2,17 @@
 /// \file increments.hpp  Chooses the lengths of increments from their errors, and the quantity that controls them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "macadam/drives/drive.hpp"
+#include "macadam/error.hpp"
 #include "macadam/quasi_static.hpp"
+#include "macadam/temperature.hpp"
 
 namespace macadam::quasi_static {
 
@@ -24,13 +28,17 @@ struct CourseOptions {
   std::vector<std::int64_t> kinks;  ///< those stops at which the rate of the drive jumps
   std::int64_t first = 1;           ///< length of the first increment, and of the first one after a kink [steps]
   std::int64_t longest = 0;         ///< length of the longest increment [steps]; 0: no limit
+  TemperatureHistory temperature;   ///< of the specimen; empty: constant. The laws are given at their references
+  std::array<laws::Shift, pair_types> shifts{};  ///< of the laws; used only with a temperature history
   QuasiStaticOptions solver;
 };
 
 /// What happened in a test.
 struct CourseReport {
   std::int64_t increments = 0, rejected = 0, passes = 0, iterations = 0;
-  double error = 0;        ///< sum of the estimated errors of all increments, relative to the largest stress or strain
+  /// Largest estimated error of the stress (under a force: of the strain) so far, relative to the largest one. An error
+  /// at a time is the sum of the errors of all increments before, with their signs.
+  double error = 0;
   std::int64_t loose = 0;  ///< largest number of particles without stiffness
   /// The state before the first increment that was controlled by the opening of cracks, because no equilibrium was
   /// found at a larger displacement of the wall.
@@ -41,11 +49,20 @@ struct CourseReport {
   std::int64_t by_opening = 0;  ///< number of increments that were controlled by the opening of cracks
 };
 
+/// No equilibrium was found, although increments became very short. Holds the last equilibrium.
+class NoEquilibrium : public RunError {
+ public:
+  NoEquilibrium(const std::string& message, const CourseReport::Unstable& last) : RunError(message), last(last) {}
+  CourseReport::Unstable last;  ///< `stress_pa` is the strain if the drive is a force
+};
+
 class Increments {
  public:
   Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, CourseOptions options);
 
-  /// Takes one increment, which ends at the next stop or earlier. \throws RunError if no equilibrium is found.
+  /// Starts from a state of motion, as QuasiStatic::start().
+  void start(const StartState& state);
+  /// Takes one increment, which ends at the next stop or earlier. \throws NoEquilibrium
   void advance();
   std::int64_t step() const { return step_; }
   const QuasiStatic& network() const { return network_; }
@@ -63,11 +80,18 @@ class Increments {
   /// Number of steps of the next increment.
   std::int64_t length_to(std::int64_t stop) const;
   double drive_at(std::int64_t step) const { return options_.drive->value(step - lag_); }
+  /// Returns an increment of `steps` steps from the present one, with its duration and the change of temperature.
+  WallIncrement increment_of(std::int64_t steps) const;
   double observed_value() const;  ///< of the solution: stress or, under a force, strain
   /// Estimated error of the solution at `step`, divided by the largest observed value so far; negative:
   /// not known.
   double error_at(double step, double value) const;
-  void accept(std::int64_t steps, const IncrementReport& found, double error);
+  /// Returns the value at `step` on the parabola, or line, through the last values (Lagrange). There are at least two.
+  double extrapolated(double step) const;
+  /// Returns the error that an increment until `step` adds to the value, by the trapezoidal rule, with its sign.
+  double error_of_rule(double step, double value) const;
+  /// `by_time`: whether the increment has an error of the trapezoidal rule that can be estimated.
+  void accept(std::int64_t steps, const IncrementReport& found, bool by_time);
   void advance_by_opening(std::int64_t stop);
   [[noreturn]] void fail(const IncrementReport& found) const;
 
@@ -78,6 +102,8 @@ class Increments {
   double length_;           ///< proposed length of the next increment [steps]
   std::vector<Past> past_;  ///< since the last kink, at most three
   double largest_ = 0;      ///< largest value so far
+  /// Sum of the errors of the increments with their signs, and the largest magnitude of this sum so far.
+  double error_sum_ = 0, largest_error_ = 0;
   /// Length of usual increments [steps], and their openings of cracks [m]: the largest of the last ones.
   double usual_ = 0, usual_opening_ = 0;
   // Control by opening

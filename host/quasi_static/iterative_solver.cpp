@@ -7,7 +7,7 @@
 
 #include "host/quasi_static/rigid_boxes.hpp"
 #include "host/quasi_static/tangent_solver.hpp"
-#include "host/quasi_static/pieces.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::quasi_static {
 namespace {
@@ -27,6 +27,14 @@ double product(const Vector& a, const Vector& b) {
 void add_multiple(double a, const Vector& x, Vector& y) {
   for_pieces(x.size(), degrees_at_once, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) y[i] += a * x[i];
+  });
+}
+
+/// Computes y = x/a.
+void divide(const Vector& x, double a, Vector& y) {
+  y.resize(x.size());
+  for_pieces(x.size(), degrees_at_once, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) y[i] = x[i] / a;
   });
 }
 
@@ -131,8 +139,7 @@ class IterativeSolver : public TangentSolver {
       add_multiple(-1, q_, r_);
       const double size = std::sqrt(product(r_, r_));
       if (size <= goal) return out.solved = true, out;
-      basis[0] = r_;
-      for (double& v : basis[0]) v /= size;
+      divide(r_, size, basis[0]);
       h.setZero();
       Eigen::VectorXd left = Eigen::VectorXd::Zero(restart + 1), answer;
       left(0) = size;
@@ -153,7 +160,7 @@ class IterativeSolver : public TangentSolver {
         const Eigen::MatrixXd part = h.topLeftCorner(n + 1, n);
         answer = part.colPivHouseholderQr().solve(left.head(n + 1));
         if ((part * answer - left.head(n + 1)).norm() <= goal || !(remains > 0)) break;
-        for (double& v : basis[k + 1]) v /= remains;
+        divide(basis[k + 1], remains, basis[k + 1]);
       }
       q_.assign(x.size(), 0.0);
       for (std::size_t k = 0; k < used; ++k) add_multiple(answer(static_cast<Eigen::Index>(k)), basis[k], q_);

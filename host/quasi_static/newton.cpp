@@ -5,12 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace macadam::quasi_static {
 
-bool Newton::correct(double tolerance, bool wall_unknown, IncrementReport& report) {
+namespace {
+
+/// Systems that are solved by iterations have the symmetric part of the tangent. If a correction leaves more than this
+/// part of the residual, friction makes the rest of the tangent matter.
+constexpr double slow = 0.3;
+
+}  // namespace
+
+void Newton::evaluate(const WallIncrement& increment, Trial& trial) {
+  trial.sums = engine_->evaluate(trial.wall, increment.warming);
+  trial.sums.scale = std::max(trial.sums.scale, least_scale_);
+}
+
+bool Newton::correct(double tolerance, bool wall_unknown, bool whole_tangent, IncrementReport& report) {
   for (const bool symmetric : {true, false}) {
-    if (symmetric && !engine_->wants_symmetric()) continue;
+    if (symmetric && (whole_tangent || !engine_->wants_symmetric())) continue;
     const LinearReport prepared = engine_->prepare(symmetric, report.loose);
     report.negative_pivots = prepared.negative_pivots;
     report.lost_stability = prepared.negative;
@@ -25,6 +39,11 @@ bool Newton::correct(double tolerance, bool wall_unknown, IncrementReport& repor
     if (solved.solved) return true;
   }
   return false;
+}
+
+double Newton::tolerance_of(double residual) const {
+  const double wanted = 0.3 * options_.residual / residual;
+  return std::clamp(wanted > 1e-2 ? wanted : std::sqrt(wanted), 1e-3, 0.05);
 }
 
 double Newton::missed(const WallIncrement& increment, const TrialSums& sums) const {
@@ -47,12 +66,17 @@ double Newton::wall_correction(const WallIncrement& increment, const TrialSums& 
          e.opening_change(Unknown::by_wall);
 }
 
-IncrementReport Newton::solve(const WallIncrement& increment, double factor, double scale, Trial& trial) {
+IncrementReport Newton::solve(const WallIncrement& increment, double scale, Trial& trial) {
   IncrementReport out;
   const bool wall_unknown = increment.load || increment.opening;
   double& top = trial.wall[wall_index(wall_z_hi)].z;
-  engine_->begin(increment.dt, factor);
-  trial.sums = engine_->evaluate(trial.wall);
+  engine_->begin(increment.reduced_dt.value_or(all_laws(increment.dt)), trial.motion);
+  least_scale_ = 0;
+  evaluate(increment, trial);
+  if (!options_.expansion.empty()) {
+    least_scale_ = std::max(scale, engine_->restrained_size(increment.warming));
+    trial.sums.scale = std::max(trial.sums.scale, least_scale_);
+  }
   int stuck = 0;
   // The condition for the wall is as accurate as the residual, relative to its own scale
   const auto merit = [&] {
@@ -65,8 +89,10 @@ IncrementReport Newton::solve(const WallIncrement& increment, double factor, dou
     if (now <= options_.residual) return out.converged = true, out;
     if (out.passes >= options_.passes || !std::isfinite(now) || stuck >= 4) return out;
     ++out.passes;
-    const double tolerance = std::clamp(0.3 * options_.residual / now, 1e-4, 0.05);
-    if (!correct(tolerance, wall_unknown, out)) return out;
+    const double tolerance = tolerance_of(now);
+    // The first correction of an increment is far from the solution in any case
+    const bool whole_tangent = friction_matters_ && out.passes > 1;
+    if (!correct(tolerance, wall_unknown, whole_tangent, out)) return out;
     double wall_step = 0;
     if (wall_unknown) {
       wall_step = wall_correction(increment, trial.sums);
@@ -79,7 +105,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double factor, dou
     const auto move = [&](double length) {
       engine_->move(length);
       top = wall_from + length * wall_step;
-      trial.sums = engine_->evaluate(trial.wall);
+      evaluate(increment, trial);
       return merit();
     };
     double length = 1;
@@ -89,6 +115,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double factor, dou
       if (found < 0.7 * now) break;
     }
     if (best_length != length && std::isfinite(best)) best = move(best_length);
+    friction_matters_ = friction_matters_ || best > slow * now;
     stuck = best < 0.95 * now ? 0 : stuck + 1;
     now = best;
   }

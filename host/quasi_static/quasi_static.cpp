@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
-#include "host/quasi_static/newton.hpp"
+#include "host/quasi_static/motion_guess.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
 
+using quasi_static::MotionGuess;
 using quasi_static::Newton;
 using quasi_static::Six;
 using quasi_static::Trial;
@@ -17,16 +20,18 @@ using quasi_static::Trial;
 namespace {
 
 double sum_of(const QuasiStaticEnergies& e) {
-  return std::max(std::abs(e.work_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j));
+  return std::max({std::abs(e.work_j), std::abs(e.thermal_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j)});
 }
-
-constexpr std::size_t top_wall = wall_index(wall_z_hi);
 
 std::unique_ptr<quasi_static::Engine> make_engine(const Specimen& specimen, const ContactNetwork& network,
                                                   const LawTable& laws, const QuasiStaticOptions& options) {
   if (options.backend == Backend::reference)
     throw InputError("quasi-static: found backend reference, expected cpu, cuda or auto");
-  const bool on_device = select_backend(options.backend, nullptr, options.devices) == Backend::cuda;
+  if (!options.expansion.empty() && options.expansion.size() != network.contacts.size())
+    throw InputError("quasi-static: found expansions of " + std::to_string(options.expansion.size()) +
+                     " contacts, expected " + std::to_string(network.contacts.size()));
+  const bool only_cpu = options.backend == Backend::automatic && !options.expansion.empty();
+  const bool on_device = !only_cpu && select_backend(options.backend, nullptr, options.devices) == Backend::cuda;
   return (on_device ? quasi_static::make_device_engine : quasi_static::make_cpu_engine)(specimen, network, laws,
                                                                                         options);
 }
@@ -35,7 +40,7 @@ std::unique_ptr<quasi_static::Engine> make_engine(const Specimen& specimen, cons
 
 double QuasiStaticEnergies::imbalance() const {
   const double sum = sum_of(*this);
-  return sum > 0 ? std::abs(work_j - elastic_j - viscous_j - crack_work_j) / sum : 0;
+  return sum > 0 ? std::abs(work_j + thermal_j - elastic_j - viscous_j - crack_work_j) / sum : 0;
 }
 
 double QuasiStaticEnergies::increment_error() const {
@@ -46,15 +51,18 @@ double QuasiStaticEnergies::increment_error() const {
 struct QuasiStatic::Parts {
   Parts(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
         const QuasiStaticOptions& options)
-      : network(network), particles(specimen.size()), newton(make_engine(specimen, network, laws, options), options) {}
+      : network(network),
+        particles(specimen.size()),
+        newton(make_engine(specimen, network, laws, options), options),
+        motions(particles) {}
 
   const ContactNetwork& network;
   std::size_t particles;
   Newton newton;
   // The accepted state; the engine has the states of particles and contacts
-  double time = 0, last_dt = 0, scale = 0;
+  double time = 0, scale = 0;
   quasi_static::Walls wall{}, reaction{};
-  quasi_static::Walls last_wall{};  ///< displacement in the last increment
+  MotionGuess motions;
   QuasiStaticEnergies energies;
   double last_opening = 0;
   // The solution, until it is accepted
@@ -70,22 +78,11 @@ struct QuasiStatic::Parts {
     for (std::size_t w = 0; w < wall_count; ++w) shown_force[w] = -held[w];
   }
 
-  /// Returns the factor by which the motion of the last increment is multiplied to guess the next one.
-  double growth(const WallIncrement& next) const {
-    if (last_dt == 0) return 0;
-    const double by_time = next.dt / last_dt, before = last_wall[top_wall].z, now = next.wall[top_wall].z;
-    if (next.opening) return last_opening > 0 ? std::clamp(*next.opening / last_opening, 0.0, 2.0) : 0;
-    if (next.load) return by_time;
-    if (before == 0 && now == 0) return by_time;
-    return before != 0 && now / before > 0 && now / before < 10 ? now / before : 0;
-  }
-
   IncrementReport solve(const WallIncrement& next) {
     increment = next;
-    const double factor = growth(next);
     trial.wall = next.wall;
-    if (next.load || next.opening) trial.wall[top_wall].z = factor * last_wall[top_wall].z;
-    const IncrementReport out = newton.solve(next, factor, scale, trial);
+    motions.guess(next, trial);
+    const IncrementReport out = newton.solve(next, scale, trial);
     solved = out.converged;
     if (solved) {
       auto at = wall;
@@ -97,8 +94,35 @@ struct QuasiStatic::Parts {
     return out;
   }
 
+  void start(const StartState& state) {
+    const auto& contacts = engine().contacts();
+    if (contacts.has_cracks() || state.chain.size() != contacts.states().size() ||
+        state.displacement.size() != particles || state.rotation.size() != particles)
+      throw InputError("quasi-static: found a state of motion with " + std::to_string(state.chain.size()) +
+                       " numbers of contacts and " + std::to_string(state.displacement.size()) +
+                       " particles, expected " + std::to_string(contacts.states().size()) + " and " +
+                       std::to_string(particles) + ", and laws without cracks");
+    quasi_static::EngineState to{quasi_static::Vector(6 * particles), state.chain, contacts.grew()};
+    for (std::size_t i = 0; i < particles; ++i) {
+      const Vec3d &u = state.displacement[i], &r = state.rotation[i];
+      const double six[6] = {u.x, u.y, u.z, r.x, r.y, r.z};
+      std::copy(six, six + 6, &to.displacement[6 * i]);
+    }
+    engine().set_state(std::move(to));
+    const auto& started = engine().contacts();
+    reaction.fill({});
+    for (std::size_t c = 0; c < network.contacts.size(); ++c) {
+      const Contact& contact = network.contacts[c];
+      if (contact.b >= 0) continue;
+      const Six load = quasi_static::load_on(contact, started.accepted_force(c), 1);
+      reaction[wall_index(contact.b)] += Vec3d{load[0], load[1], load[2]};
+    }
+    show(wall, reaction);
+  }
+
   void accept() {
     if (!solved) throw RunError("quasi-static: accept() needs an increment that has converged");
+    energies.thermal_j += engine().thermal_work(increment.warming);
     const quasi_static::ContactEnergies sums = engine().accept();
     for (std::size_t w = 0; w < wall_count; ++w) {
       energies.work_j += 0.5 * dot(reaction[w] + trial.sums.reaction[w], trial.wall[w]);
@@ -111,8 +135,8 @@ struct QuasiStatic::Parts {
     energies.friction_j = sums.friction;
     energies.crack_work_j += sums.crack_work;
     last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
-    last_wall = trial.wall;
-    last_dt = increment.dt;
+    trial.motion = engine().motion();
+    motions.accept(increment, trial, last_opening);
     time += increment.dt;
     scale = std::max(scale, trial.sums.scale);
     solved = false;
@@ -125,6 +149,7 @@ QuasiStatic::QuasiStatic(const Specimen& specimen, const ContactNetwork& network
 QuasiStatic::~QuasiStatic() = default;
 QuasiStatic::QuasiStatic(QuasiStatic&&) noexcept = default;
 
+void QuasiStatic::start(const StartState& state) { parts_->start(state); }
 IncrementReport QuasiStatic::solve(const WallIncrement& increment) { return parts_->solve(increment); }
 void QuasiStatic::accept() { parts_->accept(); }
 void QuasiStatic::reject() {
@@ -146,10 +171,11 @@ std::string QuasiStatic::description() const { return "quasi-static, " + parts_-
 ParticleState QuasiStatic::particles() const {
   ParticleState out;
   const std::vector<double> u = parts_->engine().displacement();
-  for (std::size_t i = 0; i < parts_->particles; ++i) {
-    out.displacement.push_back({u[6 * i], u[6 * i + 1], u[6 * i + 2]});
-    out.rotation.push_back({u[6 * i + 3], u[6 * i + 4], u[6 * i + 5]});
-  }
+  out.displacement.resize(parts_->particles), out.rotation.resize(parts_->particles);
+  for_each_of(parts_->particles, [&](std::size_t i) {
+    out.displacement[i] = {u[6 * i], u[6 * i + 1], u[6 * i + 2]};
+    out.rotation[i] = {u[6 * i + 3], u[6 * i + 4], u[6 * i + 5]};
+  });
   out.velocity.assign(parts_->particles, {});
   out.spin = out.velocity, out.force = out.velocity, out.moment = out.velocity;
   return out;
@@ -162,27 +188,30 @@ ContactState QuasiStatic::contacts() const {
   const std::vector<double> u = parts_->engine().displacement();
   out.point_breaks = contacts.point_breaks();
   out.point_cracks = contacts.point_cracks();
-  for (std::size_t number = 0; number < network.contacts.size(); ++number) {
+  const std::size_t n = network.contacts.size();
+  out.force.resize(n), out.moment.resize(n), out.relative.resize(n);
+  out.broken.resize(out.point_breaks.empty() ? 0 : n);
+  for_each_of(n, [&](std::size_t number) {
     const Contact& c = network.contacts[number];
     const Six f = contacts.accepted_force(number);
     // The force and moment on A about x0 are the negative of what moves B; model (7.1)
     const auto seen = [&](double n, double s, double t) { return n * c.n + s * c.s + t * c.t; };
-    out.force.push_back(seen(f[0], f[3], f[4]));
-    out.moment.push_back(seen(f[5], f[2], -f[1]));
+    out.force[number] = seen(f[0], f[3], f[4]);
+    out.moment[number] = seen(f[5], f[2], -f[1]);
     Six wall{};
     if (c.b < 0) {
       const Vec3d& x = parts_->wall[wall_index(c.b)];
       wall = {x.x, x.y, x.z, 0, 0, 0};
     }
-    out.relative.push_back(quasi_static::relative(c, &u[6 * static_cast<std::size_t>(c.a)],
-                                                  c.b < 0 ? wall.data() : &u[6 * static_cast<std::size_t>(c.b)]));
+    out.relative[number] = quasi_static::relative(c, &u[6 * static_cast<std::size_t>(c.a)],
+                                                  c.b < 0 ? wall.data() : &u[6 * static_cast<std::size_t>(c.b)]);
     if (!out.point_breaks.empty()) {
       double broken = 0;
       for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) broken += out.point_breaks[j] != Break::none;
       const std::uint32_t points = c.point_end - c.point_begin;
-      out.broken.push_back(points > 0 ? broken / points : 0);
+      out.broken[number] = points > 0 ? broken / points : 0;
     }
-  }
+  });
   out.chain = contacts.states();
   out.chain_begin = contacts.state_begin();
   return out;
@@ -190,16 +219,21 @@ ContactState QuasiStatic::contacts() const {
 
 std::vector<StateArray> QuasiStatic::state() const {
   const Parts& p = *parts_;
-  std::vector<double> numbers{p.time, p.last_dt, p.scale, p.last_opening};
-  for (const auto* walls : {&p.wall, &p.reaction, &p.last_wall}) {
+  const MotionGuess::Past &last = p.motions.last(), &before = p.motions.before();
+  std::vector<double> numbers{p.time,      p.scale,       p.last_opening, p.motions.continues_change() ? 1.0 : 0.0,
+                              last.dt,     last.wall,     last.opening,   before.dt,
+                              before.wall, before.opening};
+  for (const auto* walls : {&p.wall, &p.reaction}) {
     for (const Vec3d& x : *walls) numbers.insert(numbers.end(), {x.x, x.y, x.z});
   }
   const QuasiStaticEnergies& e = p.energies;
-  numbers.insert(numbers.end(), {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j});
+  numbers.insert(numbers.end(),
+                 {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j, e.thermal_j});
   quasi_static::EngineState own = p.newton.engine().state();
-  return {{"quasi_static", "s, s, 1, m, m, N, m, J", std::move(numbers)},
+  return {{"quasi_static", "s, 1, m, 1, s, m, m, s, m, m, m, N, J", std::move(numbers)},
           {"displacement", "m, 1", std::move(own.displacement)},
-          {"motion", "m, 1", std::move(own.motion)},
+          {"motion", "m, 1", last.motion},
+          {"motion_before", "m, 1", before.motion},
           {"contacts", "Pa m, m", std::move(own.states)},
           {"growing", "1", std::vector<std::int64_t>(own.grew.begin(), own.grew.end())}};
 }
@@ -221,16 +255,21 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   const auto doubles = [&](std::size_t k) { return std::get<std::vector<double>>(found[k]->values); };
   Parts& p = *parts_;
   const std::vector<double> numbers = doubles(0);
-  p.time = numbers[0], p.last_dt = numbers[1], p.scale = numbers[2], p.last_opening = numbers[3];
-  std::size_t at = 4;
-  for (auto* walls : {&p.wall, &p.reaction, &p.last_wall}) {
+  p.time = numbers[0], p.scale = numbers[1], p.last_opening = numbers[2];
+  const auto past = [&](std::size_t k, std::size_t array) {
+    return MotionGuess::Past{numbers[k], numbers[k + 1], numbers[k + 2], doubles(array)};
+  };
+  p.motions.set(past(4, 2), past(7, 3), numbers[3] != 0);
+  std::size_t at = 10;
+  for (auto* walls : {&p.wall, &p.reaction}) {
     for (Vec3d& x : *walls) x = {numbers[at], numbers[at + 1], numbers[at + 2]}, at += 3;
   }
   QuasiStaticEnergies& e = p.energies;
   e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
-  e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5];
-  const auto& grew = std::get<std::vector<std::int64_t>>(found[4]->values);
-  p.engine().set_state({doubles(1), doubles(2), doubles(3), {grew.begin(), grew.end()}});
+  e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5],
+  e.thermal_j = numbers[at + 6];
+  const auto& grew = std::get<std::vector<std::int64_t>>(found[5]->values);
+  p.engine().set_state({doubles(1), doubles(4), {grew.begin(), grew.end()}});
   p.solved = false;
   p.show(p.wall, p.reaction);
 }

@@ -21,6 +21,8 @@ class QuasiStaticStepper : public Stepper {
   QuasiStaticStepper(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                      const Boundary& boundary, quasi_static::CourseOptions options);
 
+  /// Starts from a state of motion, as QuasiStatic::start().
+  void start(const StartState& state) { increments_.start(state); }
   void advance(std::int64_t steps) override;
   Observation observe() const override;
   ParticleState particles() const override { return increments_.network().particles(); }

@@ -6,9 +6,14 @@
 #include <cmath>
 #include <map>
 
-#include "host/quasi_static/pieces.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::quasi_static {
+namespace {
+
+constexpr std::size_t boxes_at_once = 16;  ///< in a piece of parallel work
+
+}  // namespace
 
 RigidBoxes::RigidBoxes(const Specimen& specimen, double per_box) {
   const std::size_t n = specimen.size();
@@ -80,7 +85,8 @@ bool RigidBoxes::factor(const TangentMatrix& matrix) {
   Eigen::SparseMatrix<double> lower(n, n);
   lower.setFromTriplets(entries.begin(), entries.end());
   auto& into = factored_ ? (second_ ? factors_ : next_) : factors_;
-  into.compute(lower);
+  if (!factored_) factors_.analyzePattern(lower), next_.analyzePattern(lower);  // it stays the same
+  into.factorize(lower);
   if (into.info() != Eigen::Success) return false;
   if (factored_) second_ = !second_;
   factored_ = true;
@@ -89,25 +95,31 @@ bool RigidBoxes::factor(const TangentMatrix& matrix) {
 
 void RigidBoxes::add_solution(const Vector& x, Vector& out) const {
   if (!factored_) return;
-  using Six1 = Eigen::Matrix<double, 6, 1>;
   Eigen::VectorXd right(static_cast<Eigen::Index>(6 * boxes()));
-  for_pieces(boxes(), 16, [&](std::size_t from, std::size_t to) {
+  const auto at = [](auto* numbers) { return Vec3d{numbers[0], numbers[1], numbers[2]}; };
+  for_pieces(boxes(), boxes_at_once, [&](std::size_t from, std::size_t to) {
     for (std::size_t box = from; box < to; ++box) {
-      Six1 sum = Six1::Zero();
+      Vec3d force{}, moment{};
       for (std::size_t m = begin_[box]; m < begin_[box + 1]; ++m) {
         const std::size_t i = members_[m];
-        sum.noalias() += motion(i).transpose() * Eigen::Map<const Six1>(&x[6 * i]);
+        const Vec3d f = at(&x[6 * i]);
+        force += f;
+        moment += at(&x[6 * i + 3]) + cross(lever_[i], f);
       }
-      right.segment<6>(static_cast<Eigen::Index>(6 * box)) = sum;
+      right.segment<6>(static_cast<Eigen::Index>(6 * box)) << force.x, force.y, force.z, moment.x, moment.y, moment.z;
     }
   });
   const Eigen::VectorXd found = current().solve(right);
-  for_pieces(boxes(), 16, [&](std::size_t from, std::size_t to) {
+  for_pieces(boxes(), boxes_at_once, [&](std::size_t from, std::size_t to) {
     for (std::size_t box = from; box < to; ++box) {
-      const Six1 rigid = found.segment<6>(static_cast<Eigen::Index>(6 * box));
+      const double* rigid = found.data() + 6 * box;
+      const Vec3d shift = at(rigid), turn = at(rigid + 3);
       for (std::size_t m = begin_[box]; m < begin_[box + 1]; ++m) {
         const std::size_t i = members_[m];
-        Eigen::Map<Six1>(&out[6 * i]) += motion(i) * rigid;
+        double* u = &out[6 * i];
+        const Vec3d moved = shift + cross(turn, lever_[i]);
+        u[0] += moved.x, u[1] += moved.y, u[2] += moved.z;
+        u[3] += turn.x, u[4] += turn.y, u[5] += turn.z;
       }
     }
   });

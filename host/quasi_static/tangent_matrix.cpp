@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/quasi_static/pieces.hpp"
+#include "kernels/base/parallel.hpp"
 
 namespace macadam::quasi_static {
 TangentMatrix::TangentMatrix(const ContactNetwork& network, std::size_t particles)

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <limits>
 
 #include "host/base/disjoint_sets.hpp"
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 #include "macadam/ranks.hpp"
 
@@ -17,6 +19,23 @@ using experiments::Cracks;
 using experiments::PairCracks;
 
 namespace {
+
+/// Number of contacts in a piece of parallel work.
+constexpr std::size_t contacts_at_once = 1024;
+
+/// Sums over the cracks of some contacts, by pair type.
+struct PieceSums {
+  std::array<std::int64_t, pair_types> cracked{};
+  std::array<double, pair_types> cracked_area_m2{};
+  double crack_energy_j = 0, friction_energy_j = 0;
+
+  PieceSums& operator+=(const PieceSums& other) {
+    for (std::size_t i = 0; i < pair_types; ++i)
+      cracked[i] += other.cracked[i], cracked_area_m2[i] += other.cracked_area_m2[i];
+    crack_energy_j += other.crack_energy_j, friction_energy_j += other.friction_energy_j;
+    return *this;
+  }
+};
 
 /// Returns a whole number with thousands separators: 12,345.
 std::string grouped(std::int64_t number) {
@@ -36,12 +55,12 @@ std::string of_breakable(const Cracks& cracks) {
 
 bool counts_cracks(const Scene& scene) { return is_stepped(scene.solver.method) && can_break(facts_of(scene.laws)); }
 
-ContactState read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network) {
-  if (scene.solver.backend != Backend::reference) return stepper.contacts(network);
-  ContactState out;
+void read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network, ContactState& out) {
+  const bool only_points =
+      scene.solver.backend == Backend::reference || scene.solver.method == SolverMethod::quasi_static;
+  if (!only_points) return stepper.read_contacts(network, out);
   out.point_breaks = stepper.point_breaks(network);
   out.point_cracks = stepper.point_cracks(network);
-  return out;
 }
 
 CrackWatch::CrackWatch(const Scene& scene, const Preparation& prepared, const std::vector<CrackEvent>& before)
@@ -52,7 +71,9 @@ CrackWatch::CrackWatch(const Scene& scene, const Preparation& prepared, const st
   if (!active_) return;
   if (can_crack(laws_)) found_.sums.emplace();
   broken_.resize(network_.point_area.size(), false);
+  links_.reserve(network_.contacts.size());
   for (const Contact& c : network_.contacts) {
+    links_.push_back({c.a, c.b, c.point_end - c.point_begin});
     const auto pair = static_cast<std::size_t>(c.pair);
     if (laws_[pair] && laws_[pair]->breaks) found_.by_pair[pair].breakable += c.point_end - c.point_begin;
   }
@@ -75,21 +96,27 @@ void CrackWatch::add(const CrackEvent& event) {
   pair.area_m2 += network_.point_area[event.point];
   if (!pair.first_s) pair.first_s = event.time_s;
   broken_[event.point] = true;
+  --links_[event.contact].intact;
   found_.events.push_back(event);
 }
 
 std::vector<CrackEvent> CrackWatch::look(const ContactState& state, double time) {
   std::vector<CrackEvent> out;
   if (!active_) return out;
-  for (std::uint32_t c = 0; c < network_.contacts.size(); ++c) {
-    const Contact& contact = network_.contacts[c];
-    for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
-      if (state.point_breaks[point] == Break::none || broken_[point]) continue;
-      CrackEvent event{c, point, state.point_breaks[point], time};
-      if (sums()) event.opening_m = state.point_cracks[point].opening, event.slip_m = state.point_cracks[point].slip;
-      out.push_back(event);
+  const std::size_t contacts = network_.contacts.size();
+  std::vector<std::vector<CrackEvent>> pieces((contacts + contacts_at_once - 1) / contacts_at_once);
+  for_pieces(contacts, contacts_at_once, [&](std::size_t from, std::size_t to) {
+    for (std::size_t c = from; c < to; ++c) {
+      const Contact& contact = network_.contacts[c];
+      for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
+        if (state.point_breaks[point] == Break::none || broken_[point]) continue;
+        CrackEvent event{static_cast<std::uint32_t>(c), point, state.point_breaks[point], time};
+        if (sums()) event.opening_m = state.point_cracks[point].opening, event.slip_m = state.point_cracks[point].slip;
+        pieces[from / contacts_at_once].push_back(event);
+      }
     }
-  }
+  });
+  for (const std::vector<CrackEvent>& piece : pieces) out.insert(out.end(), piece.begin(), piece.end());
   for (const CrackEvent& event : out) add(event);
   if (sums()) sum(state.point_cracks);
   return out;
@@ -112,20 +139,27 @@ std::vector<CrackEvent> CrackWatch::look(const experiments::CrackSurvey& survey,
 }
 
 void CrackWatch::sum(const std::vector<laws::PointCrack>& cracks) {
+  const auto all =
+      sum_of_pieces<PieceSums>(network_.contacts.size(), contacts_at_once, [&](std::size_t from, std::size_t to) {
+        PieceSums piece;
+        for (std::size_t c = from; c < to; ++c) {
+          const Contact& contact = network_.contacts[c];
+          const auto pair = static_cast<std::size_t>(contact.pair);
+          for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
+            const double area = network_.point_area[point];
+            if (cracks[point].damage > 0) ++piece.cracked[pair], piece.cracked_area_m2[pair] += area;
+            piece.crack_energy_j += cracks[point].energy * area;
+            piece.friction_energy_j += cracks[point].friction * area;
+          }
+        }
+        return piece;
+      });
   experiments::CrackSums now;
-  for (PairCracks& pair : found_.by_pair) pair.cracked = 0, pair.cracked_area_m2 = 0;
-  for (const Contact& contact : network_.contacts) {
-    PairCracks& pair = found_.by_pair[static_cast<std::size_t>(contact.pair)];
-    for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
-      const double area = network_.point_area[point];
-      if (cracks[point].damage > 0) ++pair.cracked, pair.cracked_area_m2 += area;
-      now.crack_energy_j += cracks[point].energy * area;
-      now.friction_energy_j += cracks[point].friction * area;
-    }
-  }
+  now.crack_energy_j = all.crack_energy_j, now.friction_energy_j = all.friction_energy_j;
   for (std::size_t i = 0; i < pair_types; ++i) {
-    now.cracked += found_.by_pair[i].cracked;
-    now.cracked_area_m2[i] = found_.by_pair[i].cracked_area_m2;
+    found_.by_pair[i].cracked = all.cracked[i], found_.by_pair[i].cracked_area_m2 = all.cracked_area_m2[i];
+    now.cracked += all.cracked[i];
+    now.cracked_area_m2[i] = all.cracked_area_m2[i];
   }
   found_.sums = now;
 }
@@ -134,11 +168,8 @@ bool CrackWatch::joins_walls() const {
   if (of_first_rank(static_cast<double>(found_.points())) == 0 || !joined_at_start_) return true;
   const auto top = static_cast<std::int32_t>(network_.row_begin.size() - 1), held = top + 1;
   DisjointSets sets(static_cast<std::size_t>(held) + 1);
-  for (const Contact& c : network_.contacts) {
-    bool intact = false;
-    for (std::uint32_t point = c.point_begin; point < c.point_end && !intact; ++point)
-      intact = !(active_ && broken_[point]);
-    if (intact) sets.join(c.a, c.b >= 0 ? c.b : c.b == wall_z_hi ? top : held);
+  for (const Link& link : links_) {
+    if (link.intact > 0) sets.join(link.a, link.b >= 0 ? link.b : link.b == wall_z_hi ? top : held);
   }
   return of_first_rank(sets.find(top) == sets.find(held)) != 0;
 }

@@ -19,9 +19,10 @@ inline constexpr const char* cracks_file = "cracks.csv";
 /// Returns whether a run of this scene counts broken points: it is stepped, and one of its laws can break.
 bool counts_cracks(const Scene& scene);
 
-/// Returns Stepper::contacts(). The backend `reference` only gives `point_breaks` and `point_cracks`. All processes of
-/// a run must call this together. \throws RunError as Stepper::contacts() does.
-ContactState read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network);
+/// Reads the present state into `out`, whose memory is reused (Stepper::read_contacts()). The backend `reference` and
+/// the method `quasi_static` only give `point_breaks` and `point_cracks`. All processes of a run must call this
+/// together. \throws RunError as Stepper::contacts() does.
+void read_contact_state(const Scene& scene, const Stepper& stepper, const ContactNetwork& network, ContactState& out);
 
 /// Reads at each sample which contact points are broken. If no law of the scene can break, does nothing.
 class CrackWatch {
@@ -47,13 +48,19 @@ class CrackWatch {
 
  private:
   void add(const experiments::CrackEvent& event);
-  /// Counts cracked points by pair, and sums their energies.
+  /// Counts cracked points by pair, and sums their energies. The bits do not depend on the number of threads.
   void sum(const std::vector<laws::PointCrack>& cracks);
 
   const ContactNetwork& network_;
   FactsTable laws_;
   bool active_, joined_at_start_;
   std::vector<bool> broken_;  // whether each contact point is broken
+  /// Two ends of a contact, as in Contact, and the number of its points that are intact.
+  struct Link {
+    std::int32_t a, b;
+    std::uint32_t intact;
+  };
+  std::vector<Link> links_;  // of all contacts, apart from the network because each look() reads all of them
   experiments::Cracks found_;
 };
 

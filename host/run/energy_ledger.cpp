@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -15,6 +16,8 @@ namespace {
 
 /// Numbers of a LedgerState before its chains: work, dissipation, time, kinetic energy, and two vectors per wall.
 constexpr std::size_t head_numbers = 4 + 6 * wall_count;
+/// Number of contacts or particles in a piece of a parallel sum.
+constexpr std::size_t items_at_once = 1024;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns how many numbers of a component lie between f and the states of its units.
@@ -24,6 +27,12 @@ constexpr std::size_t numbers_before_units() {
     return static_cast<std::size_t>(L::crack_numbers);
   else
     return 0;
+}
+
+/// Returns how many numbers a chain of a law has: f, those of a crack, and the states of the units.
+template <class L>
+std::size_t words_of(const L& law) {
+  return static_cast<std::size_t>(1 + law.units());
 }
 
 }  // namespace
@@ -75,45 +84,60 @@ void EnergyLedger::observe(const Observation& now) {
 // Kinetic energy with the product of the velocities half a step before and half a step after the step. With it, the
 // leapfrog scheme conserves energy exactly if the contact forces are linear.
 double EnergyLedger::kinetic(const ParticleState& p) const {
-  double out = 0;
-  for (std::size_t i = 0; i < p.velocity.size(); ++i) {
-    const Vec3d &v = p.velocity[i], &w = p.spin[i];
-    out += density_scaling_ * (inertia_.mass[i] * dot(v, v) + inertia_.inertia[i] * dot(w, w)) +
-           dt_ * (dot(p.force[i], v) + dot(p.moment[i], w));
-  }
-  return 0.5 * out;
+  return 0.5 * sum_in_parallel<double>(
+                   p.velocity.size(),
+                   [&](std::size_t i) {
+                     const Vec3d &v = p.velocity[i], &w = p.spin[i];
+                     return density_scaling_ * (inertia_.mass[i] * dot(v, v) + inertia_.inertia[i] * dot(w, w)) +
+                            dt_ * (dot(p.force[i], v) + dot(p.moment[i], w));
+                   },
+                   items_at_once);
 }
 
 EnergyLedger::ChainEnergies EnergyLedger::chains(const ContactState& now, double dt) const {
-  ChainEnergies out;
-  const std::vector<double> rest(state_.chain.empty() ? now.chain.size() : 0, 0.0);
-  const std::vector<double>& before = state_.chain.empty() ? rest : state_.chain;
-  for (std::size_t c = 0; c < network_.contacts.size(); ++c) {
-    const Contact& contact = network_.contacts[c];
-    std::visit(
-        [&]<class L>(const L& law) {
-          if constexpr (has_energy<L>) {
-            const auto words = static_cast<std::size_t>(1 + law.units());
-            constexpr std::size_t skipped = 1 + numbers_before_units<L>();
-            std::size_t at = now.chain_begin[c];
-            for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
-              for (int k = 0; k < 3; ++k, at += words) {
-                const double weight = network_.point_area[point] / contact.length * (k > 0 ? law.alpha : 1);
-                const double *f = &now.chain[at], *f_before = &before[at];
-                out.elastic += weight * law.stored(*f, f + skipped);
-                out.viscous += weight * law.dissipated(dt, *f_before, f_before + skipped, *f, f + skipped);
-              }
-            }
-          } else {
-            out.elastic = out.viscous = unknown;
-          }
-        },
-        laws_[static_cast<std::size_t>(contact.pair)].value());
+  std::size_t most_words = 1;
+  for (const auto& law : laws_) {
+    if (law) most_words = std::max(most_words, std::visit([](const auto& l) { return words_of(l); }, *law));
   }
-  return out;
+  const std::vector<double> at_rest(most_words, 0.0);
+  const double* const before = state_.chain.empty() ? nullptr : state_.chain.data();
+  return sum_of_pieces<ChainEnergies>(network_.contacts.size(), items_at_once, [&](std::size_t from, std::size_t to) {
+    ChainEnergies sum;
+    for (std::size_t c = from; c < to; ++c) {
+      const Contact& contact = network_.contacts[c];
+      std::visit(
+          [&]<class L>(const L& law) {
+            add_chains(law, contact, &now.chain[now.chain_begin[c]], before ? before + now.chain_begin[c] : nullptr,
+                       at_rest.data(), dt, sum);
+          },
+          laws_[static_cast<std::size_t>(contact.pair)].value());
+    }
+    return sum;
+  });
 }
 
-experiments::Energies EnergyLedger::sample(const Observation& now, const ContactState& contacts,
+template <class L>
+void EnergyLedger::add_chains(const L& law, const Contact& contact, const double* now, const double* before,
+                              const double* at_rest, double dt, ChainEnergies& sum) const {
+  if constexpr (has_energy<L>) {
+    const std::size_t words = words_of(law);
+    constexpr std::size_t skipped = 1 + numbers_before_units<L>();
+    std::size_t at = 0;
+    for (std::uint32_t point = contact.point_begin; point < contact.point_end; ++point) {
+      const double opening = network_.point_area[point] / contact.length, weights[2] = {opening, opening * law.alpha};
+      for (int k = 0; k < 3; ++k, at += words) {
+        const double weight = weights[k > 0];
+        const double *f = now + at, *f_before = before ? before + at : at_rest;
+        sum.elastic += weight * law.stored(*f, f + skipped);
+        sum.viscous += weight * law.dissipated(dt, *f_before, f_before + skipped, *f, f + skipped);
+      }
+    }
+  } else {
+    sum.elastic = sum.viscous = unknown;
+  }
+}
+
+experiments::Energies EnergyLedger::sample(const Observation& now, ContactState& contacts,
                                            const ParticleState& particles, const experiments::CrackSums& cracks) {
   observe(now);
   experiments::Energies out;
@@ -130,7 +154,7 @@ experiments::Energies EnergyLedger::sample(const Observation& now, const Contact
     out.viscous_j = state_.viscous_j;
   }
   state_.time_s = now.time;
-  state_.chain = contacts.chain;
+  state_.chain.swap(contacts.chain);
   if (damped_) out.damping_j = out.missing();
   return out;
 }

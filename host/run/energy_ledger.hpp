@@ -45,10 +45,11 @@ class EnergyLedger {
   /// same step.
   void observe(const Observation& now);
   /// Returns the energies now and adds the dissipation of the dashpots since the last sample. `contacts`: the present
-  /// state, in points form; without chains (backend reference), the energies of springs and dashpots are NaN. `cracks`:
-  /// the sums over the cracks at the same time. If the steps are damped, the energy that damping takes is the remainder
-  /// of the balance.
-  experiments::Energies sample(const Observation& now, const ContactState& contacts, const ParticleState& particles,
+  /// state, in points form; without chains (backend reference), the energies of springs and dashpots are NaN. The
+  /// ledger keeps its chains; `contacts.chain` then holds the chains of the last sample, whose memory the next read can
+  /// use. `cracks`: the sums over the cracks at the same time. If the steps are damped, the energy that damping takes
+  /// is the remainder of the balance. The bits of the energies do not depend on the number of threads.
+  experiments::Energies sample(const Observation& now, ContactState& contacts, const ParticleState& particles,
                                const experiments::CrackSums& cracks);
 
   const LedgerState& state() const { return state_; }
@@ -57,8 +58,17 @@ class EnergyLedger {
   /// Energy that springs store and energy that dashpots have dissipated since the last sample [J].
   struct ChainEnergies {
     double elastic = 0, viscous = 0;
+    ChainEnergies& operator+=(const ChainEnergies& other) {
+      elastic += other.elastic, viscous += other.viscous;
+      return *this;
+    }
   };
   ChainEnergies chains(const ContactState& now, double dt) const;
+  /// Adds the energies of the chains of a contact. `now`, `before`: numbers of its first chain; `before` is null if the
+  /// chains were at rest, whose numbers `at_rest` has.
+  template <class L>
+  void add_chains(const L& law, const Contact& contact, const double* now, const double* before, const double* at_rest,
+                  double dt, ChainEnergies& sum) const;
   double kinetic(const ParticleState& particles) const;
 
   const ContactNetwork& network_;

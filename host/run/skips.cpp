@@ -43,7 +43,7 @@ std::vector<Skip> asked_skips(const Scene& scene) {
     out.push_back({"lateral walls", "the sides are free", "none: the scene asks for free sides"});
   if (!scene.output.contacts) out.push_back({"contacts.csv", "not requested", same_bits});
   const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
-  if (cyclic && scene.solver.method == SolverMethod::explicit_ && !scene.output.response) {
+  if (cyclic && is_stepped(scene.solver.method) && !scene.output.response) {
     out.push_back({"observation",
                    "response.csv is not requested, so only the fitted cycles and the cycle before them are sampled",
                    same_bits});

@@ -44,6 +44,25 @@ void require_possible(double steps, double dt, const std::string& what) {
       "with the time step of {:.6g} s the run would take {:.6g} steps {}; increase density_scaling", dt, steps, what));
 }
 
+std::string keys_of_steps(const SolverSpec& solver) {
+  std::vector<const char*> out;
+  if (solver.density_scaling) out.push_back("density_scaling");
+  if (solver.safety) out.push_back("safety");
+  if (solver.time_step) out.push_back("time_step");
+  if (solver.damping_given) out.push_back("damping");
+  if (solver.form) out.push_back("form");
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
+void add_increment_settings(const experiments::Stepped& found, const RunResult& run, nlohmann::ordered_json& solver) {
+  for (const char* key : {"dt_s", "steps"}) solver.erase(key);
+  solver["precision"] = to_string(found.precision);
+  solver["form"] = to_string(found.form);
+  solver["geometry"] = to_string(found.geometry);
+  solver["decisions"] = run.decisions;
+  solver["bytes"] = found.bytes;
+}
+
 void add_settings(const experiments::Stepped& found, const Scene& scene, const RunResult& run, std::int64_t steps,
                   std::optional<double> dt_s, nlohmann::ordered_json& solver) {
   if (dt_s) solver["dt_s"] = *dt_s;

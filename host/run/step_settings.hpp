@@ -32,6 +32,13 @@ std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Back
 /// more.
 void require_possible(double steps, double dt, const std::string& what);
 
+/// Returns the names of those keys in `[solver]` of the scene that only time steps use, joined by commas; empty if the
+/// scene has none of them.
+std::string keys_of_steps(const SolverSpec& solver);
+
+/// Adds the settings of a test by increments to `solver` of summary.json.
+void add_increment_settings(const experiments::Stepped& found, const RunResult& run, nlohmann::ordered_json& solver);
+
 /// Adds the settings with which a test was stepped to `solver` of summary.json.
 void add_settings(const experiments::Stepped& found, const Scene& scene, const RunResult& run, std::int64_t steps,
                   std::optional<double> dt_s, nlohmann::ordered_json& solver);

@@ -27,6 +27,8 @@ std::string span_of(double low, double high, const char* unit) {
 std::optional<std::pair<double, double>> temperatures_used(const Scene& scene) {
   std::vector<double> all = temperatures_of(scene.experiment);
   if (scene.materials.temperature) all.push_back(*scene.materials.temperature);
+  const TemperatureHistory history = temperature_history_of(scene.experiment);
+  all.insert(all.end(), history.temperatures.begin(), history.temperatures.end());
   if (all.empty()) return {};
   const auto [low, high] = std::minmax_element(all.begin(), all.end());
   return std::pair{*low, *high};

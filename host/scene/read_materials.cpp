@@ -36,6 +36,12 @@ Key density_key(double& target, Need need) {
           "computed from [specimen.recipe] if that is given"};
 }
 
+Key expansion_key(double& target) {
+  constexpr Rule rule{[](double v) { return v >= 0 && v <= 1e-3; }, "0 to 1e-3 per kelvin"};
+  return {"expansion", Need::optional, into(target, expansion, rule),
+          "coefficient of linear thermal expansion, for tests with temperature in [loading]"};
+}
+
 Key poisson_key(std::optional<double>& target, const char* usual) {
   return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson),
           "Poisson's ratio, for rules \"series\" and \"volumetric\"", usual};
@@ -65,6 +71,7 @@ void read_aggregate(const Section& section, Need need, ContactRule rule, Materia
     phases.rock_modulus = E;
   };
   section.read({density_key(materials.aggregate, need),
+                expansion_key(materials.expansion.aggregate),
                 {"law",
                  Need::optional,
                  {law, {"text", nullptr, "\"elastic\""}},
@@ -97,6 +104,7 @@ void read_mastic(const Section& section, Need need, ContactRule rule, const Read
   std::optional<double> from_file;
   std::vector<Key> keys{
       density_key(materials.mastic, need),
+      expansion_key(materials.expansion.mastic),
       {"law",
        Need::optional,
        {[](const Value&) {}, {"one of"}},

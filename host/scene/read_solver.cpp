@@ -76,7 +76,7 @@ void refuse_steps(const Section& section) {
 
 void choose_method(SolverSpec& solver, const Experiment& experiment, const LawTable& laws) {
   if (solver.method_given || stepping_of(experiment) != experiments::Stepping::if_asked) return;
-  if (!can_crack(facts_of(laws))) return;
+  if (!can_crack(facts_of(laws)) && temperature_history_of(experiment).empty()) return;
   const bool steps = solver.density_scaling || solver.safety || solver.time_step || solver.damping_given ||
                      solver.form || solver.geometry == Geometry::updated || solver.backend == Backend::cuda ||
                      solver.backend == Backend::reference || !solver.devices.empty() ||
@@ -109,7 +109,7 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error),
         "largest relative error of |E*| and largest error of phi [rad]; the program chooses and reports the settings "
         "that are not given so that the errors are smaller. Method \"quasi_static\": largest estimated error of the "
-        "stress in one increment, relative to the largest stress",
+        "stress in one increment, relative to the largest stress, and in cyclic tests also of |E*| and phi",
         "none; method \"quasi_static\": 0.001"},
        {"density_scaling",
         Need::optional,
@@ -172,10 +172,9 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
     section.refuse("method", fmt::format("\"explicit\" with kind = \"{}\" in [loading]", kind_of(experiment)),
                    "\"harmonic\", because this kind is not stepped in time");
   }
-  if (spec.method == SolverMethod::quasi_static && stepping_of(experiment) != experiments::Stepping::if_asked) {
+  if (spec.method == SolverMethod::quasi_static && stepping_of(experiment) == experiments::Stepping::never) {
     section.refuse("method", fmt::format("\"quasi_static\" with kind = \"{}\" in [loading]", kind_of(experiment)),
-                   "\"explicit\" or \"harmonic\"; for a cyclic load by increments, use kind = \"history\" with drive = "
-                   "\"cyclic\"");
+                   "\"harmonic\", because this kind has no time");
   }
   if (spec.method == SolverMethod::quasi_static) refuse_steps(section);
   if (spec.inertia && spec.method == SolverMethod::explicit_) {

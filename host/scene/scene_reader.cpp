@@ -122,6 +122,11 @@ void check_together(const Scene& scene, const Section& root) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
                                           "kind = \"cyclic\" or \"sweep\", or method = \"explicit\" in [solver]");
   }
+  if (!temperature_history_of(scene.experiment).empty() && scene.solver.method != SolverMethod::quasi_static) {
+    root.find("loading")->section().refuse(
+        "temperature", std::string("this key with method \"") + to_string(scene.solver.method) + "\"",
+        "method = \"quasi_static\" in [solver], without keys for time steps");
+  }
   const auto require_density = [&](bool generated, double density, const std::string& phase) {
     if (generated && density == 0) {
       root.refuse("materials", "no density of the " + phase + " that [specimen] generates",

@@ -113,9 +113,9 @@ Experiment read_experiment(const Section& section);
 
 /// Returns the solver settings of a scene without `[solver]`.
 SolverSpec usual_solver(const Experiment& experiment);
-/// Chooses the method if the scene gives none, the contacts can crack, and the test is one that takes time steps only
-/// on request. The method is then increments without inertia or, if the scene has a setting that only time steps use,
-/// time steps.
+/// Chooses the method if the scene gives none, the contacts can crack or the temperature changes during the test, and
+/// the test is one that takes time steps only on request. The method is then increments without inertia or, if the
+/// scene has a setting that only time steps use, time steps.
 void choose_method(SolverSpec& solver, const Experiment& experiment, const LawTable& laws);
 
 /// Reads `[solver]`. Density scaling and time step are checked against the experiment's frequencies.

@@ -56,14 +56,7 @@ std::optional<double> common_log10_shift(const Scene& scene, double temperature)
 namespace scene {
 
 void apply_temperature(Scene& scene, const Section& root, const TemperatureTables& tables) {
-  const auto check = [&](const std::string& in, const std::string& key, double temperature) {
-    const Section section = root.find(in)->section();
-    if (!tables.used && std::none_of(scene.shifts.begin(), scene.shifts.end(), shifts)) {
-      section.refuse(
-          key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
-          std::string("shift = \"wlf\", \"arrhenius\" or \"table\" in ") +
-              (has_laws_of_phases(scene.network.rule) ? "[materials.mastic]" : "at least one section [[contacts]]"));
-    }
+  const auto check_values = [&](const Section& section, const std::string& key, double temperature) {
     LawTable at = laws_at(scene, temperature);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       if (!at[pair] || laws::usable(*at[pair])) continue;
@@ -74,6 +67,16 @@ void apply_temperature(Scene& scene, const Section& root, const TemperatureTable
     }
     return at;
   };
+  const auto check = [&](const std::string& in, const std::string& key, double temperature) {
+    const Section section = root.find(in)->section();
+    if (!tables.used && std::none_of(scene.shifts.begin(), scene.shifts.end(), shifts)) {
+      section.refuse(
+          key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
+          std::string("shift = \"wlf\", \"arrhenius\" or \"table\" in ") +
+              (has_laws_of_phases(scene.network.rule) ? "[materials.mastic]" : "at least one section [[contacts]]"));
+    }
+    return check_values(section, key, temperature);
+  };
   const std::vector<double> several = temperatures_of(scene.experiment);
   if (!several.empty()) {
     const Section loading = root.find("loading")->section();
@@ -81,6 +84,16 @@ void apply_temperature(Scene& scene, const Section& root, const TemperatureTable
       loading.refuse("temperatures", "this key with temperature in [materials]", "only one of the two");
     }
     for (const double temperature : several) check("loading", "temperatures", temperature);
+  }
+  if (const TemperatureHistory history = temperature_history_of(scene.experiment); !history.empty()) {
+    const Section loading = root.find("loading")->section();
+    if (scene.materials.temperature)
+      loading.refuse("temperature", "this key with temperature in [materials]", "only one of the two");
+    if (!scene.materials.expansion.any() && std::none_of(scene.shifts.begin(), scene.shifts.end(), shifts)) {
+      loading.refuse("temperature", "a temperature that changes nothing in the scene",
+                     "expansion in [materials.mastic] or [materials.aggregate], or a law with a shift");
+    }
+    for (const double temperature : history.temperatures) check_values(loading, "temperature", temperature);
   }
   if (const std::optional<double> temperature = scene.materials.temperature) {
     // laws_at() assumes that the laws are at the scene's temperature, but they are still at their reference

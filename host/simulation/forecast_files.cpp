@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/experiments/cyclic/step_rules.hpp"
 #include "host/experiments/experiment.hpp"
 #include "host/experiments/transient/transient_experiment.hpp"
 #include "host/run/cracks.hpp"
@@ -57,6 +58,8 @@ class FileForecast {
     if (name == damage_file) return damage_line * damaged_contacts();
     if (name == "response.csv") {
       double samples = 0;
+      if (scene_.solver.method == SolverMethod::quasi_static)
+        samples = static_cast<double>(scene_.cyclic().frequencies.size()) * (samples_by_increments(scene_) + 1);
       for (const StepForecast& s : f_.steps) samples += s.cycles * scene_.cyclic().samples_per_cycle + 1;
       return sample_line * samples;
     }

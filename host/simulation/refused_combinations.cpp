@@ -25,12 +25,21 @@ void require_volumetric(const Scene& scene) {
     refuse("rule in [network]", fmt::format("\"volumetric\" with kind \"{}\"", kind_of(scene.experiment)),
            "kind \"cyclic\" or \"sweep\", or rule \"series\", because with this rule only responses to cyclic loads "
            "can be computed");
+  if (scene.solver.method == SolverMethod::quasi_static)
+    refuse("rule in [network]", "\"volumetric\" with method \"quasi_static\"",
+           "method \"harmonic\", or rule \"series\", because increments do not compute the pressures of cells");
   if (scene.solver.backend == Backend::cuda)
     refuse("backend in [solver]", "\"cuda\" with rule \"volumetric\"",
            "\"cpu\", because the solver on GPUs does not compute the pressures of cells");
 }
 
 }  // namespace
+
+Backend requested_backend(const Scene& scene) {
+  const bool on_cpu =
+      scene.solver.method == SolverMethod::quasi_static && !temperature_history_of(scene.experiment).empty();
+  return on_cpu && scene.solver.backend == Backend::automatic ? Backend::cpu : scene.solver.backend;
+}
 
 void require_combination(const Scene& scene) {
   if (scene.network.rule == ContactRule::volumetric) require_volumetric(scene);
@@ -53,13 +62,21 @@ void require_combination(const Scene& scene) {
         fmt::format("{} temperature(s) with method \"explicit\"", temperatures_of(scene.experiment).size()),
         "method \"harmonic\", or a single temperature as temperature in [materials]");
   }
+  if (scene.solver.method != SolverMethod::quasi_static && !temperature_history_of(scene.experiment).empty()) {
+    throw InputError(scene.file.string(), 0, "temperature in [loading]",
+                     std::string("a list with method \"") + to_string(scene.solver.method) + "\"",
+                     "method \"quasi_static\", because only increments follow a changing temperature");
+  }
   if (scene.solver.method == SolverMethod::quasi_static) {
     const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
       throw InputError(scene.file.string(), 0, std::string(what) + " with method \"quasi_static\"", found, expected);
     };
-    if (stepping_of(scene.experiment) != experiments::Stepping::if_asked)
-      refuse("kind", kind_of(scene.experiment), "\"monotonic\", \"relaxation\", \"creep\" or \"history\"");
+    if (stepping_of(scene.experiment) == experiments::Stepping::never)
+      refuse("kind", kind_of(scene.experiment), "\"cyclic\", \"monotonic\", \"relaxation\", \"creep\" or \"history\"");
     if (scene.solver.backend == Backend::reference) refuse("backend", "reference", "auto, cpu or cuda");
+    if (scene.solver.backend == Backend::cuda && !temperature_history_of(scene.experiment).empty())
+      refuse("backend", "cuda and a temperature that changes",
+             "auto or cpu, because no GPU computes thermal expansion");
     if (scene.solver.devices.size() > 1)
       refuse("device", to_string(scene.solver.devices), "one device, because several cannot share such a test");
     if (scene.solver.precision.value_or(Precision::double_) != Precision::double_)

@@ -39,6 +39,7 @@
 #include "macadam/ranks.hpp"
 #include "macadam/stepper.hpp"
 #include "macadam/piecewise_stepper.hpp"
+#include "macadam/temperature.hpp"
 #include "macadam/quasi_static.hpp"
 #include "macadam/results.hpp"
 #include "macadam/sensitivity.hpp"

@@ -29,6 +29,9 @@ struct QuasiStaticOptions {
   Backend backend = Backend::cpu;
   /// The CUDA device; empty: the first one.
   DeviceList devices = {};
+  /// Opening of each contact per kelvin in a specimen that expands freely, as free_openings() returns it [m/K]; empty:
+  /// temperature causes no expansion.
+  std::vector<double> expansion = {};
 };
 
 /// The motion of the walls in an increment. The displacement of the top wall along z is `wall` unless `load` or
@@ -39,6 +42,10 @@ struct WallIncrement {
   std::optional<double> load;            ///< external force on the top wall along z at the end [N]
   /// Mean increase of the openings of those crack points that grew in the last increment, weighted by their areas [m].
   std::optional<double> opening;
+  double warming = 0;  ///< increase of the temperature [K]
+  /// Duration of the increment for the law of each pair type, at the temperature for which the laws are given [s]:
+  /// reduced_time(). Empty: `dt` for all laws.
+  std::optional<std::array<double, pair_types>> reduced_dt = {};
 };
 
 /// The course of Newton's method in an increment.
@@ -76,6 +83,11 @@ class QuasiStatic {
               const QuasiStaticOptions& options = {});
   ~QuasiStatic();
   QuasiStatic(QuasiStatic&&) noexcept;
+
+  /// Replaces the undeformed state by a state of motion, for example steady_start() (harmonic.hpp). Walls are at rest
+  /// in their initial places. Velocities have no effect. \throws InputError if a law has a crack, or for a state of
+  /// another network.
+  void start(const StartState& state);
 
   /// Solves an increment from the accepted state, and keeps the solution until accept() or the next solve().
   IncrementReport solve(const WallIncrement& increment);

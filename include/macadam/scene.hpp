@@ -21,6 +21,7 @@
 #include "macadam/linear_method.hpp"
 #include "macadam/recipe.hpp"
 #include "macadam/specimen.hpp"
+#include "macadam/temperature.hpp"
 
 namespace macadam {
 
@@ -32,6 +33,7 @@ struct Materials {
   std::optional<double> rock_modulus = {};             ///< E of the aggregates [Pa]; empty: not given
   std::optional<double> aggregate_poisson_ratio = {};  ///< empty: not given; only rule "volumetric" uses it
   std::optional<double> mastic_poisson_ratio = {};     ///< empty: not given
+  Expansion expansion = {};                            ///< used if the temperature changes during the test
   double density(Phase phase) const {
     return phase == Phase::aggregate ? aggregate : phase == Phase::mastic ? mastic : 0;
   }

@@ -213,6 +213,9 @@ class Stepper {
   /// \throws RunError for backend reference.
   virtual ContactState contacts(const ContactNetwork& network) const = 0;
 
+  /// Sets `out` to contacts(network). Reuses the memory of `out`, which is faster if the contacts are read many times.
+  virtual void read_contacts(const ContactNetwork& network, ContactState& out) const { out = contacts(network); }
+
   /// Returns whether and how each contact point broke, in the order of the network's points; empty if no law of the
   /// scene can break. Every backend has this. `network`: as in contacts().
   virtual std::vector<Break> point_breaks(const ContactNetwork& network) const {

@@ -2,6 +2,7 @@
 /// \file parallel.hpp  Runs independent pieces of work on all threads.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <vector>
@@ -25,20 +26,41 @@ void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
   }
 }
 
-/// Returns Σ f(k) over k < n. Splits the range of k into pieces, sums each piece, and adds the sums of the pieces in
-/// order. So the bits do not depend on the number of threads. Treats exceptions like for_each_in_parallel().
-template <class T, class F>
-T sum_in_parallel(std::size_t n, F&& f) {
-  constexpr std::size_t piece = 1 << 14;
-  std::vector<T> pieces((n + piece - 1) / piece);
-  for_each_in_parallel(pieces.size(), [&](std::size_t p) {
-    T own{};
-    for (std::size_t k = p * piece; k < n && k < (p + 1) * piece; ++k) own += f(k);
-    pieces[p] = own;
+/// Calls f(from, to) for pieces of 0 … n − 1 on all threads. A piece has `size` numbers, the last one may have fewer.
+/// Treats exceptions like for_each_in_parallel().
+template <class F>
+void for_pieces(std::size_t n, std::size_t size, F&& f) {
+  for_each_in_parallel((n + size - 1) / size, [&](std::size_t p) { f(p * size, std::min(n, (p + 1) * size)); });
+}
+
+/// Calls f(k) for k < n on all threads, in pieces.
+template <class F>
+void for_each_of(std::size_t n, F&& f) {
+  constexpr std::size_t at_once = 512;
+  for_pieces(n, at_once, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) f(k);
   });
+}
+
+/// Returns the sum of f(from, to) over pieces of 0 … n − 1. A piece has `size` numbers, the last one may have fewer.
+/// The pieces do not depend on the number of threads and are added in order, so neither do the bits of the sum.
+template <class T, class F>
+T sum_of_pieces(std::size_t n, std::size_t size, F&& f) {
+  std::vector<T> pieces((n + size - 1) / size);
+  for_pieces(n, size, [&](std::size_t from, std::size_t to) { pieces[from / size] = f(from, to); });
   T out{};
   for (const T& p : pieces) out += p;
   return out;
+}
+
+/// Returns Σ f(k) over k < n, as sum_of_pieces() does. Use a short piece if f takes long.
+template <class T, class F>
+T sum_in_parallel(std::size_t n, F&& f, std::size_t piece = 1 << 14) {
+  return sum_of_pieces<T>(n, piece, [&](std::size_t from, std::size_t to) {
+    T sum{};
+    for (std::size_t k = from; k < to; ++k) sum += f(k);
+    return sum;
+  });
 }
 
 }  // namespace macadam

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "kernels/contact/initial_contact.hpp"
 #include "kernels/contact/precision.hpp"
 #include "kernels/contact/start_frame.hpp"
 
@@ -57,8 +58,9 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
     word(arm_a) = static_cast<Geo>(c.arm_a);
     word(arm_b) = static_cast<Geo>(c.arm_b);
     if (shape.series != 0) word(shape.series) = static_cast<Geo>(c.series);
-    const double moments[6] = {c.moments.a, c.moments.s, c.moments.t, c.moments.ss, c.moments.st, c.moments.tt};
-    for (int k = 0; k < (turns ? 6 : 1); ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.length);
+    double moments[6];
+    moments_over_length(c, moments);
+    for (int k = 0; k < (turns ? 6 : 1); ++k) word(moment_0 + k) = static_cast<Geo>(moments[k]);
     for (std::uint32_t j = 0; by_points && j < c.point_end - c.point_begin; ++j) {
       Geo* layer = &out.points[(group.packet_layer[packet] + j) * point_words * lanes];
       layer[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);

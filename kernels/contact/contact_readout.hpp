@@ -3,17 +3,22 @@
 /// of an executor (the object that runs the steps on a CPU or GPU); computes on the host in double precision.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "kernels/contact/contact_data.hpp"
 #include "kernels/contact/contact_step.hpp"
+#include "kernels/contact/initial_contact.hpp"
 
 namespace macadam::kernels {
 
-/// Copies of the arrays of a group that steps change.
+/// The arrays of a group that steps change, in host memory.
 template <class P>
 struct GroupState {
-  std::vector<typename P::State> chain, frame;  ///< as in ContactView
+  /// As in ContactView. The memory belongs to the executor; it is valid until the next call of a function of the
+  /// executor.
+  std::span<const typename P::State> chain, frame;
   std::vector<float> change;  ///< [slot][6] change of the force density f since the chains were updated; empty: none
 };
 
@@ -39,7 +44,7 @@ class GroupReading {
     return words() * (shape_.by_points ? 3 * (c.point_end - c.point_begin) : 6);
   }
 
-  /// Fills in the entries of the group's contacts. `out.chain_begin` must be complete.
+  /// Fills in all entries of the group's contacts and of their points. `out.chain_begin` must be complete.
   void read(ContactState& out) const {
 #pragma omp parallel for schedule(static)
     for (std::size_t slot = 0; slot < group_.contact.size(); ++slot) {
@@ -68,30 +73,40 @@ class GroupReading {
     std::copy(u, u + 6, out.relative[number].begin());
     double* chain = &out.chain[out.chain_begin[number]];
     const FacetLoad<double> load = shape_.by_points ? points(slot, c, u, chain) : condensed(slot, c, u, chain);
-    if constexpr (breakable_law<L>) read_breaks(c, chain, out.broken[number], out.point_breaks);
-    if constexpr (cracking_law<L>) {
-      for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j)
-        out.point_cracks[c.point_begin + j] = parameters_.crack_of(chain + 3 * j * words());
-    }
+    read_breaks(c, chain, number, out);
+    read_cracks(c, chain, out.point_cracks);
     out.force[number] = load.n * frame.n + load.s * frame.s + load.t * frame.t;
     out.moment[number] = load.moment_n * frame.n + load.moment_s * frame.s + load.moment_t * frame.t;
   }
 
   /// Counts broken points. `chain`: the numbers of the contact's points, one point after another.
-  void read_breaks(const Contact& c, const double* chain, double& fraction, std::vector<Break>& point_breaks) const {
+  void read_breaks(const Contact& c, [[maybe_unused]] const double* chain, std::uint32_t number,
+                   ContactState& out) const {
+    if (out.point_breaks.empty()) return;  // no law of the scene can break
     const std::uint32_t points = c.point_end - c.point_begin;
     std::uint32_t broken = 0;
     for (std::uint32_t j = 0; j < points; ++j) {
-      const Break how = parameters_.break_of(chain + 3 * j * words());
-      point_breaks[c.point_begin + j] = how;
+      Break how = Break::none;
+      if constexpr (breakable_law<L>) how = parameters_.break_of(chain + 3 * j * words());
+      out.point_breaks[c.point_begin + j] = how;
       broken += how != Break::none;
     }
-    fraction = points == 0 ? 0 : double(broken) / double(points);
+    out.broken[number] = points == 0 ? 0 : double(broken) / double(points);
+  }
+
+  void read_cracks(const Contact& c, [[maybe_unused]] const double* chain,
+                   std::vector<laws::PointCrack>& cracks) const {
+    if (cracks.empty()) return;  // no law of the scene has a crack
+    for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j) {
+      laws::PointCrack crack;
+      if constexpr (cracking_law<L>) crack = parameters_.crack_of(chain + 3 * j * words());
+      cracks[c.point_begin + j] = crack;
+    }
   }
 
   /// Returns the current frame by Eq. 5–7. `apart`: displacement of B minus displacement of A.
   Placement<double> placement(std::size_t slot, const Contact& c, const Vector& apart) const {
-    Placement<double> out{c.n, c.s, c.t, c.arm_a, c.arm_b};
+    Placement<double> out = initial_placement(c);
     if (!updated_) return out;
     follow_branch(out, c.n, c.distance, c.distance * c.n + apart, shape_.view.wall);
     const std::size_t lanes = shape_.lanes, count = static_cast<std::size_t>(shape_.view.frame_words);
@@ -116,7 +131,10 @@ class GroupReading {
   /// f from the displacement x and the factor of rock in series.
   double chain(std::size_t layer, int component, std::size_t lane, double x, double factor, double* out) const {
     if constexpr (memoryless_law<L>) {
-      if (shape_.stateless) return *out = factor * law_.value(x);
+      if (shape_.stateless) {
+        std::fill(out + 1, out + words(), 0.0);
+        return *out = factor * law_.value(x);
+      }
     }
     const auto at = (layer * static_cast<std::size_t>(shape_.view.components) + static_cast<std::size_t>(component)) *
                     words() * shape_.lanes;
@@ -134,8 +152,9 @@ class GroupReading {
       if (!state_.change.empty() && !shape_.stateless)
         *own = f[k] += state_.change[6 * slot + static_cast<std::size_t>(k)];
     }
-    const AreaMoments& m = c.moments;
-    const double d = c.length, moments[6] = {m.a / d, m.s / d, m.t / d, m.ss / d, m.st / d, m.tt / d};
+    std::fill(out + static_cast<std::size_t>(shape_.view.components) * words(), out + 6 * words(), 0.0);
+    double moments[6];
+    moments_over_length(c, moments);
     return condensed_load(f, alpha_, moments);
   }
 
@@ -154,6 +173,8 @@ class GroupReading {
         f[k] = weight * chain(layer, k, slot % shape_.lanes, x[k], series_factor(c, k > 0),
                               out + (3 * j + static_cast<std::size_t>(k)) * words());
       }
+      std::fill(out + (3 * j + static_cast<std::size_t>(shape_.view.components)) * words(), out + 3 * (j + 1) * words(),
+                0.0);
       const double along_s = alpha_ * f[1], along_t = alpha_ * f[2];
       load.n += f[0], load.s += along_s, load.t += along_t;
       load.moment_s += t * f[0], load.moment_t -= s * f[0], load.moment_n += s * along_t - t * along_s;

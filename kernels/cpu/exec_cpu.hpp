@@ -222,7 +222,7 @@ class ExecCpu : public NoSamples<typename P::Particle> {
   GroupState<P> group_state(std::size_t number, std::size_t, std::size_t) const {
     const CpuGroup<P, width>& group = *groups_[number];
     const ContactArrays<P>& arrays = group.arrays;
-    return {{arrays.chain.begin(), arrays.chain.end()}, {arrays.frame.begin(), arrays.frame.end()}, group.changes()};
+    return {{arrays.chain.data(), arrays.chain.size()}, {arrays.frame.data(), arrays.frame.size()}, group.changes()};
   }
   DeviceMotion device_motion() const { return {}; }
 

@@ -49,21 +49,20 @@ MACADAM_HD FacetLoad<T> spring_load(const ContactEnd& e, const T (&u)[6], Times&
   return condensed_load(density, alpha, m);
 }
 
+/// Returns force and moment on this end at the relative displacements `u`.
+template <class T, class Times>
+MACADAM_HD Twist<T> load_on_end(const ContactEnd& e, const T (&u)[6], Times&& times, T alpha) {
+  const ContactLoad<T> load = to_centres(frame_of<T>(e), spring_load(e, u, times, alpha));
+  return {load.force_a, load.moment_a};
+}
+
 /// Returns force and moment on this end if the two ends move by `own` and `other`. T holds one or several real numbers
 /// per component; `times(u, shear)` multiplies them by k*(s) of the contact, in shear (slip and twist) without α.
 template <class T, class Times>
 MACADAM_HD Twist<T> end_load(const ContactEnd& e, const Twist<T>& own, const Twist<T>& other, Times&& times, T alpha) {
-  const Vec3<double> n{e.n[0], e.n[1], e.n[2]}, s{e.s[0], e.s[1], e.s[2]}, t = cross(n, s);
-  const Placement<T> frame{
-      {T(n.x), T(n.y), T(n.z)}, {T(s.x), T(s.y), T(s.z)}, {T(t.x), T(t.y), T(t.z)}, T(e.arm), T(e.arm_other)};
-  T u[6], m[6];
-  relative_rates(frame, own, other, u);
-  for (int c = 0; c < 6; ++c) {
-    u[c] = times(u[c], c >= 3);
-    m[c] = T(e.moments[c]);
-  }
-  const ContactLoad<T> load = to_centres(frame, condensed_load(u, alpha, m));
-  return {load.force_a, load.moment_a};
+  T u[6];
+  relative_rates(frame_of<T>(e), own, other, u);
+  return load_on_end(e, u, times, alpha);
 }
 
 }  // namespace macadam::kernels

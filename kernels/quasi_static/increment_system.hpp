@@ -80,9 +80,9 @@ struct IncrementSolution {
 };
 /// States in the order of the device: number n of component k of contact or point i is at [(k·words + n)·count + i].
 struct IncrementStates {
-  std::vector<double> displacement, motion;  ///< [6·bodies]
-  std::vector<double> linear, points;        ///< 6 and 3 components
-  std::vector<std::uint8_t> grew;            ///< [point]
+  std::vector<double> displacement;    ///< [6·bodies]
+  std::vector<double> linear, points;  ///< 6 and 3 components
+  std::vector<std::uint8_t> grew;      ///< [point]
 };
 
 /// A broken point: its number in the network, how it broke, and opening and slip of its crack [m].
@@ -101,15 +101,15 @@ struct CrackTotals {
 };
 
 /// Vectors of the device that the host may read or write.
-enum class IncrementVector : std::uint8_t { residual, top, correction, by_wall, displacement };
+enum class IncrementVector : std::uint8_t { residual, top, correction, by_wall, displacement, trial };
 
 /// The operations of Newton's method on a device, in double precision. All sums have a fixed order, so the same device
 /// computes the same bits in every run. The operations are those of host/quasi_static/engine.hpp.
 class DeviceIncrements {
  public:
   virtual ~DeviceIncrements() = default;
-  /// Prepares an increment; `growing_area`: of the points that grew in the last one [m²].
-  virtual void begin(const IncrementLaws& laws, double factor, double growing_area) = 0;
+  /// Prepares an increment, whose trial has been written; `growing_area`: of the points that grew in the last one [m²].
+  virtual void begin(const IncrementLaws& laws, double growing_area) = 0;
   virtual IncrementSums evaluate(const WallMotions& wall) = 0;
   /// Assembles the tangent at the last evaluation, or its symmetric part, with `held` of the intact stiffness added to
   /// the diagonal; particles with less than `loose` of their intact stiffness get this part of it.

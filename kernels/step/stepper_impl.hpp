@@ -1,40 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper_impl.hpp  Implements the stepper for any executor (executor.hpp): prepares inputs, passes steps on to
-/// the executor, and converts the executor's arrays to the order of the specimen. stepper_cpu_*.cpp and
-/// stepper_cuda_*.cu compile it.
+/// \file stepper_impl.hpp  Implements the stepper for any executor (executor.hpp): sets its groups and bodies
+/// for a start, lets step_queue.hpp enqueue the steps, and returns results, which read_contacts.hpp, specimen_order.hpp
+/// and wall_observation.hpp convert. stepper_cpu_*.cpp and stepper_cuda_*.cu compile this file.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <numeric>
 #include <string>
-#include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "kernels/base/checksum.hpp"
-#include "kernels/contact/contact_readout.hpp"
+#include "kernels/contact/precision.hpp"
+#include "kernels/layout/layout.hpp"
 #include "kernels/step/body_inputs.hpp"
 #include "kernels/step/executor.hpp"
-#include "kernels/contact/law_functors.hpp"
-#include "kernels/layout/layout.hpp"
-#include "kernels/step/particle_motion.hpp"
-#include "kernels/contact/precision.hpp"
+#include "kernels/step/read_contacts.hpp"
+#include "kernels/step/restart_rules.hpp"
+#include "kernels/step/specimen_order.hpp"
+#include "kernels/step/step_functor.hpp"
+#include "kernels/step/step_queue.hpp"
 #include "kernels/step/stepper_input.hpp"
-#include "kernels/step/wall_motion.hpp"
+#include "kernels/step/wall_observation.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::kernels {
-
-/// Calls f(std::integral_constant) with the value of an enum that has two values.
-template <auto First, auto Second, class F>
-void dispatch(decltype(First) value, F&& f) {
-  if (value == First)
-    f(std::integral_constant<decltype(First), First>{});
-  else
-    f(std::integral_constant<decltype(First), Second>{});
-}
 
 /// The stepper of one executor. Its public functions are documented in macadam/stepper.hpp.
 template <Executor Exec>
@@ -62,11 +51,7 @@ class StepperImpl final : public Stepper {
                    const StepperOptions& options) {
     const FactsTable facts = facts_of(laws);
     const StepperOptions next = decided(options, network, facts);
-    const auto kept = [](const StepperOptions& o) {
-      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.devices, o.multiprocessors,
-                      o.ranks);
-    };
-    if (kept(next) != kept(options_) || network.contacts.size() != contacts_ || !keep_alike(facts, facts_of(laws_)) ||
+    if (!keep_alike(next, options_) || network.contacts.size() != contacts_ || !keep_alike(facts, facts_of(laws_)) ||
         !exec_.can_restart_with({next, facts, size_, false, 0}))
       return false;
     options_ = next;
@@ -77,107 +62,57 @@ class StepperImpl final : public Stepper {
   void advance(std::int64_t steps) override {
     exec_.use_device();
     if (options_.ranks) options_.ranks->require_same("the number of time steps to take", steps);
-    try {
-      StepsToTake all{step_, step_ + steps};
-      queue_until(all.end, all);
-      exec_.wait();
-    } catch (...) {  // thrown by a drive or by the device
-      exec_.end_steps();
-      throw;
-    }
+    queue_.advance(steps);
   }
 
   std::vector<Sample> advance_sampled(std::int64_t every, std::int64_t times) override {
     exec_.use_device();
     const auto samples = static_cast<std::int64_t>(exec_.max_samples(radius_));
     if (samples == 0) return Stepper::advance_sampled(every, 1);
-    return advance_with_samples(every, std::clamp<std::int64_t>(times, 1, samples));
+    std::vector<Sample> out;
+    queue_.advance_sampled(every, std::clamp<std::int64_t>(times, 1, samples), [&](std::int64_t step, const auto& s) {
+      out.push_back({observation(step, s.force, s.displacement, s.velocity), s.divergent});
+    });
+    return out;
   }
 
   Observation observe() const override {
     exec_.use_device();
     const auto forces = exec_.forces(static_cast<std::int32_t>(layout_.particles()), walls);
-    if (!motion_.wall.by_force) return observation(step_, forces, {}, {});
-    return observation(step_, forces, exec_.wall_displacements(), exec_.wall_velocities());
+    if (!motion_.wall.by_force) return observation(queue_.step(), forces, {}, {});
+    return observation(queue_.step(), forces, exec_.wall_displacements(), exec_.wall_velocities());
   }
 
   ParticleState particles() const override {
     exec_.use_device();
     exec_.gather();
-    const std::size_t n = layout_.particles();
-    const std::vector<Vec3d> zero(n);
-    ParticleState out{zero, zero, zero, zero, zero, zero};
-    const bool weigh = !exec_.forces_with_weight() && !options_.boundary.body_force.empty();
-    const auto v = exec_.velocities();
-    const auto u = exec_.displacements();
-    const auto forces = exec_.forces(0, n);
-    for (std::size_t b = 0; b < n; ++b) {
-      const auto i = static_cast<std::size_t>(layout_.particle[b]);
-      const R* vb = &v[b * velocity_words];
-      const double* ub = &u[b * displacement_words];
-      const auto& f = forces[b];
-      out.displacement[i] = {ub[0], ub[1], ub[2]};
-      out.rotation[i] = {ub[4], ub[5], ub[6]};
-      out.velocity[i] = {vb[0], vb[1], vb[2]};
-      out.spin[i] = {vb[4], vb[5], vb[6]};
-      out.force[i] = {f.linear.x, f.linear.y, f.linear.z};
-      if (weigh) out.force[i] += options_.boundary.body_force[i];
-      out.moment[i] = {f.angular.x, f.angular.y, f.angular.z};
-    }
-    return out;
+    const std::vector<R> v = exec_.velocities();
+    const std::vector<double> u = exec_.displacements();
+    const std::vector<Vec3d>* weight = exec_.forces_with_weight() ? nullptr : &options_.boundary.body_force;
+    return particle_state(layout_, v, u, exec_.forces(0, layout_.particles()), weight);
   }
 
   std::vector<MotionOfParticle> motions(const std::vector<std::int32_t>& of) const override {
     exec_.use_device();
     exec_.gather();
-    const std::vector<double> u = exec_.displacements();
-    std::vector<MotionOfParticle> out;
-    out.reserve(of.size());
-    for (const std::int32_t particle : of) {
-      const double* ub = &u[static_cast<std::size_t>(layout_.body_of(particle)) * displacement_words];
-      out.push_back({ub[0], ub[1], ub[2], ub[4], ub[5], ub[6]});
-    }
-    return out;
+    return motions_of_particles(layout_, exec_.displacements(), of);
   }
 
   ContactState contacts(const ContactNetwork& network) const override {
+    ContactState out;
+    read_contacts(network, out);
+    return out;
+  }
+
+  void read_contacts(const ContactNetwork& network, ContactState& out) const override {
     exec_.use_device();
     exec_.gather();
-    const std::vector<double> u = exec_.displacements();
-    const std::size_t n = network.contacts.size();
-    if (n != contacts_) {
-      throw InputError("contacts of a stepper: found a network of " + std::to_string(n) +
+    if (network.contacts.size() != contacts_) {
+      throw InputError("contacts of a stepper: found a network of " + std::to_string(network.contacts.size()) +
                        " contacts, expected the network of " + std::to_string(contacts_) +
                        " contacts that the stepper was made from");
     }
-    ContactState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<std::array<double, 6>>(n), {}, {0}};
-    const auto each_group = [&](auto&& f) {
-      for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
-        const GroupLayout& group = layout_.groups[g];
-        std::visit([&](const auto& law) { f(g, group, law); }, laws_[static_cast<std::size_t>(group.pair)].value());
-      }
-    };
-    out.chain_begin.resize(n + 1, 0);
-    each_group([&](std::size_t, const GroupLayout& group, const auto& law) {
-      const GroupReading<P, std::decay_t<decltype(law)>> read(network, layout_, group, law, options_, u, {});
-      for (const std::uint32_t c : group.contact) {
-        if (c != inert) out.chain_begin[c + 1] = read.numbers(network.contacts[c]);
-      }
-    });
-    std::partial_sum(out.chain_begin.begin(), out.chain_begin.end(), out.chain_begin.begin());
-    out.chain.resize(out.chain_begin.back(), 0.0);
-    if (can_break(facts_of(laws_))) {
-      out.broken.resize(n, 0.0);
-      out.point_breaks.resize(network.point_area.size(), Break::none);
-    }
-    if (can_crack(facts_of(laws_))) out.point_cracks.resize(network.point_area.size());
-    each_group([&](std::size_t g, const GroupLayout& group, const auto& law) {
-      const GroupShape<P> shape(layout_, group, facts_of(law), options_);
-      GroupReading<P, std::decay_t<decltype(law)>>(network, layout_, group, law, options_, u,
-                                                   exec_.group_state(g, shape.chain(), shape.frame()))
-          .read(out);
-    });
-    return out;
+    kernels::read_contacts(exec_, network, layout_, laws_, options_, out);
   }
 
   DeviceMotion device_motion() const override {
@@ -194,24 +129,14 @@ class StepperImpl final : public Stepper {
     }
     exec_.gather();
     std::vector<R> v = exec_.velocities();
-    for (std::size_t b = 0; b < layout_.particles(); ++b) {
-      const auto i = static_cast<std::size_t>(layout_.particle[b]);
-      const double words[velocity_words] = {velocity[i].x, velocity[i].y, velocity[i].z, 0,
-                                            spin[i].x,     spin[i].y,     spin[i].z,     0};
-      for (int w = 0; w < velocity_words; ++w)
-        v[b * velocity_words + static_cast<std::size_t>(w)] = static_cast<R>(words[w]);
-    }
-    for (const std::int32_t i : options_.boundary.fixed) {
-      const auto first = v.begin() + static_cast<std::ptrdiff_t>(layout_.body_of(i)) * velocity_words;
-      std::fill(first, first + velocity_words, R(0));
-    }
+    put_velocities(layout_, velocity, spin, options_.boundary.fixed, v);
     exec_.set_velocities(v);
   }
 
   std::vector<StateArray> state() const override {
     exec_.use_device();
     exec_.gather();
-    std::vector<StateArray> out{{"step", "1", std::vector{step_}}};
+    std::vector<StateArray> out{{"step", "1", std::vector{queue_.step()}}};
     for (StateArray& array : exec_.states().copy()) out.push_back(std::move(array));
     return out;
   }
@@ -224,7 +149,7 @@ class StepperImpl final : public Stepper {
     }
     if (!step || step->size() != 1) throw RunError("state: found no step number, expected one");
     exec_.states().replace(arrays);
-    step_ = step->front();
+    queue_.set_step(step->front());
   }
 
   std::int64_t first_divergent() const override {
@@ -254,17 +179,6 @@ class StepperImpl final : public Stepper {
   }
 
  private:
-  /// Returns whether two tables of laws have states of the same kinds and sizes, and act on the same components with
-  /// the same factor α of the shear stiffness.
-  static bool keep_alike(const FactsTable& a, const FactsTable& b) {
-    const auto kind = [](const LawFacts& f) {
-      return std::tuple(std::string_view(f.name), f.alpha, f.units, f.only_units, f.memoryless, f.linear, f.blocks,
-                        f.coupled);
-    };
-    return std::ranges::equal(a, b, [&](const auto& x, const auto& y) {
-      return x && y ? kind(*x) == kind(*y) : x.has_value() == y.has_value();
-    });
-  }
   /// Returns the given options, with `skip_rotations` cleared if any body can rotate, now or after the stepper is
   /// started again from another state.
   static StepperOptions decided(StepperOptions options, const ContactNetwork& network, const FactsTable& laws) {
@@ -281,7 +195,7 @@ class StepperImpl final : public Stepper {
   void begin(const ContactNetwork& network, const Laws& laws, const Inertia& inertia, bool first) {
     exec_.use_device();
     const StepperOptions& options = options_;
-    step_ = 0;
+    queue_.set_step(0);
     laws_ = laws;
     contacts_ = network.contacts.size();
     const FactsTable facts = facts_of(laws);
@@ -299,9 +213,7 @@ class StepperImpl final : public Stepper {
       options.ranks->require_same(
           "checksum of time step, masses and start state (equal only if all hosts are of the same kind)", all.value());
     }
-    wall_table_ = WallTable<R>(options.boundary);
-    WallMotion<R> wall = wall_table_.motion();
-    wall.table = exec_.wall_table(wall_table_.most_values());
+    const WallMotion<R> wall = queue_.set_walls(options.boundary);
     const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
     motion_ = {exec_.set_bodies(std::move(inverse), body_forces<R>(layout_, options.boundary)),
                options.damping_kind,
@@ -329,21 +241,9 @@ class StepperImpl final : public Stepper {
     if (options_.skip_rotations) spin.assign(spin.size(), {});
     set_velocities(velocity, spin);
     std::vector<double> u = exec_.displacements();
-    for (std::size_t b = 0; b < layout_.particles(); ++b) {
-      const auto i = static_cast<std::size_t>(layout_.particle[b]);
-      const Vec3d &at = start.displacement[i], &turn = start.rotation[i];
-      const double words[displacement_words] = {at.x, at.y, at.z, 0, turn.x, turn.y, turn.z, 0};
-      std::copy(words, words + displacement_words, &u[b * displacement_words]);
-    }
-    for (std::size_t w = 0; w < wall_count; ++w) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const WallAxis& a = options_.boundary.wall[w].axis[axis];
-        if (a.by == DrivenBy::displacement)
-          u[(layout_.particles() + w) * displacement_words + axis] = a.drive->value(-1);
-      }
-    }
+    put_start(layout_, start, options_.boundary, u);
     exec_.set_displacements(u);
-    step_ = -1;
+    queue_.set_step(-1);
     advance(1);
   }
 
@@ -362,102 +262,15 @@ class StepperImpl final : public Stepper {
     ContactArrays<P> arrays;
     if (first) arrays = fill_contacts<P>(network, layout_, group, fact, options_);
     fill_states<P>(network, layout_, group, fact, options_, arrays);
-    with_functor(laws[static_cast<std::size_t>(group.pair)].value(), [&](const auto& law, const auto& functor) {
-      exec_.set_group(number, first, law, std::move(arrays), functor);
-    });
-  }
-
-  /// Counts the steps that are enqueued in several parts, and the rows of the walls' table that are filled in for these
-  /// steps.
-  struct StepsToTake {
-    std::int64_t begin, end, row = 0, rows = 0;
-  };
-  /// Enqueues steps up to number `to`, which is the end or, if samples are taken, any step before it.
-  void queue_until(std::int64_t to, StepsToTake& all) {
-    while (step_ < to) {
-      if (all.row == all.rows) {
-        all.rows = wall_table_.rows(step_ - all.begin, all.end - step_), all.row = 0;
-        exec_.set_wall_rows(wall_table_.fill(step_, all.rows));
-      }
-      const std::int64_t n = std::min(to - step_, all.rows - all.row);
-      exec_.run(step_, n, all.row);
-      step_ += n, all.row += n;
-    }
-  }
-
-  /// Does the same as advance_sampled(), for an executor that takes samples while it runs.
-  std::vector<Sample> advance_with_samples(std::int64_t every, std::int64_t times) {
-    StepsToTake all{step_, step_ + every * times};
-    std::vector<Sample> out;
-    try {
-      for (std::int64_t k = 0; k < times; ++k) {
-        queue_until(step_ + every, all);
-        exec_.take_sample(static_cast<std::size_t>(k));
-      }
-      std::int64_t step = all.begin;
-      for (const auto& sample : exec_.wait_for_samples(static_cast<std::size_t>(times))) {
-        out.push_back(
-            {observation(step += every, sample.force, sample.displacement, sample.velocity), sample.divergent});
-      }
-    } catch (...) {
-      exec_.end_steps();
-      throw;
-    }
-    return out;
+    with_functor<Exec>(
+        laws[static_cast<std::size_t>(group.pair)].value(), options_,
+        [&](const auto& law, const auto& functor) { exec_.set_group(number, first, law, std::move(arrays), functor); });
   }
 
   /// `moved`, `speed`: displacements and velocities of the walls, read only if walls are driven by forces.
   Observation observation(std::int64_t step, const std::vector<Twist<R>>& forces, const std::vector<double>& moved,
                           const std::vector<R>& speed) const {
-    Observation out;
-    out.step = step;
-    out.time = static_cast<double>(step) * options_.dt;
-    for (std::size_t w = 0; w < walls; ++w) {
-      const auto& f = forces[w].linear;
-      out.wall_force[w] = {f.x, f.y, f.z};
-      double* u[3] = {&out.wall_displacement[w].x, &out.wall_displacement[w].y, &out.wall_displacement[w].z};
-      double* v[3] = {&out.wall_velocity[w].x, &out.wall_velocity[w].y, &out.wall_velocity[w].z};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const WallAxis& a = options_.boundary.wall[w].axis[axis];
-        if (a.by == DrivenBy::displacement) {
-          *u[axis] = a.drive->value(step);
-          if (step > 0 || started_) *v[axis] = a.drive->rate(step - 1);
-        } else if (a.by == DrivenBy::force) {
-          *u[axis] = moved[w * displacement_words + axis];
-          *v[axis] = static_cast<double>(speed[w * velocity_words + axis]);
-        }
-      }
-    }
-    return out;
-  }
-
-  /// Calls f(law, functor) with the functor that steps the law's contacts; its view is not set.
-  template <class F>
-  void with_functor(const typename Exec::AnyLaw& any, F&& f) const {
-    using State = typename P::State;
-    std::visit(
-        [&](const auto& law) {
-          using L = std::decay_t<decltype(law)>;
-          [[maybe_unused]] const auto with = [&](auto units, auto form) {
-            dispatch<Geometry::updated, Geometry::fixed>(options_.geometry, [&](auto geometry) {
-              const auto step = law.template step<State>(options_.dt);
-              f(law, ContactForces<P, std::decay_t<decltype(step)>, units(), form(), geometry()>{
-                         {}, step, static_cast<State>(options_.dt)});
-            });
-          };
-          dispatch_units<Exec::five_units_in_registers>(law, [&]([[maybe_unused]] auto units) {
-            if constexpr (!suits_precision<P, L>) {
-              throw InputError(std::string("precision: found single beside law ") + L::name +
-                               ", whose states need double precision; expected mixed or double");
-            } else if constexpr (linear_law<L>) {
-              dispatch<ContactForm::condensed, ContactForm::points>(options_.form,
-                                                                    [&](auto form) { with(units, form); });
-            } else {
-              with(units, std::integral_constant<ContactForm, ContactForm::points>{});
-            }
-          });
-        },
-        any);
+    return observe_walls(options_, step, forces, moved, speed, started_);
   }
 
   StepperOptions options_;
@@ -468,9 +281,8 @@ class StepperImpl final : public Stepper {
   typename Exec::Plan plan_;
   const Layout& layout_ = plan_.layout;
   Exec exec_;
+  StepQueue<Exec> queue_{exec_};
   ParticleMotion<P> motion_{};
-  WallTable<R> wall_table_;
-  std::int64_t step_ = 0;
   bool started_ = false;  // whether the run started in motion, at step −1
 };
 

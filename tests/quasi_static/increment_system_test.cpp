@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "host/quasi_static/engine.hpp"
 #include "host/quasi_static/increment_system.hpp"
 #include "host/quasi_static/tangent_matrix.hpp"
 #include "tests/support/cracking_t8.hpp"
@@ -31,7 +32,7 @@ struct Example {
       motion.clear();
       for (std::size_t i = 0; i < 6 * scene.specimen.size(); ++i)
         motion.push_back((i % 6 < 3 ? 1e-7 : 1e-4) * uniform());
-      contacts.begin(dt);
+      contacts.begin(quasi_static::all_laws(dt));
       relative.clear();
       for (const Contact& c : scene.network.contacts) {
         static constexpr Six at_rest{};

@@ -2,6 +2,7 @@
 // quasi_static_test.cpp  Tests increments without inertia: a whole specimen against values of an independent program,
 // bars that separate at one facet, energies, states, and a linear specimen against its relaxation.
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
 
@@ -136,7 +137,7 @@ TEST_P(QuasiStaticOn, TakesTheFractureEnergyOfABar) {
   }
 }
 
-// A specimen that goes on from a state takes the same increments to the bit, with any number of threads.
+// A specimen that goes on from a state takes the same increments to the bit.
 TEST(QuasiStaticState, ContinuesToTheSameBits) {
   const TestScene scene = cracking_t8();
   QuasiStaticOptions by_iterations;
@@ -153,6 +154,27 @@ TEST(QuasiStaticState, ContinuesToTheSameBits) {
     EXPECT_NEAR(stress(second), stress(whole), tolerance * stress(whole));
     EXPECT_NEAR(second.energies().crack_j, whole.energies().crack_j, tolerance * whole.energies().crack_j);
   }
+}
+
+TEST(QuasiStaticState, HasTheSameBitsWithAnyNumberOfThreads) {
+  const TestScene scene = cracking_t8();
+  QuasiStaticOptions by_iterations;
+  by_iterations.direct_below = 0, by_iterations.residual = 1e-7;
+  const int before = omp_get_max_threads();
+  for (const QuasiStaticOptions& options : {QuasiStaticOptions{}, by_iterations}) {
+    std::vector<std::vector<StateArray>> states;
+    for (const int threads : {1, 2}) {
+      omp_set_num_threads(threads);
+      QuasiStatic q = quasi_static(scene, options);
+      for (int k = 0; k < 3; ++k) pull(q, 1.2e-4, 1.2e-4);
+      EXPECT_GT(q.energies().crack_j, 0);
+      states.push_back(q.state());
+    }
+    ASSERT_EQ(states[0].size(), states[1].size());
+    for (std::size_t k = 0; k < states[0].size(); ++k)
+      EXPECT_TRUE(states[0][k].values == states[1][k].values) << states[0][k].name;
+  }
+  omp_set_num_threads(before);
 }
 
 // Both linear solvers find the same equilibrium.
@@ -211,6 +233,43 @@ TEST_P(QuasiStaticOn, FollowsTheRelaxationOfTheSpecimen) {
     EXPECT_NEAR(found, want, 2e-4 * want) << t;
   }
   EXPECT_LT(increments.report().error, 1e-3);
+}
+
+/// Pulls t8 to a strain of 0.003 and returns its stresses at twenty strains [Pa], and the estimate of their error.
+std::pair<std::vector<double>, double> pulled_t8(const LawTable& laws, double rate, double tolerance) {
+  const TestScene scene = make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}}), {}, laws);
+  const double end = 0.003 / rate;
+  quasi_static::CourseOptions options;
+  options.drive = std::make_shared<drives::ConstantRate>(rate * height, end / 1e6, end);
+  options.height = height, options.area = area, options.grows = true, options.tolerance = tolerance;
+  options.first = 200;
+  for (int k = 1; k <= 20; ++k) options.stops.push_back(50'000 * k);
+  quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
+  std::vector<double> out;
+  for (const std::int64_t stop : options.stops) {
+    while (increments.step() < stop) increments.advance();
+    out.push_back(stress(increments.network()));
+  }
+  return {out, increments.report().error};
+}
+
+// The errors of increments have signs. Their sum is at least the difference from increments of a ten times smaller
+// tolerance, and at most ten times this difference. It is too large because it contains the curvature that cracks
+// cause, which has no error, and because relaxation forgets errors.
+TEST(QuasiStaticSpecimen, EstimatesTheErrorOfItsIncrements) {
+  for (const bool cracks : {true, false}) {
+    const LawTable laws = cracks ? cracking_t8().laws : am1_laws();
+    const double rate = cracks ? 1 : 0.01;
+    const auto [coarse, error] = pulled_t8(laws, rate, 1e-3);
+    const auto [fine, unused] = pulled_t8(laws, rate, 1e-4);
+    double difference = 0, largest = 0;
+    for (std::size_t k = 0; k < fine.size(); ++k) {
+      difference = std::max(difference, std::abs(coarse[k] - fine[k]));
+      largest = std::max(largest, std::abs(fine[k]));
+    }
+    EXPECT_LT(difference / largest, error) << cracks;
+    EXPECT_LT(error, 10 * difference / largest) << cracks;
+  }
 }
 
 // After a fall of stress for which no equilibrium exists at a larger displacement of the wall, the opening of cracks

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cyclic.cpp  Implements the cyclic test. Calls method "explicit" (time steps) or "harmonic" (steady states), as the
-// scene asks.
+// cyclic.cpp  Implements the cyclic test. Calls method "explicit" (time steps), "quasi_static" (increments) or
+// "harmonic" (steady states), as the scene asks.
 #include "host/experiments/cyclic/methods.hpp"
 #include "host/experiments/experiment.hpp"
 #include "host/run/cracks.hpp"
@@ -13,9 +13,7 @@ template <>
 std::unique_ptr<PlannedExperiment> ExperimentOf<Cyclic>::plan(const Cyclic&, const Scene& scene,
                                                               const Preparation& prepared, const Watcher& watcher,
                                                               std::optional<Resumed> resumed, RunResult& result) {
-  if (scene.solver.method == SolverMethod::explicit_) {
-    return plan_steps(scene, prepared, watcher, std::move(resumed), result);
-  }
+  if (is_stepped(scene.solver.method)) { return plan_steps(scene, prepared, watcher, std::move(resumed), result); }
   result.found.emplace<experiments::HarmonicCyclic>();
   return plan_harmonic(
       scene, prepared, watcher, result,
@@ -25,7 +23,7 @@ std::unique_ptr<PlannedExperiment> ExperimentOf<Cyclic>::plan(const Cyclic&, con
 template <>
 std::vector<std::string> ExperimentOf<Cyclic>::files(const Cyclic&, const Scene& scene) {
   std::vector<std::string> out;
-  if (scene.solver.method == SolverMethod::explicit_ && scene.output.response) out.push_back("response.csv");
+  if (is_stepped(scene.solver.method) && scene.output.response) out.push_back("response.csv");
   if (counts_cracks(scene)) out.push_back(cracks_file);
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "host/experiments/cyclic/methods.hpp"
 #include "host/run/error_model.hpp"
@@ -27,6 +28,16 @@ std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& sa
   std::size_t end = first;
   while (end < samples.size() && samples[end].frequency_hz == frequency) ++end;
   return std::span(samples).subspan(first, end - first);
+}
+
+std::vector<Stiffness> stiffness_of_cycles(std::span<const ResponseSample> samples, double frequency) {
+  std::vector<Stiffness> out;
+  if (samples.size() < 2) return out;
+  const double spacing = samples[1].time_s - samples[0].time_s;
+  const auto per_cycle = static_cast<std::size_t>(std::llround(1 / (frequency * spacing)));
+  for (std::size_t begin = 0; begin + per_cycle < samples.size(); begin += per_cycle)
+    out.push_back(evaluate_cyclic(samples.subspan(begin, per_cycle + 1), frequency, 1).fit);
+  return out;
 }
 
 SteppedFrequency finished_frequency(const Scene& scene, const Plan& whole, std::size_t number,

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "host/experiments/cyclic/plan.hpp"
 
@@ -12,6 +13,9 @@ namespace macadam {
 /// Returns the samples of one frequency. In `samples` they follow one another from index `first` on.
 std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
                                            double frequency);
+
+/// Returns |E*| and φ of each whole cycle of samples, from the first one on.
+std::vector<Stiffness> stiffness_of_cycles(std::span<const ResponseSample> samples, double frequency);
 
 /// Returns the result of frequency `number` of a plan. `samples`: the samples of this frequency. `seconds`: wall time
 /// [s]. `rupture`: if the steps of this frequency ended early, the reason; the numbers of the result are then NaN.

@@ -12,9 +12,10 @@
 
 namespace macadam {
 
-/// Plans a run that steps in time, from the beginning or from a checkpoint. Each sample is written to response.csv at
-/// once. Decisions are stored in `result`. \throws InputError, which names the checkpoint if the checkpoint was written
-/// on another machine and cannot be continued here; RunError as make_plan() and make_stepper() do.
+/// Plans a run that follows the cycles in time, by steps or by increments, from the beginning or from a checkpoint.
+/// Each sample is written to response.csv at once. Decisions are stored in `result`. \throws InputError, which names
+/// the checkpoint if the checkpoint was written on another machine and cannot be continued here; RunError as
+/// make_plan() and make_stepper() do.
 std::unique_ptr<PlannedExperiment> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                               std::optional<Resumed> resumed, RunResult& result);
 

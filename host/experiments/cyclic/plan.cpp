@@ -35,6 +35,7 @@ class Planner {
 
   Plan make() {
     require_laws_to_fit();
+    plan_.samples_per_cycle = scene_.cyclic().samples_per_cycle;
     choose_form_and_geometry();
     StepperOptions options;
     options.damping_kind = scene_.solver.damping_kind;

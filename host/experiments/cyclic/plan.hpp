@@ -30,7 +30,8 @@ struct Plan {
   Precision precision = Precision::double_;
   /// Approximate largest relative error of |E*| from keeping the initial geometry; 0 if the geometry is updated.
   double geometry_error = 0;
-  CriticalStep critical;  ///< critical time step at true mass
+  CriticalStep critical;      ///< critical time step at true mass; not used by increments
+  int samples_per_cycle = 0;  ///< number of samples in each cycle
   std::vector<FrequencyPlan> frequencies;
   std::vector<std::string> decisions;  ///< the choices and their reasons, one sentence each
 };

@@ -28,24 +28,26 @@ experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& secti
   constexpr std::int64_t most = 1'000'000;
   constexpr Rule ramp{[](double v) { return v >= 0 && v <= most; }, "0 to 1,000,000 cycles"};
   experiments::Cyclic spec;
-  section.read({kind_key(),
-                {"frequencies", Need::required, into(spec.frequencies, frequency, positive),
-                 "frequencies of the load, one test each"},
-                {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius),
-                 "temperatures at which every frequency is tested; they replace temperature in [materials]", "none"},
-                {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain),
-                 "amplitude of the strain: displacement of the top wall divided by the height of the specimen"},
-                {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}}),
-                 "start from zero displacement, or in the steady state of the harmonic solution",
-                 "\"rest\"; \"steady\" if tolerance is given"},
-                {"cycles", Need::optional, into(spec.cycles, 1, most), "number of periods of each test",
-                 "5; 1 from a steady start; 4 or more from rest if tolerance is given"},
-                {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp),
-                 "number of periods over which the load grows smoothly", "0; 1 from rest if tolerance is given"},
-                {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most), "number of last periods that are fitted",
-                 "2 if there are four cycles or more, else 1"},
-                {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most),
-                 "number of samples per period; each sample is a line of response.csv"}});
+  section.read(
+      {kind_key(),
+       {"frequencies", Need::required, into(spec.frequencies, frequency, positive),
+        "frequencies of the load, one test each"},
+       {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius),
+        "temperatures at which every frequency is tested; they replace temperature in [materials]", "none"},
+       {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain),
+        "amplitude of the strain: displacement of the top wall divided by the height of the specimen"},
+       {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}}),
+        "start from zero displacement, or in the steady state of the harmonic solution",
+        "\"rest\"; \"steady\" if tolerance is given"},
+       {"cycles", Need::optional, into(spec.cycles, 1, most), "number of periods of each test",
+        "5; 1 from a steady start; 4 or more from rest if tolerance is given"},
+       {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp),
+        "number of periods over which the load grows smoothly", "0; 1 from rest if tolerance is given"},
+       {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most), "number of last periods that are fitted",
+        "2 if there are four cycles or more, else 1"},
+       {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most),
+        "number of samples per period; each sample is a line of response.csv; not used by method \"quasi_static\", "
+        "whose samples are the ends of the increments"}});
   require_once(section, "frequencies", spec.frequencies, "Hz", "frequency");
   require_once(section, "temperatures", spec.temperatures, "degrees C", "temperature");
   if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {

@@ -28,12 +28,16 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Stiffness, e_star_pa, phase_deg)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorEstimate, e_star, phase_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrequencyPlan, loading, density_scaling, start, cycles, fit_cycles, known, predicted)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Plan, form, geometry, precision, geometry_error, critical, frequencies, decisions)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Plan, form, geometry, precision, geometry_error, critical, samples_per_cycle,
+                                   frequencies, decisions)
 namespace experiments {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Increments, increments, rejected, systems, error, imbalance, increment_error, loose,
+                                   by_opening)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Rupture, time_s, strain, time_before_s, strain_before)
-}
+}  // namespace experiments
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrequencyCracks, rupture, time_s, strain)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, plan, seconds_planning, seconds, seconds_running, warnings, cracks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, plan, seconds_planning, seconds, seconds_running, warnings, cracks,
+                                   increments)
 
 namespace {
 

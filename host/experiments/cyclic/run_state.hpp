@@ -22,11 +22,12 @@ struct FrequencyCracks {
 struct RunState {
   Plan plan;  ///< a resumed run does not need the harmonic solutions from which the plan was made
   double seconds_planning = 0;
-  std::vector<double> seconds;          ///< wall time of each finished frequency
-  double seconds_running = 0;           ///< wall time of the running frequency until now
-  std::vector<std::string> warnings;    ///< warnings about checkpoints that could not be written
-  std::vector<ResponseSample> samples;  ///< samples of all frequencies until now
-  std::vector<FrequencyCracks> cracks;  ///< one entry per frequency of the plan; empty if it has not begun
+  std::vector<double> seconds;                      ///< wall time of each finished frequency
+  double seconds_running = 0;                       ///< wall time of the running frequency until now
+  std::vector<std::string> warnings;                ///< warnings about checkpoints that could not be written
+  std::vector<ResponseSample> samples;              ///< samples of all frequencies until now
+  std::vector<FrequencyCracks> cracks;              ///< one entry per frequency of the plan; empty if it has not begun
+  std::vector<experiments::Increments> increments;  ///< of each finished frequency; method "quasi_static"
   std::vector<StateArray> state;  ///< Stepper::state() of the running frequency; set only when read from a checkpoint
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/run/error_model.hpp"
 #include "host/harmonic/law_stiffness.hpp"
@@ -68,6 +69,27 @@ std::optional<double> given_scaling(const Scene& scene, std::size_t frequency, d
   computed.tolerance = solver.tolerance, computed.safety = solver.safety;
   const double safe = longest_cyclic_step(computed, critical, 1);
   return std::max(1.0, std::pow(*solver.time_step / safe, 2));  // the least scaling with which the given step is stable
+}
+
+// With n increments per period the rule gives the response at a frequency that is higher by the part (2π/n)²/12. The
+// relative change of |E*|, and the change of φ [rad], are at most the relative change of the frequency.
+int increments_per_cycle(double tolerance) {
+  constexpr int fewest = 40;  // the parabola through a peak and the fit of the second harmonic need several
+  const double n = 2 * std::numbers::pi / std::sqrt(12 * 0.5 * tolerance);
+  return std::max(fewest, 4 * static_cast<int>(std::ceil(n / 4)));
+}
+
+Scene with_increment_settings(Scene scene) {
+  scene.solver.tolerance = scene.solver.tolerance.value_or(usual_increment_tolerance);
+  scene.solver.geometry = Geometry::fixed;
+  scene.solver.damping_kind = Damping::none;
+  return scene;
+}
+
+double samples_by_increments(const Scene& scene) {
+  const Scene asked = with_increment_settings(scene);
+  const CycleCount count = count_cycles(asked, cyclic_start(asked, Geometry::fixed));
+  return static_cast<double>(count.cycles) * increments_per_cycle(*asked.solver.tolerance);
 }
 
 double longest_cyclic_step(const SolverSpec& solver, double critical, double density_scaling) {

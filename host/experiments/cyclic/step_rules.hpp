@@ -51,6 +51,20 @@ double usual_ramp(const Scene& scene);
 /// critical step at true mass [s].
 std::optional<double> given_scaling(const Scene& scene, std::size_t frequency, double critical);
 
+/// Tolerance of the increments of method "quasi_static" if the scene gives none: of |E*| (relative) and φ [rad], and of
+/// the stress of an increment.
+inline constexpr double usual_increment_tolerance = 1e-3;
+
+/// Returns the number of increments, and of samples, per cycle with which the trapezoidal rule has at most half of the
+/// error `tolerance`.
+int increments_per_cycle(double tolerance);
+
+/// Returns the scene with the settings that increments use: a tolerance, fixed geometry and no damping.
+Scene with_increment_settings(Scene scene);
+
+/// Returns the number of samples of one frequency by increments, as far as the scene alone determines it.
+double samples_by_increments(const Scene& scene);
+
 /// Returns the longest step that the rules allow [s].
 double longest_cyclic_step(const SolverSpec& solver, double critical, double density_scaling);
 

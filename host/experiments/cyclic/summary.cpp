@@ -65,20 +65,30 @@ void add_poisson_ratio(const Frequency& f, Json& out) {
 }
 
 Json stepped_json(const SteppedFrequency& f, const Scene& scene) {
-  Json out = begun(f, "explicit", f.residual(), scene);
+  Json out = begun(f, f.increments ? "quasi_static" : "explicit", f.residual(), scene);
+  if (f.increments) out.erase("density_scaling");
   add_poisson_ratio(f, out);
   out["e_star_peaks_pa"] = f.cyclic.peaks.e_star_pa;
   out["phase_peaks_deg"] = f.cyclic.peaks.phase_deg;
   out["change_e_star"] = f.cyclic.change_e_star;
   out["change_phase_deg"] = f.cyclic.change_phase_deg;
-  out["dt_s"] = f.dt_s;
-  out["steps"] = f.steps;
+  if (f.increments) {
+    out["increments"] = f.increments->increments;
+    out["repeated_increments"] = f.increments->rejected;
+    out["linear_systems"] = f.increments->systems;
+    out["loose_particles"] = f.increments->loose;
+  } else {
+    out["dt_s"] = f.dt_s;
+    out["steps"] = f.steps;
+  }
   out["cycles"] = f.cycles;
   out["start"] = to_string(f.start);
   if (f.predicted) out["predicted_error"] = error_json(*f.predicted);
   if (f.achieved) out["difference_from_harmonic"] = error_json(*f.achieved);
   if (f.cracks) out["cracks"] = cracks_json(*f.cracks);
   if (f.rupture) out["rupture"] = rupture_json(*f.rupture);
+  for (const Stiffness& cycle : f.cycle_stiffness)
+    out["by_cycle"].push_back({{"e_star_pa", cycle.e_star_pa}, {"phase_deg", cycle.phase_deg}});
   if (scene.solver.tolerance) out["tolerance_kept"] = f.kept ? Json(*f.kept) : Json();
   return out;
 }
@@ -118,8 +128,11 @@ void ResultOf<SteppedCyclic>::summarise(const SteppedCyclic& found, const Scene&
     steps += f.steps;
   }
   Json& solver = out["solver"];
-  add_settings(found, scene, run, steps,
-               found.frequencies.empty() ? std::nullopt : std::optional(found.frequencies.back().dt_s), solver);
+  if (scene.solver.method == SolverMethod::quasi_static)
+    add_increment_settings(found, run, solver);
+  else
+    add_settings(found, scene, run, steps,
+                 found.frequencies.empty() ? std::nullopt : std::optional(found.frequencies.back().dt_s), solver);
   solver["strain_amplitude"] = scene.cyclic().strain_amplitude;
   solver["tolerance"] = scene.solver.tolerance ? Json(*scene.solver.tolerance) : Json();
 }

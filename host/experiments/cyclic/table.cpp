@@ -63,16 +63,20 @@ std::string ResultOf<HarmonicCyclic>::table(const HarmonicCyclic& found) {
 template <>
 std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
   const bool known = !found.frequencies.empty() && found.frequencies.front().achieved;
+  const bool by_increments = !found.frequencies.empty() && found.frequencies.front().increments;
   const char* modulus = symbol(confined(found.frequencies));
   std::string out =
       heads(found.frequencies) + fmt::format(" {:>11} {:>9} {:>9} {:>10} {:>9}\n",
                                              known ? fmt::format("err {}", modulus) : fmt::format("d{} cycle", modulus),
-                                             known ? "err (rad)" : "d phi", "scaling", "steps", "time (s)");
+                                             known ? "err (rad)" : "d phi", by_increments ? "" : "scaling",
+                                             by_increments ? "increments" : "steps", "time (s)");
   for (const SteppedFrequency& f : found.frequencies) {
     const double e_star = f.achieved ? f.achieved->e_star : f.cyclic.change_e_star;
     const double phase = f.achieved ? f.achieved->phase_rad : f.cyclic.change_phase_deg;
-    out += begun(f, warm(found.frequencies)) + fmt::format(" {:>11.1e} {:>9.1e} {:>9.5g} {:>10} {:>9.1f}\n", e_star,
-                                                           phase, f.density_scaling, f.steps, f.seconds);
+    out +=
+        begun(f, warm(found.frequencies)) + fmt::format(" {:>11.1e} {:>9.1e} {:>9} {:>10} {:>9.1f}\n", e_star, phase,
+                                                        f.increments ? "" : fmt::format("{:.5g}", f.density_scaling),
+                                                        f.increments ? f.increments->increments : f.steps, f.seconds);
   }
   for (const SteppedFrequency& f : found.frequencies) {
     if (!f.cracks) continue;
@@ -80,9 +84,8 @@ std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
     out += fmt::format("{} Hz: {}\n", f.frequency_hz, words);
   }
   if (known)
-    out += fmt::format(
-        "err: difference from the harmonic solution without density scaling; relative for {}, in radians for phi\n",
-        modulus);
+    out += fmt::format("err: difference from the harmonic solution {}; relative for {}, in radians for phi\n",
+                       by_increments ? "without inertia" : "without density scaling", modulus);
   return out;
 }
 

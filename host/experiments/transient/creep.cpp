@@ -27,6 +27,7 @@ TransientExperiment load_test(const Creep& spec) {
   out.history = {spec.times, {{0, spec.ramp}}};
   if (spec.release) out.history.ramps.push_back({*spec.release, spec.ramp});
   out.poisson_ratio = spec.poisson_ratio;
+  out.temperature = spec.temperature;
   out.load = {{"stress_pa", spec.stress}, {"ramp_s", spec.ramp}, {"release_s", spec.release}};
   out.by_stress = true;
   out.when = {spec.ramp, spec.release};

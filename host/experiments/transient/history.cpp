@@ -39,6 +39,7 @@ TransientExperiment load_test(const StrainHistory& spec) {
         TransientExperiment out;
         out.kind = spec.kind;
         out.poisson_ratio = spec.poisson_ratio;
+        out.temperature = spec.temperature;
         for (int i = 1; i <= spec.samples; ++i) out.history.times.push_back(end * i / spec.samples);
         out.history.ramps = {{0, end}};
         out.history.shortest_change = drive.shortest_time(end);

@@ -68,6 +68,12 @@ std::pair<double, double> range_of(const TransientExperiment& test, const LoadPl
 std::optional<UnsteppedAnswer> solve_unstepped(const TransientExperiment& test, const Scene& scene,
                                                const Preparation& prepared, const Watcher& watcher, Backend backend,
                                                LoadPlan& plan) {
+  if (!test.temperature.empty()) {
+    plan.decisions.emplace_back(
+        "errors are estimates, because the temperature changes during the test, and the solution without time steps "
+        "has one temperature");
+    return {};
+  }
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     const auto law = facts_of(scene.laws)[pair];
     if (!law || law->linear) continue;

@@ -31,7 +31,7 @@ namespace {
 
 constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks",
                      *unstepped_array = "unstepped", *ledger_array = "energies", *stresses_array = "stresses";
-constexpr std::size_t point_words = 20 + pair_types;
+constexpr std::size_t point_words = 22 + pair_types;
 
 /// Returns the numbers of a relaxation in one list: its error, the long-term modulus, then modulus and time of each
 /// unit.
@@ -95,9 +95,10 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
                             w[7],
                             static_cast<std::int64_t>(w[8]),
                             {static_cast<std::int64_t>(w[9]), w[10], w[11], {}},
-                            {w[12], w[13], w[14], w[15], w[16], w[17], w[18]},
-                            w[19]});
-      std::copy_n(w + 20, pair_types, out.points.back().cracks.cracked_area_m2.begin());
+                            {w[12], w[13], w[14], w[15], w[16], w[17], w[18], w[19]},
+                            w[20],
+                            w[21]});
+      std::copy_n(w + 22, pair_types, out.points.back().cracks.cracked_area_m2.begin());
     }
   }
   if (out.state.empty()) damaged("no state");
@@ -127,11 +128,14 @@ void add_to(Checkpoint& out, const LoadState& at) {
                                  p.energies.friction_j,
                                  p.energies.kinetic_j,
                                  p.energies.damping_j,
+                                 p.energies.thermal_j,
+                                 p.temperature_c,
                                  p.poisson_ratio});
     points.insert(points.end(), p.cracks.cracked_area_m2.begin(), p.cracks.cracked_area_m2.end());
   }
-  out.arrays.push_back(
-      {points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, then 9 energies J, 1, 6 areas m2", std::move(points)});
+  out.arrays.push_back({points_array,
+                        "s, 1, Pa, by kind, Pa, Pa, J, 1, 1, 1, then 10 energies J, degrees C, 1, 6 areas m2",
+                        std::move(points)});
   out.arrays.push_back({ledger_array, "J, J, s, J, then m, N, and chains", at.ledger.numbers()});
   if (!at.stresses.empty()) {
     std::vector<double> stresses;

@@ -14,6 +14,7 @@ TransientExperiment load_test(const Monotonic& spec) {
   out.kind = spec.kind;
   out.history = {spec.times, {{0, end}}};
   out.poisson_ratio = spec.poisson_ratio;
+  out.temperature = spec.temperature;
   out.load = {{"rate_1_s", spec.rate}};
   out.grows = true;
   out.strain = spec.rate * end;

@@ -20,6 +20,21 @@ constexpr double units_before_first = 1e4, units_of_ramp = 1e3;
 /// In a test whose load grows, the first increment is this fraction of the test.
 constexpr double first_increment = 2e-4;
 
+/// Returns a sentence about the effects of a changing temperature.
+std::string temperature_words(const TemperatureHistory& history, const Scene& scene) {
+  const auto [coldest, warmest] = std::minmax_element(history.temperatures.begin(), history.temperatures.end());
+  const bool shifts = std::any_of(scene.shifts.begin(), scene.shifts.end(), [](const laws::Shift& shift) {
+    return !std::holds_alternative<laws::NoShift>(shift);
+  });
+  return fmt::format("the temperature is {:g} to {:g} degrees C; {}; {}", *coldest, *warmest,
+                     scene.materials.expansion.any()
+                         ? fmt::format("aggregates expand by {:g} and mastic by {:g} per kelvin",
+                                       scene.materials.expansion.aggregate, scene.materials.expansion.mastic)
+                         : "nothing expands, because [materials] gives no expansion",
+                     shifts ? "each law with a shift relaxes in its reduced time"
+                            : "relaxation times do not change, because no law has a shift");
+}
+
 bool is_sudden(const TransientExperiment& test) { return !test.grows && test.when.ramp == 0; }
 
 }  // namespace
@@ -51,6 +66,9 @@ LoadPlan make_quasi_static_plan(const TransientExperiment& test, const Scene& sc
         "method \"quasi_static\" (increments without inertia), because contacts can crack and the scene asks for "
         "neither inertia nor damping; method = \"explicit\" in [solver] takes time steps instead");
   }
+  if (const std::string unused = keys_of_steps(scene.solver); !unused.empty())
+    decide(fmt::format("not used: {} in [solver], because increments have no inertia and no time step", unused));
+  if (!test.temperature.empty()) decide(temperature_words(test.temperature, scene));
   if (is_sudden(test)) {
     decide(fmt::format("the load grows within {:.3g} s, because the scene asks for an instantaneous load", ramp));
   }
@@ -77,6 +95,13 @@ quasi_static::CourseOptions course_options(const TransientExperiment& test, cons
   if (!test.grows) add_kink(plan.ramp);
   if (test.when.release) add_kink(*test.when.release), add_kink(*test.when.release + plan.ramp);
   for (const double jump : test.jumps) add_kink(jump);
+  for (const double corner : test.temperature.times) {
+    if (corner < test.history.times.back()) add_kink(corner);
+  }
+  out.temperature = test.temperature;
+  out.shifts = scene.shifts;
+  if (!test.temperature.empty() && scene.materials.expansion.any())
+    out.solver.expansion = free_openings(prepared.network, prepared.specimen, scene.materials.expansion);
   for (const double time : test.history.times) out.stops.push_back(plan.step_at(time));
   out.stops.insert(out.stops.end(), out.kinks.begin(), out.kinks.end());
   for (auto* list : {&out.stops, &out.kinks}) {

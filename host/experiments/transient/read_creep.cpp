@@ -12,15 +12,15 @@ using experiments::Creep;
 template <>
 Creep ExperimentOf<Creep>::read(const scene::Section& section) {
   using namespace scene;
-  constexpr Rule any{[](double v) { return v != 0; }, "a stress that is not 0"};
   Creep out;
   Points times;
   std::vector<Key> keys = times.keys("times", duration);
   keys.insert(keys.end(),
               {kind_key(),
                poisson_key(out.poisson_ratio),
+               temperature_key(out.temperature),
                {"stress", Need::required, into(out.stress, modulus, any),
-                "stress that is applied and held; tension is positive"},
+                "stress that is applied and held; tension is positive; 0 only if the temperature changes"},
                {"ramp", Need::optional, into(out.ramp, duration, non_negative),
                 "time over which the load grows evenly; 0: at once"},
                {"release", Need::optional, into(out.release, duration, positive),
@@ -30,6 +30,7 @@ Creep ExperimentOf<Creep>::read(const scene::Section& section) {
                 "the smallest mass that does not shorten the time step"}});
   section.read(keys);
   out.times = times.all(section, "times", "s", "time");
+  if (out.stress == 0 && out.temperature.empty()) section.refuse("stress", "0", "a stress that is not 0");
   if (out.release && *out.release < out.ramp) {
     section.refuse("release", fmt::format("{} s", *out.release),
                    fmt::format("the end of the ramp, {} s, or later", out.ramp));

@@ -265,7 +265,8 @@ StrainHistory ExperimentOf<StrainHistory>::read(const scene::Section& section) {
       {"duration", Need::required, into(out.duration, scene::duration, positive), "duration of the test"},
       {"samples", Need::optional, into(out.samples, fewest, most),
        "number of evenly spaced times at which strain and stress are recorded"},
-      poisson_key(out.poisson_ratio)};
+      poisson_key(out.poisson_ratio),
+      temperature_key(out.temperature)};
   keys[2].read.words.usual.clear();
   for (const DriveKey& k : drive_keys) keys.push_back(k.key);
   keys.push_back({"file",

@@ -23,6 +23,7 @@ Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
   keys.insert(keys.end(),
               {kind_key(),
                poisson_key(out.poisson_ratio),
+               temperature_key(out.temperature),
                {"rate", Need::required, into(out.rate, scene::rate, rule), "rate of the strain; tension is positive"},
                {"strain", Need::optional, into(strain, ratio, any),
                 "strain at which the test ends, in place of times; it has the sign of the rate", "the last of times"}});

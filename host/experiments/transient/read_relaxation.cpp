@@ -19,6 +19,7 @@ Relaxation ExperimentOf<Relaxation>::read(const scene::Section& section) {
   keys.insert(keys.end(),
               {kind_key(),
                poisson_key(out.poisson_ratio),
+               temperature_key(out.temperature),
                {"strain", Need::optional, into(out.strain, ratio, strain), "imposed strain; tension is positive"},
                {"ramp", Need::optional, into(out.ramp, duration, non_negative),
                 "time over which the load grows evenly; 0: at once"}});

@@ -16,6 +16,7 @@ TransientExperiment load_test(const Relaxation& spec) {
   out.kind = spec.kind;
   out.history = {spec.times, {{0, spec.ramp}}};
   out.poisson_ratio = spec.poisson_ratio;
+  out.temperature = spec.temperature;
   out.load = {{"strain", spec.strain}, {"ramp_s", spec.ramp}};
   out.when.ramp = spec.ramp;
   out.strain = spec.strain;

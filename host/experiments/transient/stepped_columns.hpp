@@ -11,11 +11,12 @@ namespace macadam {
 
 /// The columns after those of csv_head().
 struct SteppedColumns {
-  bool top = false;       ///< stress at the top wall, if the load is a stress
-  bool broken = false;    ///< broken points
-  bool energies = false;  ///< cracked points and energies
-  bool damping = false;   ///< energy that damping takes
-  bool sides = false;     ///< Poisson's ratio, if the sides are free
+  bool top = false;          ///< stress at the top wall, if the load is a stress
+  bool broken = false;       ///< broken points
+  bool energies = false;     ///< cracked points and energies
+  bool damping = false;      ///< energy that damping takes
+  bool sides = false;        ///< Poisson's ratio, if the sides are free
+  bool temperature = false;  ///< temperature and, with energies, work against expansion
 
   /// Return the names of the columns and their values at a point.
   /// @{
@@ -24,7 +25,8 @@ struct SteppedColumns {
   /// @}
 };
 
-/// Adds energies to a point of summary.json.
-void add_energies(const experiments::Energies& energies, bool damping, nlohmann::ordered_json& point);
+/// Adds energies to a point of summary.json. `damping`, `thermal`: with the energy that damping takes, and with the
+/// work against expansion.
+void add_energies(const experiments::Energies& energies, bool damping, bool thermal, nlohmann::ordered_json& point);
 
 }  // namespace macadam

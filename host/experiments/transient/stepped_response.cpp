@@ -81,8 +81,12 @@ std::string energy_words(const SteppedResponse& found) {
   const experiments::Energies& e = found.points.back().energies;
   const auto error = energy_error_of(found);
   return fmt::format(
-      "work {:.4g} J: crack {:.4g}, friction {:.4g}, viscous {:.4g}, elastic {:.4g}, kinetic {:.4g}{} J; {}\n",
-      e.work_j, e.crack_j, e.friction_j, e.viscous_j, e.elastic_j, e.kinetic_j,
+      "work {:.4g} J{}: crack {:.4g}, friction {:.4g}, viscous {:.4g}, elastic {:.4g}, kinetic {:.4g}{} J; {}\n",
+      e.work_j,
+      std::isfinite(found.points.back().temperature_c)
+          ? fmt::format(" and {:.4g} J against thermal expansion", e.thermal_j)
+          : "",
+      e.crack_j, e.friction_j, e.viscous_j, e.elastic_j, e.kinetic_j,
       found.damping_kind == Damping::none ? "" : fmt::format(", damping {:.4g}", e.damping_j),
       error ? fmt::format("the balance has an error of {:.1e} of the work", *error)
             : "the error of the balance is unknown, because the run has damping or an unknown energy");
@@ -97,7 +101,7 @@ void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
   if (!found.cracks->sums) return;
   out["strength_from"] = found.fitted ? "fit" : "largest stress";
   out["largest_stress_pa"] = found.peak->stress_pa;
-  if (found.fitted) out["fit_deviation_pa"] = found.fitted->deviation_pa;
+  if (found.fitted && !found.increments) out["fit_deviation_pa"] = found.fitted->deviation_pa;
   out["work_of_fracture_j"] = passed ? Json(found.points.back().energies.work_j) : Json();
 }
 
@@ -108,6 +112,12 @@ void add_increments(const experiments::Increments& found, nlohmann::ordered_json
   out["linear_systems"] = found.systems;
   out["increment_error"] = found.increment_error;
   out["loose_particles"] = found.loose;
+  if (found.sudden_break) {
+    out["sudden_break"] = {{"time_s", found.sudden_break->time_s},
+                           {"temperature_c", found.temperature_at_break_c},
+                           {"strain", found.sudden_break->strain},
+                           {"stress_pa", found.sudden_break->stress_pa}};
+  }
   if (!found.unstable) return;
   out["unstable"] = {{"time_s", found.unstable->time_s},
                      {"strain", found.unstable->strain},
@@ -121,7 +131,7 @@ std::string increment_words(const SteppedResponse& found) {
       "\n{}; {} increments without inertia, {} linear systems in {:.1f} s\n"
       "error: {}\n",
       modulus_words(found.confined), i.increments, i.systems, found.seconds,
-      found.cracks ? fmt::format("sum of the estimated errors of the increments, relative to the largest {}",
+      found.cracks ? fmt::format("largest sum of the estimated errors of the increments, relative to the largest {}",
                                  found.kind == experiments::Creep::kind ? "strain" : "stress")
                    : "difference from the solution without increments, or an estimate if there is no "
                      "such solution");
@@ -138,13 +148,12 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     Json out = {{"kind", found.kind},
                 {"sides", found.confined ? "held" : "free"},
                 {"modulus", found.confined ? "confined" : "uniaxial"},
-                {"method", found.increments ? "quasi_static" : "explicit"},
-                {"density_scaling", found.density_scaling},
-                {"dt_s", found.dt_s},
-                {"steps", found.steps},
-                {"error", found.error()},
-                {"kinetic_share", found.kinetic_share},
-                {"solve_s", found.seconds}};
+                {"method", found.increments ? "quasi_static" : "explicit"}};
+    if (!found.increments)
+      out.update({{"density_scaling", found.density_scaling}, {"dt_s", found.dt_s}, {"steps", found.steps}});
+    out["error"] = found.error();
+    if (!found.increments) out["kinetic_share"] = found.kinetic_share;
+    out["solve_s"] = found.seconds;
     add_load(load_test_of(scene), out);
     if (words.ratio) out["ramp_s"] = found.ramp_s;
     add_extremes(found.kind, found.points, out);
@@ -162,6 +171,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
       point["top_pa"] = p.top_pa;
       point["bottom_pa"] = p.bottom_pa;
       point["kinetic_j"] = p.kinetic_j;
+      if (std::isfinite(p.temperature_c)) point["temperature_c"] = p.temperature_c;
       if (!found.confined) point["poisson_ratio"] = std::isfinite(p.poisson_ratio) ? Json(p.poisson_ratio) : Json();
       if (found.cracks) point["broken_points"] = p.broken_points;
       if (found.cracks && found.cracks->sums) {
@@ -171,7 +181,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
           if (found.cracks->by_pair[i].breakable > 0)
             areas[to_string(static_cast<PairType>(i))] = p.cracks.cracked_area_m2[i];
         }
-        add_energies(p.energies, found.damping_kind != Damping::none, point);
+        add_energies(p.energies, found.damping_kind != Damping::none, std::isfinite(p.temperature_c), point);
       }
       out["points"].push_back(std::move(point));
     }
@@ -179,6 +189,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
   }
   if (found.cracks) summary["cracks"] = cracks_json(*found.cracks);
   Json& solver = summary["solver"];
+  if (scene.solver.method == SolverMethod::quasi_static) return add_increment_settings(found, run, solver);
   add_settings(found, scene, run, found.steps, found.dt_s > 0 ? std::optional(found.dt_s) : std::nullopt, solver);
   solver["damping"] = {{"kind", to_string(found.damping_kind)}, {"value", found.damping}};
 }

@@ -32,6 +32,7 @@ struct TransientExperiment {
   std::string kind;
   History history;
   double poisson_ratio = 0;
+  TemperatureHistory temperature = {};  ///< of the specimen; empty: constant
   /// values that the scene requests, each with its name in summary.json
   std::vector<std::pair<const char*, std::optional<double>>> load;
   /// Returns the response at a time to this load, applied at the times `when`, from the specimen's relaxation spectrum.

@@ -40,8 +40,7 @@ Twist<Lanes<F>> load_with_pressure(const ContactEnd& e, const Twist<Lanes<F>>& o
   const T other = e.other >= 0 ? pressures[static_cast<std::size_t>(e.other)] : T(), along = own_pressure - other;
   u[0] += lever.n * own_pressure + e.arm_other * other;
   u[3] += lever.s * along, u[4] += lever.t * along;
-  const auto load = kernels::to_centres(kernels::frame_of<T>(e), kernels::spring_load(e, u, times, T(alpha)));
-  return {load.force_a, load.moment_a};
+  return kernels::load_on_end(e, u, times, T(alpha));
 }
 
 }  // namespace

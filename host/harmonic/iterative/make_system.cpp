@@ -14,6 +14,7 @@
 #include <numeric>
 
 #include "kernels/base/parallel.hpp"
+#include "kernels/contact/initial_contact.hpp"
 #include "kernels/harmonic/particle_block.hpp"
 
 namespace macadam::harmonic {
@@ -27,15 +28,15 @@ namespace {
 
 /// Returns the data of a contact for its first particle, with the normal pointing away from this particle.
 ContactEnd seen_from_a(const Contact& c, const kernels::Layout& layout) {
-  const double d = c.length;
-  const AreaMoments& m = c.moments;
-  return {{c.n.x, c.n.y, c.n.z},
-          {c.s.x, c.s.y, c.s.z},
-          c.arm_a,
-          c.arm_b,
-          {m.a / d, m.s / d, m.t / d, m.ss / d, m.st / d, m.tt / d},
-          c.b >= 0 ? layout.body_of(c.b) : kernels::wall_at_rest,
-          static_cast<std::int32_t>(c.pair)};
+  ContactEnd e{{c.n.x, c.n.y, c.n.z},
+               {c.s.x, c.s.y, c.s.z},
+               c.arm_a,
+               c.arm_b,
+               {},
+               c.b >= 0 ? layout.body_of(c.b) : kernels::wall_at_rest,
+               static_cast<std::int32_t>(c.pair)};
+  kernels::moments_over_length(c, e.moments);
+  return e;
 }
 
 /// Returns the data of a contact for its second particle. Its frame is (−n, s, −t), so coordinates along t change their

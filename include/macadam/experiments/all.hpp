@@ -62,4 +62,14 @@ inline std::vector<double> temperatures_of(const Experiment& experiment) {
       experiment);
 }
 
+/// Returns the temperature during the experiment; empty if it is constant.
+inline TemperatureHistory temperature_history_of(const Experiment& experiment) {
+  return std::visit(
+      [](const auto& spec) -> TemperatureHistory {
+        if constexpr (requires { spec.temperature; }) return spec.temperature;
+        return {};
+      },
+      experiment);
+}
+
 }  // namespace macadam

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "macadam/experiments/stepped.hpp"
+#include "macadam/temperature.hpp"
 
 namespace macadam::experiments {
 
@@ -23,7 +24,8 @@ struct Creep {
   std::vector<double> times;      ///< times of the result, from the beginning of the ramp [s], rising
   /// For stepped tests: mass of the loaded top wall [kg]; empty: the smallest mass that does not shorten the time step.
   std::optional<double> platen_mass;
-  double poisson_ratio = 0;  ///< Poisson's ratio for the tables of finite-element programs
+  double poisson_ratio = 0;             ///< Poisson's ratio for the tables of finite-element programs
+  TemperatureHistory temperature = {};  ///< of the specimen; empty: constant
 };
 
 }  // namespace macadam::experiments

@@ -10,6 +10,7 @@
 
 #include "macadam/experiments/cracks.hpp"
 #include "macadam/experiments/frequency.hpp"
+#include "macadam/experiments/increments.hpp"
 #include "macadam/experiments/stepped.hpp"
 
 namespace macadam {
@@ -58,12 +59,15 @@ struct SteppedFrequency : Frequency {
   std::optional<Cracks> cracks = {};
   /// The rupture, if it ended the steps of this frequency early. |E*| and φ are then NaN.
   std::optional<Rupture> rupture = {};
+  std::optional<Increments> increments = {};  ///< only method "quasi_static"
+  /// |E*| and φ of each single cycle that was sampled, from the first one on; only method "quasi_static" with cracks.
+  std::vector<Stiffness> cycle_stiffness = {};
 
   /// Returns the rms difference of the stress from its fit, over the stress amplitude.
   double residual() const { return cyclic.fit_rms; }
 };
 
-/// Result of a cyclic test by method "explicit".
+/// Result of a cyclic test by methods "explicit" and "quasi_static".
 struct SteppedCyclic : Stepped {
   std::vector<SteppedFrequency> frequencies;
 };

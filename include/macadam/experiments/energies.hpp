@@ -13,9 +13,12 @@ struct Energies {
   double friction_j = 0;  ///< dissipated by friction in cracks
   double kinetic_j = 0;   ///< change of the energy of motion of the particles, density scaling included
   double damping_j = 0;   ///< dissipated by the damping of the time steps
+  double thermal_j = 0;   ///< work of the contacts' forces against thermal expansion
 
   /// Returns the work that no other energy accounts for [J]. Without an error it is zero.
-  double missing() const { return work_j - (elastic_j + viscous_j + crack_j + friction_j + kinetic_j + damping_j); }
+  double missing() const {
+    return work_j + thermal_j - (elastic_j + viscous_j + crack_j + friction_j + kinetic_j + damping_j);
+  }
 };
 
 }  // namespace macadam::experiments

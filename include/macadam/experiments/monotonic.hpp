@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "macadam/experiments/stepped.hpp"
+#include "macadam/temperature.hpp"
 
 namespace macadam::experiments {
 
@@ -17,9 +18,10 @@ struct Monotonic {
   static constexpr std::array files = {"monotonic.csv", "prony.csv", "kelvin.csv", "prony_abaqus.inp",
                                        "prony_ansys.txt"};
 
-  double rate = 0;            ///< strain rate [1/s], tension positive
-  std::vector<double> times;  ///< times of the result, from the beginning [s], rising
-  double poisson_ratio = 0;   ///< Poisson's ratio for the tables of finite-element programs
+  double rate = 0;                      ///< strain rate [1/s], tension positive
+  std::vector<double> times;            ///< times of the result, from the beginning [s], rising
+  double poisson_ratio = 0;             ///< Poisson's ratio for the tables of finite-element programs
+  TemperatureHistory temperature = {};  ///< of the specimen; empty: constant
 };
 
 }  // namespace macadam::experiments

@@ -11,6 +11,7 @@
 
 #include "macadam/experiments/cracks.hpp"
 #include "macadam/experiments/energies.hpp"
+#include "macadam/experiments/increments.hpp"
 #include "macadam/experiments/material.hpp"
 #include "macadam/experiments/stepped.hpp"
 
@@ -41,13 +42,9 @@ struct SteppedPoint : ResponsePoint {
   std::int64_t broken_points = 0;  ///< number of broken contact points; 0 if no law can break
   CrackSums cracks = {};           ///< zero if no law has a crack
   Energies energies = {};          ///< zero if no law has a crack
+  double temperature_c = std::numeric_limits<double>::quiet_NaN();  ///< of the specimen; NaN if it does not change
   /// Minus the mean lateral strain over the strain; NaN if the strain is 0, or if a side is held or has no cell.
   double poisson_ratio = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// The largest stress of a test in the direction of its load; it may lie between two points of the result.
-struct Peak {
-  double time_s = 0, strain = 0, stress_pa = 0;
 };
 
 /// The largest stress of the cubic polynomial that fits the stress around the largest stress of a test, so that
@@ -55,20 +52,6 @@ struct Peak {
 struct FittedPeak {
   double strain = 0, stress_pa = 0;
   double deviation_pa = 0;  ///< root mean square of the differences from the polynomial
-};
-
-/// The increments of a test by method "quasi_static".
-struct Increments {
-  /// Numbers of accepted increments, of increments that were repeated with a shorter length, and of linear systems.
-  std::int64_t increments = 0, rejected = 0, systems = 0;
-  double error = 0;      ///< sum of the estimated errors, as SteppedPoint::error
-  double imbalance = 0;  ///< error of the balance of energies (energy_error)
-  /// Difference between the crack energy computed from the states of the cracks and the work of their stresses, divided
-  /// by the sum of all energies.
-  double increment_error = 0;
-  /// Largest number of particles without stiffness, and number of increments controlled by the opening of cracks.
-  std::int64_t loose = 0, by_opening = 0;
-  std::optional<Peak> unstable = {};  ///< the state after which the test was controlled by opening
 };
 
 /// Result of methods "explicit" and "quasi_static".

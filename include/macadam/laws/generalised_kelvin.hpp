@@ -85,10 +85,12 @@ struct GeneralisedKelvin {
   double dissipated(double dt, double f_before, const double* x_before, double f, const double* x) const {
     if (!(dt > 0)) return 0;
     double out = std::isfinite(C_m) ? dt * (f_before * f_before + f_before * f + f * f) / (3 * C_m) : 0;
+    const double per_dt = 1 / dt;
     for (std::size_t l = 0; l < E.size(); ++l) {
-      const double first = (f_before - E[l] * x_before[l]) / C[l], last = (f - E[l] * x[l]) / C[l];
-      const double mean = (x[l] - x_before[l]) / dt, rise = last - first, bend = first + last - 2 * mean;
-      out += C[l] * dt * (mean * mean + rise * rise / 12 + bend * bend / 20);
+      const double per_c = 1 / C[l];
+      const double first = (f_before - E[l] * x_before[l]) * per_c, last = (f - E[l] * x[l]) * per_c;
+      const double mean = (x[l] - x_before[l]) * per_dt, rise = last - first, bend = first + last - 2 * mean;
+      out += C[l] * dt * (mean * mean + rise * rise * (1.0 / 12) + bend * bend * (1.0 / 20));
     }
     return out;
   }

@@ -10,8 +10,10 @@
 #include "kernels/contact/contact_readout.hpp"
 #include "kernels/cuda/common/crossing_contacts.hpp"
 #include "kernels/cuda/common/divergence.hpp"
+#include "kernels/cuda/common/host_copy.hpp"
 #include "kernels/cuda/device/part_clock.hpp"
 #include "kernels/cuda/common/load_record_order.hpp"
+#include "kernels/cuda/common/sample_buffer.hpp"
 #include "kernels/cuda/multi_gpu/device_team.hpp"
 #include "kernels/cuda/device/device_store.hpp"
 #include "kernels/cuda/common/wall_table.hpp"
@@ -116,12 +118,7 @@ class CudaBodyArrays {
   }
 
   GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {
-    const auto copy = [](const auto* from, std::size_t n) {
-      std::vector<typename P::State> out(n);
-      if (n > 0) copy_now(out.data(), from, n * sizeof out[0], "contact states");
-      return out;
-    };
-    return {copy(views_[number].chain, chain), copy(views_[number].frame, frame), {}};
+    return {chain_on_host_.copy(views_[number].chain, chain), frame_on_host_.copy(views_[number].frame, frame), {}};
   }
 
   const StateList& states() const { return states_; }
@@ -248,6 +245,27 @@ class CudaBodyArrays {
   static std::int64_t number_or_none(std::uint32_t first_divergent) {
     return first_divergent == UINT32_MAX ? -1 : static_cast<std::int64_t>(first_divergent);
   }
+  /// Enqueues sample `k` of the walls and of the first divergent particle. `wall_force`: loads on the walls, on the
+  /// device.
+  void queue_sample(DeviceSamples<R>& samples, std::size_t k, double dt, const R* wall_force) const {
+    const cudaStream_t stream = team_.stream();
+    const std::size_t from = layout_.particles();
+    if (k == 0) samples.clear(stream);
+    divergence_->queue(master_.data(), dt, 0, from, samples.divergent(k), stream);
+    samples.take(k, wall_force, master_.data() + from * velocity_words,
+                 displacement_.data() + from * displacement_words, stream);
+  }
+  /// Converts the first `number` samples, which must have been read.
+  static std::vector<WallSample<R>> wall_samples(const DeviceSamples<R>& samples, std::size_t number) {
+    const auto list = [](const auto& of) { return std::vector(std::begin(of), std::end(of)); };
+    std::vector<WallSample<R>> out;
+    for (std::size_t k = 0; k < number; ++k) {
+      const auto& sample = samples[k];
+      out.push_back({twists(list(sample.force)), list(sample.displacement), list(sample.velocity),
+                     number_or_none(sample.divergent)});
+    }
+    return out;
+  }
   /// Converts bodies from eight words to twists.
   static std::vector<Twist<R>> twists(const std::vector<R>& words) {
     std::vector<Twist<R>> out(words.size() / velocity_words);
@@ -286,6 +304,7 @@ class CudaBodyArrays {
   DeviceArray<G> velocity_;
   WallRowsOnDevice<R> wall_rows_;
   mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first needed
+  mutable HostCopy<typename P::State> chain_on_host_, frame_on_host_;
   DeviceStore store_;
   StateList states_;
   PartClock parts_;

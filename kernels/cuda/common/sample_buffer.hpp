@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file sample_buffer.hpp  Takes samples of a run on the device (GPU) while the run continues.
 ///
-/// A sample holds the wall forces, the motion of the walls, and the first particle that has diverged. ExecCudaTiles
-/// enqueues samples between steps. The host reads several at a time: it waits once for all of them, and the device
+/// A sample holds the wall forces, the motion of the walls, and the first particle that has diverged. The executors
+/// enqueue samples between steps. The host reads several at a time: it waits once for all of them, and the device
 /// never waits for the host.
 #pragma once
 

@@ -29,11 +29,10 @@ class Increments : public DeviceIncrements {
     team_.wait_for_the_last();
   }
 
-  void begin(const IncrementLaws& laws, double factor, double growing_area) override {
+  void begin(const IncrementLaws& laws, double growing_area) override {
     team_.use(0);
     growing_area_ = growing_area;
     check_cuda(cudaMemcpyAsync(m_.laws, laws.data(), sizeof(laws), cudaMemcpyHostToDevice, team_.stream()), "laws");
-    combine(factor, m_.view.last, 0, m_.view.last, m_.view.trial);
     run("prepare contacts", increment_prepare_linear, blocks_of(m_.view.linear_contacts), m_.view);
     run("prepare points", increment_prepare_points, blocks_of(m_.view.points), m_.view);
   }
@@ -136,7 +135,6 @@ class Increments : public DeviceIncrements {
     run("accept contacts", increment_accept_linear, linear, d, wall_);
     run("accept points", increment_accept_points, points, d, wall_, linear);
     combine(1, d.displacement, 1, d.trial, d.displacement);
-    combine(1, d.trial, 0, d.trial, d.last);
     const double* e = sum<energy_sums>(linear + points);
     return {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
   }
@@ -152,15 +150,14 @@ class Increments : public DeviceIncrements {
   void write(IncrementVector which, const std::vector<double>& list) override { put(list, vector(which)); }
   IncrementStates states() const override {
     const IncrementView& d = m_.view;
-    IncrementStates out{numbers(d.displacement, degrees()), numbers(d.last, degrees()),
-                        numbers(d.linear_state, linear_numbers()), numbers(d.point_state, point_numbers()),
-                        std::vector<std::uint8_t>(d.points)};
+    IncrementStates out{numbers(d.displacement, degrees()), numbers(d.linear_state, linear_numbers()),
+                        numbers(d.point_state, point_numbers()), std::vector<std::uint8_t>(d.points)};
     if (d.points > 0) copy_now(out.grew.data(), d.grew, d.points, "states");
     return out;
   }
   void set_states(const IncrementStates& s) override {
     const IncrementView& d = m_.view;
-    put(s.displacement, d.displacement), put(s.motion, d.last);
+    put(s.displacement, d.displacement);
     put(s.linear, d.linear_state), put(s.points, d.point_state);
     if (d.points == 0) return;
     for (std::uint8_t* to : {d.grew, d.grows}) copy_now(to, s.grew.data(), d.points, "states");
@@ -213,6 +210,8 @@ class Increments : public DeviceIncrements {
         return m_.correction;
       case IncrementVector::by_wall:
         return m_.by_wall;
+      case IncrementVector::trial:
+        return m_.view.trial;
       default:
         return m_.view.displacement;
     }

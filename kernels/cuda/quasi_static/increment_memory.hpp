@@ -56,7 +56,7 @@ class IncrementMemory {
     v.point_state = numbers(3 * static_cast<std::size_t>(s.point_words) * points);
     v.linear_base = numbers(6 * s.linear.size()), v.point_base = numbers(3 * points);
     v.grew = store_.zeros<std::uint8_t>(points), v.grows = store_.zeros<std::uint8_t>(points);
-    for (double** vector : {&v.displacement, &v.last, &v.trial, &v.kept, &v.residual, &v.top, &correction, &by_wall})
+    for (double** vector : {&v.displacement, &v.trial, &v.kept, &v.residual, &v.top, &correction, &by_wall})
       *vector = numbers(degrees);
     v.loads = numbers(12 * contacts), v.stiffness = numbers(36 * contacts), v.rate = numbers(6 * contacts);
     v.blocks = numbers(36 * entries);

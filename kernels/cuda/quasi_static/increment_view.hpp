@@ -36,12 +36,12 @@ struct IncrementView {
   double *linear_base, *point_base;    ///< [component][contact or point]
   std::uint8_t *grew, *grows;          ///< [point]
 
-  double *displacement, *last, *trial, *kept, *residual, *top;  ///< [6·bodies]
-  double* loads;                                                ///< [contact][end][6]: loads on both ends
-  double* stiffness;                                            ///< [contact][36]
-  double* rate;                                                 ///< [contact][6] derivatives of the opening
-  double* blocks;                                               ///< [entry][36], column by column
-  double* partial;                                              ///< sums of thread blocks
+  double *displacement, *trial, *kept, *residual, *top;  ///< [6·bodies]
+  double* loads;                                         ///< [contact][end][6]: loads on both ends
+  double* stiffness;                                     ///< [contact][36]
+  double* rate;                                          ///< [contact][6] derivatives of the opening
+  double* blocks;                                        ///< [entry][36], column by column
+  double* partial;                                       ///< sums of thread blocks
 
   /// Relative displacements of a contact when the particles move by `x` and the walls by `wall`.
   __device__ void relative(const IncrementContact& c, const double* x, const WallArgument& wall, double (&u)[6]) const {

@@ -124,27 +124,14 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   }
   /// Enqueues sample number `k` behind the enqueued steps.
   void take_sample(std::size_t k) {
-    mark_failed_on_throw([&] {
-      const cudaStream_t stream = this->team_.stream();
-      const std::size_t walls_from = this->layout_.particles();
-      if (k == 0) samples_.clear(stream);
-      this->divergence_->queue(this->master_.data(), dt_, 0, walls_from, samples_.divergent(k), stream);
-      samples_.take(k, data_.forces() + walls_from * velocity_words, this->master_.data() + walls_from * velocity_words,
-                    this->displacement_.data() + walls_from * displacement_words, stream);
-    });
+    mark_failed_on_throw(
+        [&] { this->queue_sample(samples_, k, dt_, data_.forces() + this->layout_.particles() * velocity_words); });
   }
   /// Waits for all steps and returns the first `number` samples.
   std::vector<WallSample<R>> wait_for_samples(std::size_t number) {
     mark_failed_on_throw([&] { samples_.read(number, this->team_.stream()); });
     wait();
-    std::vector<WallSample<R>> out;
-    const auto list = [](const auto& of) { return std::vector(std::begin(of), std::end(of)); };
-    for (std::size_t k = 0; k < number; ++k) {
-      const auto& sample = samples_[k];
-      out.push_back({Base::twists(list(sample.force)), list(sample.displacement), list(sample.velocity),
-                     Base::number_or_none(sample.divergent)});
-    }
-    return out;
+    return Base::wall_samples(samples_, number);
   }
 
   /// Ends all work after an error or before destruction: releases tiles that wait for a failed device, waits for all

@@ -18,7 +18,7 @@ namespace macadam::kernels {
 
 /// Executor for CUDA devices with precision P and a list of laws; see executor.hpp for its functions.
 template <class P, class Laws>
-class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle> {
+class ExecCuda : public CudaBodyArrays<P> {
   using Base = CudaBodyArrays<P>;
 
  public:
@@ -39,7 +39,8 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   ExecCuda(const ContactNetwork& network, const Plan& plan, const StepperOptions& options)
       : Base(network, plan.layout, options, RecordOrder::as_written),
         step_(1),
-        wall_row_(walls * WallMotion<R>::words) {}
+        wall_row_(walls * WallMotion<R>::words),
+        wall_loads_(walls * velocity_words) {}
   ~ExecCuda() {
     this->end_steps();
     forget_graphs();
@@ -86,11 +87,11 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
                      [this] { return this->lists_.state_order(this->layout_); });
   }
 
-  /// Enqueues all steps.
-  void run(std::int64_t, std::int64_t steps, std::int64_t) {
+  /// Enqueues steps. `row`: row of the walls' table for the first step.
+  void run(std::int64_t, std::int64_t steps, std::int64_t row) {
     const Range range("time steps");
     this->team_.join_streams();  // the start may have written to memory on other streams
-    if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_);
+    if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_, row);
     this->team_.join_streams();
     const Ranks* ranks = this->team_.ranks();
     if (waits_for_launches() || this->parts_.runs() || (ranks && !ranks->goes_into_graphs())) {
@@ -107,6 +108,27 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
     };
     while (steps >= steps_per_graph) queue(many_, steps_per_graph);
     while (steps > 0) queue(one_, 1);
+  }
+
+  /// Returns how many samples can be taken before the host reads them; 0 with several devices or ranks. `radius` in
+  /// specimen order [m].
+  std::size_t max_samples(const std::vector<double>& radius) {
+    if (this->team_.ranks() || this->team_.size() > 1) return 0;
+    this->require_divergence_search(radius);
+    return samples_per_read;
+  }
+  /// Enqueues sample number `k` behind the enqueued steps.
+  void take_sample(std::size_t k) {
+    const cudaStream_t stream = this->team_.stream();
+    launch("sums", sum_loads<R, G>, walls, body_threads, 0, stream, records(), wall_loads_.data(),
+           static_cast<std::uint32_t>(this->layout_.particles()));
+    this->queue_sample(samples_, k, motion_.dt, wall_loads_.data());
+  }
+  /// Waits for all steps and returns the first `number` samples.
+  std::vector<WallSample<R>> wait_for_samples(std::size_t number) {
+    samples_.read(number, this->team_.stream());
+    this->wait();
+    return Base::wall_samples(samples_, number);
   }
 
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
@@ -140,7 +162,9 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
            static_cast<std::int64_t>(2 * records_.bytes() + this->lists_.place.bytes());
   }
   Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
-  std::int64_t bytes() const { return this->held_bytes() + static_cast<std::int64_t>(records_.bytes()); }
+  std::int64_t bytes() const {
+    return this->held_bytes() + samples_.bytes() + static_cast<std::int64_t>(records_.bytes());
+  }
 
  private:
   /// Returns whether some contact has rock in series.
@@ -190,6 +214,8 @@ class ExecCuda : public CudaBodyArrays<P>, public NoSamples<typename P::Particle
   DeviceArray<std::int64_t> step_;
   DeviceArray<R> wall_row_;  // row of the current step
   WallClock<R> clock_;
+  DeviceArray<R> wall_loads_;  // of the sample that is taken
+  DeviceSamples<R> samples_;
   std::vector<ContactLaunches<P, AnyLaw>> contacts_;  // [member]
   std::uint32_t slots_ = 0;                           // number of slots of the groups set so far
   bool crosses_ = false;

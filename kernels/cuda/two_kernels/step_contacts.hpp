@@ -62,10 +62,10 @@ struct WallClock {
     if (lane == 0) *step = row + 1;
   }
 };
-/// Sets the counter to 0 and copies the first row.
+/// Sets the counter to `row` and copies this row.
 template <class R>
-__global__ void start_clock(const WallClock<R> clock) {
-  if (threadIdx.x == 0) *clock.step = 0;
+__global__ void start_clock(const WallClock<R> clock, std::int64_t row) {
+  if (threadIdx.x == 0) *clock.step = row;
   __syncwarp();
   clock.tick();
 }
