@@ -52,9 +52,9 @@ def hints(facts):
             the paper filled its cluster specimens with mastic to the same sum, the shapes have voids of
             {several(budget['coarse'])} (Poly and Ico, coarse) and {several(budget['fine'])} (fine). {rest} the equal
             sum, and on mastic radii uniform in 0.75–1 mm.""",
-        f"""*From the number of aggregates* at the same share: the clusters of Ico have voids of
-            {several(v.number for v in ico)} (coarse and fine) if the sizes of the aggregates are considered, otherwise
-            {several(1 - 1 / v.ratio for v in ico)}. The standard deviation in the table follows from the small number
+        f"""*Estimate from the number of aggregates*, at the same share of aggregates: the fraction of voids in the
+            clusters of Ico is {several(v.number for v in ico)} (coarse and fine) if the size of each aggregate is used.
+            With one mean size it is {several(1 - 1 / v.ratio for v in ico)}. The standard deviation in the table follows from the small number
             of sizes. {rest} shapes like ours. It is therefore useful for Ico, whose shape is known, but not for Poly,
             for which it gives voids of {several(v.number for v in poly)}. A negative void means that the paper's
             shapes have more volume than our shapes at the same D^I.""",

@@ -3,11 +3,13 @@
 // mixture | study | completion | man. Exit code 0: done; 1: the run failed; 2: the input is wrong.
 #include <CLI/CLI.hpp>
 #include <new>
+#include <string_view>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/library_environment.hpp"
 #include "host/cli/memory_reserve.hpp"
 #include "host/cli/terminal/fault_signals.hpp"
+#include "host/cli/terminal/json_lines.hpp"
 #include "host/cli/terminal/streams.hpp"
 #include "host/base/nearest.hpp"
 #include "macadam/error.hpp"
@@ -54,7 +56,9 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
 /// Prints what is wrong with a command line, or the help or version that it asks for. Returns the exit code.
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // help, version
-  say_error("macadam: {}\n", fault_of(app, error));
+  const std::string fault = fault_of(app, error);
+  say_error("macadam: {}\n", fault);
+  print_json_usage_error(fault);
   say_error("--help after a command lists its arguments and options\n");
   return 2;
 }
@@ -70,9 +74,11 @@ End run_program(CLI::App& app, int argc, char** argv) {
     return {0, true};
   } catch (const CLI::ParseError& error) { return {refuse(app, error), false}; } catch (const InputError& error) {
     say_error("macadam: {}\n", error.what());
+    print_json_error(error);
     return {2, true};
   } catch (const std::bad_alloc&) { throw; } catch (const std::exception& error) {
     say_error("macadam: {}\n", error.what());
+    print_json_error(error);
     return {1, true};
   }
 }
@@ -80,7 +86,9 @@ End run_program(CLI::App& app, int argc, char** argv) {
 int say_and_run(int argc, char** argv) {
   CLI::App app;
   make_command_line(app);
+  if (wants_json_lines(argc, argv)) begin_json_lines(std::string_view(argv[1]) == "run");
   const auto [code, ran] = run_program(app, argc, argv);
+  if (ran || code != 0) print_json_end(code);  // no events with the help or the version
   // `run` and `specimen` also write their results to files, so a failed write to standard output is not an error
   const bool in_files = ran && (app.got_subcommand("run") || app.got_subcommand("specimen"));
   if (flush_output() || code != 0 || in_files) return code;
@@ -101,6 +109,7 @@ int main_function(int argc, char** argv) {
     return say_and_run(argc, argv);
   } catch (const std::bad_alloc&) {
     say_error_text("macadam: out of memory\n");
+    print_json_out_of_memory();
     return 1;
   }
 }

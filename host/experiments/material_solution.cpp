@@ -23,6 +23,8 @@ using experiments::Material;
 
 /// Relative tolerance of E(t) if the section [solver] of the scene gives no tolerance.
 constexpr double usual_tolerance = 1e-5;
+/// The same for the rule "volumetric", with which a sum of exponentials is not exact (volumetric_spectrum.cpp).
+constexpr double usual_tolerance_volumetric = 1e-4;
 
 class PlannedMaterial : public PlannedExperiment {
  public:
@@ -44,7 +46,8 @@ class PlannedMaterial : public PlannedExperiment {
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = std::string("relaxation spectrum, without inertia, ") + to_string(result.backend);
     std::tie(options_.shortest, options_.longest) = history.range();
-    options_.tolerance = solver.tolerance.value_or(usual_tolerance);
+    options_.tolerance = solver.tolerance.value_or(
+        scene.network.rule == ContactRule::volumetric ? usual_tolerance_volumetric : usual_tolerance);
     options_.backend = result.backend == Backend::cuda ? Backend::cuda : Backend::cpu;
     if (options_.backend == Backend::cuda) options_.devices = solver.devices;
     options_.linear = solver.linear;

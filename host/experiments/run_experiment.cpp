@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "host/files/result_files.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -82,6 +83,7 @@ std::vector<std::string> files_of_run(const Scene& scene, bool aggregates) {
   if (scene.recipe) out.emplace_back("gradation.csv");
   for (std::string& name : files_written(scene)) out.push_back(std::move(name));
   if (scene.output.contacts) out.emplace_back("contacts.csv");
+  if (!scene.changes.empty()) out.emplace_back(changed_scene_file);
   return out;
 }
 

@@ -11,6 +11,9 @@
 
 namespace macadam {
 
+/// Name of the file with the scene of a run whose command set values of the scene.
+inline constexpr const char* changed_scene_file = "scene_as_run.toml";
+
 /// Writes one file under another name and renames it, so that a reader finds either the old bytes or the new ones. A
 /// file that could not be written completely is removed. If `to_disk` is true, also waits until the file is on the
 /// disk; then even a power failure leaves either the old or the new file. \throws RunError.

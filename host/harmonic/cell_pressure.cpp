@@ -50,25 +50,4 @@ void add_pressure_shift(const Contact& c, const Vector& pressures, std::array<Co
   u[0] += shift[0], u[3] += shift[1], u[4] += shift[2];
 }
 
-Complex pressure_of_mastic(const ContactNetwork& network, const PairStiffness& stiffness, const Vector& motion,
-                           const Vector& pressures) {
-  if (pressures.empty()) return 0;
-  Complex out = 0;
-  for (const Contact& c : network.contacts) {
-    if (!is_of_mastic(c.pair)) continue;
-    const auto load = facet_load(c, stiffness, relative_motion(c, motion, 1.0));
-    const auto shift = pressure_shift(c, pressures);
-    const auto k = contact_stiffness(c, stiffness);
-    const double alpha = stiffness.alpha[static_cast<std::size_t>(c.pair)];
-    out += (1.0 - c.series * k[0]) * load.n * shift[0];
-    out += (1.0 - alpha * c.series * k[1]) * (load.s * shift[1] + load.t * shift[2]);
-  }
-  for (std::size_t i = 0; i < pressures.size(); ++i) {
-    const CellStiffness& cell = network.cells[i];
-    if (cell.law == PairType::mm && cell.weight != 0)
-      out -= pressures[i] * pressures[i] * stiffness.k[static_cast<std::size_t>(cell.law)] / cell.weight;
-  }
-  return out;
-}
-
 }  // namespace macadam::harmonic

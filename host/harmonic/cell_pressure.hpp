@@ -36,13 +36,4 @@ std::array<Complex, 3> pressure_shift(const Contact& contact, const Vector& pres
 /// empty.
 void add_pressure_shift(const Contact& contact, const Vector& pressures, std::array<Complex, 6>& u);
 
-/// Returns ModulusParts::pressure_of_mastic for a solution whose top wall moves by one, in the unit of W and not yet
-/// multiplied by height over cross-section. `pressures` is the result of cell_pressures() for this solution.
-///
-/// uᵀ·K·u = Σ F·u + Σ P²/q over contacts and cells, with F·v summed over the contacts equal to Σ P²/q, where v is the
-/// additional displacement. If the mastic's stiffness grows, F grows by the mastic's part of the compliance of a
-/// contact, and q of a mastic cell falls.
-Complex pressure_of_mastic(const ContactNetwork& network, const PairStiffness& stiffness, const Vector& motion,
-                           const Vector& pressures);
-
 }  // namespace macadam::harmonic

@@ -15,6 +15,7 @@
 #include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
 #include "host/harmonic/harmonic_code.hpp"
+#include "host/harmonic/phase_derivatives.hpp"
 #include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
@@ -263,7 +264,9 @@ class Harmonic::Implementation {
     const LinearTask& task = w.task;
     const Vector& x = task.motion;
     HarmonicResult out;
+    out.pressures = cell_pressures(network_, task.stiffness, x, 1.0);
     out.parts = w.parts;
+    add_phase_derivatives(network_, task.stiffness, x, out.pressures, out.parts);
     const double top = std::abs(out.parts.modulus());
     const double to_modulus =
         // converts the reaction at unit displacement into stress over strain
@@ -277,15 +280,15 @@ class Harmonic::Implementation {
     for (auto* part : {&out.parts.normal, &out.parts.shear, &out.parts.normal_rock, &out.parts.shear_rock}) {
       for (Complex& e : *part) e *= to_modulus;
     }
-    out.parts.inertia *= to_modulus;
+    for (Complex* part : {&out.parts.inertia, &out.parts.pressure_of_mastic, &out.parts.mastic_poisson_ratio,
+                          &out.parts.rock_poisson_ratio})
+      *part *= to_modulus;
     out.top = modulus(out.parts.modulus());
     out.bottom = modulus(-to_modulus * contacts_.bottom_force(task.stiffness, x));
     if (task.inertia == 0.0 && w.method == LinearMethod::direct) {
       for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.force(x));
       out.held_force /= top;
     }
-    out.pressures = cell_pressures(network_, task.stiffness, x, 1.0);
-    out.parts.pressure_of_mastic = to_modulus * pressure_of_mastic(network_, task.stiffness, x, out.pressures);
     out.motion = std::move(w.task.motion);
     return out;
   }

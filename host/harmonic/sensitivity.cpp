@@ -74,6 +74,10 @@ std::vector<Sensitivity> phase_sensitivities(const ModulusParts& parts, const La
     });
   }
   if (rock != 0.0) out.push_back(sensitivity_of("aggregate.E", rock, modulus));
+  if (parts.mastic_poisson_ratio != 0.0)
+    out.push_back(sensitivity_of("mastic.poisson_ratio", parts.mastic_poisson_ratio, modulus));
+  if (parts.rock_poisson_ratio != 0.0)
+    out.push_back(sensitivity_of("aggregate.poisson_ratio", parts.rock_poisson_ratio, modulus));
   if (parts.inertia != 0.0) out.push_back(sensitivity_of("density_scaling", parts.inertia, modulus));
   return out;
 }

@@ -30,14 +30,13 @@ std::vector<double> free_volumes(const ContactNetwork& network, const Specimen& 
   for (const Facet& f : tessellation.facets) {
     const bool contact =
         next < network.contacts.size() && network.contacts[next].a == f.a && network.contacts[next].b == f.b;
-    if (contact) {
-      ++next;
-      continue;
-    }
+    // a contact that a notch shortened leaves the other part of its facet free
+    const double free_area = contact ? f.area - network.contacts[next++].area : f.area;
+    if (free_area <= 1e-12 * f.area) continue;
     const auto add = [&](std::int32_t cell, double sign) {
       if (cell < 0 || cell >= particles) return;
       const auto i = static_cast<std::size_t>(cell);
-      out[i] += f.area * std::max(0.0, sign * dot(f.centroid - specimen.centre[i], f.normal));
+      out[i] += free_area * std::max(0.0, sign * dot(f.centroid - specimen.centre[i], f.normal));
     };
     add(f.a, 1), add(f.b, -1);
   }
@@ -70,7 +69,8 @@ void apply_volumetric(ContactNetwork& network, const Specimen& specimen, const T
                  ratio = nu / (1 - 2 * nu),  // λ/2μ
         volume = tessellation.cell_volume[i];
     // λ'·(1 + ν)²/(E·V) with λ' = λ/(1 + λ/2μ·Σ A·h/V) and 2μ = E/(1 + ν)
-    network.cells[i] = {ratio * (1 + nu) / (volume + ratio * free[i]), mastic ? PairType::mm : PairType::inner};
+    const double with_free = volume + ratio * free[i];
+    network.cells[i] = {ratio * (1 + nu) / with_free, mastic ? PairType::mm : PairType::inner, volume / with_free};
   }
   network.rule = ContactRule::volumetric;
   network.rock_poisson_ratio = constants.rock_poisson_ratio;

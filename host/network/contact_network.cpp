@@ -11,6 +11,8 @@
 #include <string>
 
 #include "host/base/counted.hpp"
+#include "host/network/notched_facets.hpp"
+#include "host/tessellation/domain_walls.hpp"
 #include "kernels/base/parallel.hpp"
 #include "macadam/error.hpp"
 
@@ -30,7 +32,7 @@ void check_input(const Specimen& specimen, const Tessellation& tessellation, con
                      std::to_string(specimen.cells()) + ", one for each particle and void of the specimen");
   if (spec.lateral_walls && !specimen.box.is_box())
     throw InputError("network", 0, "lateral_walls", std::string("true for a ") + specimen.box.name(),
-                     "false, because only a box has flat sides");
+                     "false, because only the sides of a box can be held");
   check_limits(spec, "");
   for (int k = 0; k < particle_pair_types; ++k)
     check_limits(spec.of_pair[k], std::string(" of ") + to_string(static_cast<PairType>(k)));
@@ -72,8 +74,7 @@ PairType pair_of(const Specimen& specimen, const Facet& f) {
 /// Returns the distance of a particle's centre from a wall [m]. \throws InputError if it is too small, because the
 /// stiffness of a wall contact is E·A/h.
 double distance_to_wall(const Specimen& specimen, const Facet& f) {
-  const Vec3d &p = specimen.centre[f.a], &box = specimen.box.size;
-  const double h = std::array<double, 6>{p.x, box.x - p.x, p.y, box.y - p.y, p.z, box.z - p.z}[-1 - f.b];
+  const double h = -height_above_wall(specimen.box, f, specimen.centre[f.a]);
   if (!(h > 1e-9 * specimen.radius[f.a])) {
     throw InputError(
         specimen.source, specimen.line_of(f.a),
@@ -85,12 +86,12 @@ double distance_to_wall(const Specimen& specimen, const Facet& f) {
   return h;
 }
 
-/// Returns a contact with its distance, frame and lever arms (model, section 3).
-Contact geometry(const Specimen& specimen, const Facet& f) {
+/// Returns a contact with its distance, frame and lever arms (model, section 3). `area`: area of its parts [m²].
+Contact geometry(const Specimen& specimen, const Facet& f, double area) {
   Contact c;
   c.a = f.a, c.b = f.b;
   c.pair = pair_of(specimen, f);
-  c.area = f.area;
+  c.area = area;
   c.n = f.normal;
   canonical_frame(c.n, c.s, c.t);
   if (f.b < 0) {
@@ -122,38 +123,44 @@ void add_triangle(double area, const std::array<double, 3>& s, const std::array<
   exact.tt += area / 12 * (sum_t * sum_t + tt);
 }
 
-/// Sets the coordinates and areas of the contact's points (vertices, then centroid). Returns the lumped and the exact
-/// moments.
-std::array<AreaMoments, 2> set_points(const Specimen& specimen, const Tessellation& tessellation, const Facet& f,
-                                      const Contact& c, ContactNetwork& out) {
-  const auto polygon = tessellation.polygon(f);
-  const std::size_t first = c.point_begin, n = polygon.size();
-  const Vec3d x0 = specimen.centre[f.a] + c.arm_a * c.n;
+/// Sets the coordinates and areas of the points (vertices, then centroid) of a part of the contact's facet, beginning
+/// with the point `first`. Adds the part to the lumped and the exact moments.
+void set_points(const Specimen& specimen, const FacetPart& part, const Contact& c, std::size_t first,
+                ContactNetwork& out, AreaMoments& lumped, AreaMoments& exact) {
+  const std::span<const Vec3d> polygon = part.polygon;
+  const std::size_t n = polygon.size();
+  const Vec3d x0 = specimen.centre[c.a] + c.arm_a * c.n;
   const auto set = [&](std::size_t k, const Vec3d& x) {
     out.point_s[first + k] = dot(x - x0, c.s);
     out.point_t[first + k] = dot(x - x0, c.t);
   };
   for (std::size_t k = 0; k < n; ++k) set(k, polygon[k]);
-  set(n, f.centroid);
+  set(n, part.centroid);
   const double *s = &out.point_s[first], *t = &out.point_t[first];
-  AreaMoments lumped, exact;
   for (std::size_t k = 0; k < n; ++k) {  // triangles begin at the centroid, because x0 may lie outside the polygon
     const std::size_t l = k + 1 < n ? k + 1 : 0;
     const double area = 0.5 * ((s[k] - s[n]) * (t[l] - t[n]) - (s[l] - s[n]) * (t[k] - t[n]));
     for (const std::size_t j : {k, l, n}) out.point_area[first + j] += area / 3;
     add_triangle(area, {s[k], s[l], s[n]}, {t[k], t[l], t[n]}, lumped, exact);
   }
-  return {lumped, exact};
 }
 
 /// Sets the centroid as the contact's only point, with the whole area. Returns its moments.
-AreaMoments set_one_point(const Specimen& specimen, const Facet& f, const Contact& c, ContactNetwork& out) {
-  const Vec3d x = f.centroid - (specimen.centre[f.a] + c.arm_a * c.n);
+AreaMoments set_one_point(const Specimen& specimen, const Vec3d& centroid, const Contact& c, ContactNetwork& out) {
+  const Vec3d x = centroid - (specimen.centre[c.a] + c.arm_a * c.n);
   const double s = dot(x, c.s), t = dot(x, c.t);
   out.point_s[c.point_begin] = s;
   out.point_t[c.point_begin] = t;
-  out.point_area[c.point_begin] = f.area;
-  return {f.area, f.area * s, f.area * t, f.area * s * s, f.area * s * t, f.area * t * t};
+  out.point_area[c.point_begin] = c.area;
+  return {c.area, c.area * s, c.area * t, c.area * s * s, c.area * s * t, c.area * t * t};
+}
+
+/// Returns the centroid of the parts of a facet with the area `area` in total [m²].
+Vec3d centroid_of(std::span<const FacetPart> parts, double area) {
+  if (parts.size() == 1) return parts.front().centroid;
+  Vec3d moment{};
+  for (const FacetPart& part : parts) moment += part.area * part.centroid;
+  return (1 / area) * moment;
 }
 
 /// Builds the lists of the contacts of each particle (compressed rows, ascending).
@@ -191,6 +198,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   }
   const double mean_area = mean_facet_area(specimen, tessellation);
   double dropped = 0, kept = 0;
+  NotchedFacets notched(specimen, tessellation, spec.notches);
   // Returns whether a facet becomes a contact, and counts the facets that `gap_max` or `area_min` excludes.
   const auto wanted = [&](const Facet& f) {
     if (is_free(specimen, f)) return false;
@@ -206,10 +214,13 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   std::vector<std::uint32_t> facet_of, point_begin{0};
   for (std::size_t k = 0; k < tessellation.facets.size(); ++k) {
     const Facet& f = tessellation.facets[k];
+    const auto facet = static_cast<std::uint32_t>(k);
     if (!wanted(f)) continue;
     if (f.b >= 0) kept += f.area;
-    facet_of.push_back(static_cast<std::uint32_t>(k));
-    const std::size_t points = spec.quadrature == Quadrature::one_point ? 1 : f.vertex_end - f.vertex_begin + 1;
+    if (f.b >= 0 && !notched.keep(facet)) continue;
+    facet_of.push_back(facet);
+    const auto [vertices, parts] = notched.sizes(facet);
+    const std::size_t points = spec.quadrature == Quadrature::one_point ? 1 : vertices + parts;
     point_begin.push_back(counted<std::uint32_t>(point_begin.back() + points, "contact points"));
   }
   out.contacts.resize(facet_of.size());
@@ -222,13 +233,23 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   const auto sums = sum_in_parallel<Sums>(facet_of.size(), [&](std::size_t k) -> Sums {
     const Facet& f = tessellation.facets[facet_of[k]];
     Contact& c = out.contacts[k];
-    c = geometry(specimen, f);
+    const FacetPart whole{f.area, f.centroid, tessellation.polygon(f)};
+    const std::vector<FacetPart> shortened = notched.parts(facet_of[k]);
+    const std::span<const FacetPart> parts = shortened.empty() ? std::span(&whole, 1) : std::span(shortened);
+    double area = 0;
+    for (const FacetPart& part : parts) area += part.area;
+    c = geometry(specimen, f, area);
     c.point_begin = point_begin[k], c.point_end = point_begin[k + 1];
     if (spec.quadrature == Quadrature::one_point) {
-      c.moments = set_one_point(specimen, f, c, out);
+      c.moments = set_one_point(specimen, centroid_of(parts, area), c, out);
       return {};
     }
-    const auto [lumped, exact] = set_points(specimen, tessellation, f, c, out);
+    AreaMoments lumped, exact;
+    std::size_t first = c.point_begin;
+    for (const FacetPart& part : parts) {
+      set_points(specimen, part, c, first, out, lumped, exact);
+      first += part.polygon.size() + 1;
+    }
     c.moments = spec.quadrature == Quadrature::exact ? exact : lumped;
     return {std::abs(lumped.ss + lumped.tt - exact.ss - exact.tt), exact.ss + exact.tt};
   });
@@ -239,6 +260,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
                      fmt::format("none left of {} facets ({} dropped by gap_max, {} by area_min)",
                                  tessellation.facets.size(), out.dropped_gap, out.dropped_area),
                      "at least one");
+  notched.finish(out);
   if (sums.total > 0) out.second_moment_difference = sums.difference / sums.total;
   counted<std::uint32_t>(2 * out.contacts.size(), "ends of contacts");
   build_rows(specimen.size(), out);

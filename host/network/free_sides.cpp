@@ -7,11 +7,11 @@
 namespace macadam {
 
 FreeSides::FreeSides(const Specimen& specimen, const Tessellation& cells) : box_(specimen.box) {
-  const bool is_box = box_.is_box();
+  const bool is_box = box_.is_box(), is_column = box_.has_uniform_section();
   std::vector<const Facet*> facets;
   for (const Facet& f : cells.facets) {
     if (f.a >= static_cast<std::int32_t>(specimen.size())) continue;  // the cell of a void
-    if (is_box ? f.b <= wall_x_lo && f.b >= wall_y_hi : f.b == wall_x_lo) facets.push_back(&f);
+    if (is_box ? f.b <= wall_x_lo && f.b >= wall_y_hi : is_column && f.b == wall_x_lo) facets.push_back(&f);
   }
   for (const Facet* f : facets) particles_.push_back(f->a);
   std::ranges::sort(particles_);

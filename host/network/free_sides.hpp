@@ -15,7 +15,8 @@ namespace macadam {
 /// The free facets at the sides of a specimen. The lateral strain is a linear function of the motion of the particles
 /// that have such facets. It is the mean of two lateral strains; a lateral strain is the change of the mean distance of
 /// two opposite sides over their distance, and the mean is over the area of the facets. With curved sides it is half
-/// the integral of the outward displacement over the sides, divided by the volume.
+/// the integral of the outward displacement over the sides, divided by the volume. A domain without a uniform section
+/// has no lateral strain.
 class FreeSides {
  public:
   FreeSides(const Specimen& specimen, const Tessellation& cells);

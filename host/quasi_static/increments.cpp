@@ -229,7 +229,7 @@ void Increments::fail(const IncrementReport& found) const {
           ? ", which method = \"explicit\" in [solver] can follow"
           : fmt::format("; its temperature is {:.4g} degrees C", options_.temperature.at(network_.time())));
   const double strain = network_.wall_displacement()[driven].z / options_.height;
-  throw NoEquilibrium(text, {network_.time(), strain, past_.back().value});
+  throw NoEquilibrium(text, {network_.time(), strain, -network_.wall_force()[driven].z / options_.area});
 }
 
 std::vector<StateArray> Increments::state() const {

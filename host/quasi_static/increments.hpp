@@ -53,7 +53,7 @@ struct CourseReport {
 class NoEquilibrium : public RunError {
  public:
   NoEquilibrium(const std::string& message, const CourseReport::Unstable& last) : RunError(message), last(last) {}
-  CourseReport::Unstable last;  ///< `stress_pa` is the strain if the drive is a force
+  CourseReport::Unstable last;
 };
 
 class Increments {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// motion_guess.cpp  Extrapolates motions over the measures of increments.
+// motion_guess.cpp  Extrapolates the motions of the last two increments.
 #include "host/quasi_static/motion_guess.hpp"
 
 #include <algorithm>
@@ -10,15 +10,16 @@ namespace macadam::quasi_static {
 namespace {
 
 constexpr std::size_t top_wall = wall_index(wall_z_hi);
-/// An increment this many times the last one is not guessed from it.
+/// If the wall moves by more than this many times its last displacement, the motion is not guessed.
 constexpr double most_growth = 10;
 
-/// Factors of the last motion and of the one before it.
+/// The guess is last·(motion of the last increment) + before·(motion of the increment before).
 struct Factors {
   double last = 0, before = 0;
 };
 
-/// Returns the factor by which the motion of `past` is multiplied if the motion per measure stays; 0: no guess.
+/// Returns the ratio of the next increment to `past`, by the quantity that the motion is in proportion to; 0: the
+/// motion cannot be guessed from `past`.
 double factor_of(const MotionGuess::Past& past, const WallIncrement& next) {
   if (past.dt == 0) return 0;
   if (next.opening) return past.opening > 0 ? std::clamp(*next.opening / past.opening, 0.0, 2.0) : 0;
@@ -28,10 +29,11 @@ double factor_of(const MotionGuess::Past& past, const WallIncrement& next) {
   return factor > 0 && factor < most_growth ? factor : 0;
 }
 
-/// Returns the factors of a motion per measure that continues its change. Motions per measure are those of the middles
-/// of the increments.
+/// Returns the factors of a guess that continues the change of the motion. `last`, `before`: ratios of the next
+/// increment to the last two ones. The motion divided by the length of an increment is the rate in its middle; the rate
+/// of the next increment follows by a straight line through the other two.
 Factors changing(double last, double before) {
-  // Measures, in units of that of the next increment: 1/last and 1/before
+  // lengths of the last two increments; the next one has length 1
   const double a1 = 1 / last, a2 = 1 / before, change = (1 + a1) / (a1 + a2);
   return {last * (1 + change), -before * change};
 }

@@ -8,16 +8,18 @@
 
 namespace macadam::quasi_static {
 
-/// Guesses how the particles move in the next increment. An increment has a measure: the displacement of the top wall,
-/// its duration if the load is given, or the opening of cracks. The motion per measure is that of the last increment,
-/// or it continues the change between the last two increments if this would have guessed the last increment better.
+/// Guesses how the particles move in the next increment: as in the last one, in proportion to the displacement of the
+/// top wall. Under a given load the motion is in proportion to the duration, and in a test that the opening of cracks
+/// controls, in proportion to this opening. If the motion per displacement changed steadily in the last increments, the
+/// guess continues this change.
 class MotionGuess {
  public:
-  /// An increment: its duration [s], 0 if there was none, the displacement of the top wall [m], the opening of cracks
-  /// (QuasiStatic::last_opening()) [m], and the motion of the particles [6·particles].
+  /// An accepted increment.
   struct Past {
-    double dt = 0, wall = 0, opening = 0;
-    Vector motion;
+    double dt = 0;       ///< duration [s]; 0: there was no increment yet
+    double wall = 0;     ///< displacement of the top wall [m]
+    double opening = 0;  ///< of cracks, see QuasiStatic::last_opening() [m]
+    Vector motion;       ///< of the particles [6·particles]
   };
 
   explicit MotionGuess(std::size_t particles);
@@ -34,7 +36,7 @@ class MotionGuess {
 
  private:
   Past last_, before_;
-  bool continues_change_ = false;
+  bool continues_change_ = false;  ///< whether this would have guessed the last increment better
 };
 
 }  // namespace macadam::quasi_static

@@ -8,7 +8,6 @@
 #include <string>
 
 namespace macadam::quasi_static {
-
 namespace {
 
 /// Systems that are solved by iterations have the symmetric part of the tangent. If a correction leaves more than this
@@ -115,7 +114,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
       if (found < 0.7 * now) break;
     }
     if (best_length != length && std::isfinite(best)) best = move(best_length);
-    friction_matters_ = friction_matters_ || best > slow * now;
+    friction_matters_ = friction_matters_ || (out.passes > 1 && best > slow * now);
     stuck = best < 0.95 * now ? 0 : stuck + 1;
     now = best;
   }

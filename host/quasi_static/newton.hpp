@@ -24,6 +24,12 @@ class Newton {
 
   Engine& engine() { return *engine_; }
   const Engine& engine() const { return *engine_; }
+  /// Whether a correction with a symmetric tangent was slow, so that later corrections use the whole tangent. It is
+  /// part of the state of a test.
+  /// @{
+  bool friction_matters() const { return friction_matters_; }
+  void set_friction_matters(bool matters) { friction_matters_ = matters; }
+  /// @}
 
  private:
   /// Prepares the solver with the present tangent and solves for the correction and, if the motion of the top wall is

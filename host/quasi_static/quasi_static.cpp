@@ -229,8 +229,9 @@ std::vector<StateArray> QuasiStatic::state() const {
   const QuasiStaticEnergies& e = p.energies;
   numbers.insert(numbers.end(),
                  {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j, e.thermal_j});
+  numbers.push_back(p.newton.friction_matters() ? 1.0 : 0.0);
   quasi_static::EngineState own = p.newton.engine().state();
-  return {{"quasi_static", "s, 1, m, 1, s, m, m, s, m, m, m, N, J", std::move(numbers)},
+  return {{"quasi_static", "s, 1, m, 1, s, m, m, s, m, m, m, N, J, 1", std::move(numbers)},
           {"displacement", "m, 1", std::move(own.displacement)},
           {"motion", "m, 1", last.motion},
           {"motion_before", "m, 1", before.motion},
@@ -268,6 +269,7 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
   e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5],
   e.thermal_j = numbers[at + 6];
+  p.newton.set_friction_matters(numbers[at + 7] != 0);
   const auto& grew = std::get<std::vector<std::int64_t>>(found[5]->values);
   p.engine().set_state({doubles(1), doubles(4), {grew.begin(), grew.end()}});
   p.solved = false;

@@ -28,6 +28,13 @@ void add(Row& to, const Row& from, Complex factor) {
   for (const auto& [k, x] : from) to[k] += factor * x;
 }
 
+/// A facet that is not a contact, or the part of a facet that a notch removed from its contact.
+struct FreeFacet {
+  const Facet* facet;
+  std::int32_t particle;  ///< on one of its sides
+  double area;            ///< [m²]
+};
+
 class Assembly {
  public:
   Assembly(const Specimen& specimen, const ContactNetwork& network, const PhaseModuli& mastic, const PhaseModuli& rock)
@@ -38,18 +45,20 @@ class Assembly {
     std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> contact_of;
     for (std::size_t c = 0; c < network_.contacts.size(); ++c)
       contact_of[{network_.contacts[c].a, network_.contacts[c].b}] = c;
-    std::vector<std::pair<const Facet*, std::int32_t>> free;  // a facet and the particle on one of its sides
+    std::vector<FreeFacet> free;
     for (const Facet& f : tessellation.facets) {
-      if (contact_of.contains({f.a, f.b})) continue;
-      if (f.a < particles) free.emplace_back(&f, f.a);
-      if (f.b >= 0 && f.b < particles) free.emplace_back(&f, f.b);
+      const auto contact = contact_of.find({f.a, f.b});
+      double area = f.area;
+      if (contact != contact_of.end()) area -= network_.contacts[contact->second].area;
+      if (area <= 1e-12 * f.area) continue;
+      if (f.a < particles) free.push_back({&f, f.a, area});
+      if (f.b >= 0 && f.b < particles) free.push_back({&f, f.b, area});
     }
     VolumetricMatrix out;
     out.particles = specimen_.size(), out.free_facets = free.size();
     top_ = static_cast<Eigen::Index>(6 * out.particles + out.free_facets);
     for (std::size_t c = 0; c < network_.contacts.size(); ++c) add_contact(network_.contacts[c], in_rock[c]);
-    for (std::size_t k = 0; k < free.size(); ++k)
-      add_free(*free[k].first, free[k].second, static_cast<Eigen::Index>(6 * out.particles + k));
+    for (std::size_t k = 0; k < free.size(); ++k) add_free(free[k], static_cast<Eigen::Index>(6 * out.particles + k));
     for (std::size_t i = 0; i < out.particles; ++i) {
       const double volume = tessellation.cell_volume[i];  // dilatation_ holds V·θ
       square(dilatation_[i], lambda(phase(static_cast<std::int32_t>(i))) / volume);
@@ -132,12 +141,14 @@ class Assembly {
   }
 
   /// Adds a free facet of a particle, whose opening is the unknown `number`.
-  void add_free(const Facet& f, std::int32_t particle, Eigen::Index number) {
+  void add_free(const FreeFacet& free, Eigen::Index number) {
+    const Facet& f = *free.facet;
+    const std::int32_t particle = free.particle;
     const Vector3d out = (f.a == particle ? 1 : -1) * to_eigen(f.normal);
     const double h = out.dot(to_eigen(f.centroid - specimen_.centre[static_cast<std::size_t>(particle)]));
     // a facet that lies beyond the centre keeps its opening at zero
-    if (h > 0) dilatation_[static_cast<std::size_t>(particle)][number] += f.area;
-    square({{number, 1.0}}, two_mu(phase(particle)) * f.area / std::abs(h));
+    if (h > 0) dilatation_[static_cast<std::size_t>(particle)][number] += free.area;
+    square({{number, 1.0}}, two_mu(phase(particle)) * free.area / std::abs(h));
   }
 
   const Specimen& specimen_;

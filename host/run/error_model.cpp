@@ -129,15 +129,18 @@ double single_precision_error(const RoundingScale& s) {
 std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured) {
   // the comparisons below are written so that a NaN counts as beyond the range
   const RoundingScale& up_to = measured.up_to;
-  if (!(scale.steps <= up_to.steps)) return fmt::format("{} steps (only up to {})", scale.steps, up_to.steps);
+  if (!(scale.steps <= up_to.steps))
+    return fmt::format("{} steps (errors were measured up to {})", scale.steps, up_to.steps);
   if (!(scale.layers <= up_to.layers)) {
-    return fmt::format("{:.0f} layers of particles (only up to {:.0f})", scale.layers, up_to.layers);
+    return fmt::format("{:.0f} layers of particles (errors were measured up to {:.0f})", scale.layers, up_to.layers);
   }
   if (!(scale.contrast <= up_to.contrast)) {
-    return fmt::format("stiffnesses with a ratio of {:.0e} (only up to {:.0e})", scale.contrast, up_to.contrast);
+    return fmt::format("stiffnesses with a ratio of {:.0e} (errors were measured up to {:.0e})", scale.contrast,
+                       up_to.contrast);
   }
   if (!(scale.inertia <= up_to.inertia)) {
-    return fmt::format("inertia of about {:.2g} of |E*| (only up to {:.2g})", scale.inertia, up_to.inertia);
+    return fmt::format("inertia of about {:.2g} of |E*| (errors were measured up to {:.2g})", scale.inertia,
+                       up_to.inertia);
   }
   return {};
 }

@@ -136,7 +136,7 @@ std::vector<Part> specimen_by_mass() {
 
 std::vector<Part> specimen_of(NewKind kind) {
   if (kind == NewKind::recipe) return specimen_by_mass();
-  if (kind != NewKind::file) return specimen_by_volume(kind == NewKind::shapes);
+  if (kind != NewKind::file && kind != NewKind::packing) return specimen_by_volume(kind == NewKind::shapes);
   return {{"[specimen]",
            {{"file", R"("specimen.csv")"}, {"box", R"(["20 mm", "20 mm", "30 mm"])"}},
            "macadam specimen writes such files.",
@@ -238,6 +238,19 @@ Part loading_of(const std::string& test, bool cracks) {
   return out;
 }
 
+/// Returns whether a section is about aggregates.
+bool is_of_aggregates(const Part& part) {
+  const auto is_pair = [](const Given& given) {
+    return given.key == "pair" && given.value != R"("M-M")" && given.value != R"("M-W")";
+  };
+  return part.title == "[materials.aggregate]" || std::any_of(part.given.begin(), part.given.end(), is_pair);
+}
+
+constexpr const char* about_gaps =
+    "Every facet between two cells is a contact, also across a gap between their spheres. gap_max = 0.1 keeps the "
+    "contacts "
+    "whose gap is at most 0.1 of the mean of the two radii, gap_max = 0.001 those of spheres that touch or overlap.";
+
 }  // namespace
 
 std::vector<std::string> tests_of_new_scenes() {
@@ -269,7 +282,8 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
   if (!of_phases) append(contacts_of(kind, cracks));
   append({{"[network]",
-           of_phases ? std::vector<Given>{{"rule", std::string("\"") + to_string(rule) + '"'}} : std::vector<Given>{}},
+           of_phases ? std::vector<Given>{{"rule", std::string("\"") + to_string(rule) + '"'}} : std::vector<Given>{},
+           kind == NewKind::packing ? about_gaps : ""},
           loading_of(test, cracks),
           {"[solver]",
            cracks ? std::vector<Given>{{"method", R"("explicit")"}, {"density_scaling", "10"}}
@@ -279,6 +293,7 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
            {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",
             "precision"}},
           {"[output]", {}, "", true, {"every", "format"}}});
+  if (kind == NewKind::packing) std::erase_if(parts, is_of_aggregates);
   std::string out =
       "# A scene of Macadam. Numbers are in SI units, or text with a unit, such as \"12.5 mm\". docs/scene.md explains "
       "scenes,\n"

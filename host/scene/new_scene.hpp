@@ -16,7 +16,8 @@ enum class NewKind : std::uint8_t {
   recipe,   ///< a mix design by mass
   spheres,  ///< classes by volume; an aggregate is a sphere
   shapes,   ///< classes by volume; an aggregate is a shape filled with spheres
-  file      ///< specimen.csv beside the scene
+  file,     ///< specimen.csv beside the scene
+  packing   ///< specimen.csv of one material, the mastic
 };
 
 /// Returns the experiments that a new scene may have.

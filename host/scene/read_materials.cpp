@@ -54,10 +54,9 @@ void require_rule(const Section& section, ContactRule rule) {
   if (has_laws_of_phases(rule)) return;
   for (const char* key : {"law", "from", "E", "poisson_ratio"}) {
     if (section.has(key))
-      section.refuse(
-          key, "this key with rule = \"centres\" in [network]",
-          "rule = \"series\" or \"volumetric\" in [network], or no law of a phase, because with \"centres\" each "
-          "pair has its own law in [[contacts]]");
+      section.refuse(key, "this key with rule = \"centres\" in [network]",
+                     "this key only with rule = \"series\" or \"volumetric\", because with \"centres\" each pair has "
+                     "its own law in [[contacts]]");
   }
 }
 

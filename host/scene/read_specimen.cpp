@@ -3,6 +3,8 @@
 /// could make are refused here.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -15,11 +17,6 @@
 namespace macadam::scene {
 namespace {
 
-/// Returns the name of the smallest dimension of a domain for messages.
-const char* smallest_dimension(const Domain& domain) {
-  return domain.is_box() ? "the smallest edge of the box" : "the smaller of diameter and height";
-}
-
 /// Refuses a section that has both keys, or neither.
 void require_one_of(const Section& section, const std::string& a, const std::string& b) {
   const bool both = section.has(a) && section.has(b);
@@ -30,10 +27,9 @@ void require_one_of(const Section& section, const std::string& a, const std::str
 
 /// Refuses a diameter [m] that is not smaller than every dimension of the domain.
 void require_fit_in_box(const Section& section, const std::string& key, double diameter, const Domain& box) {
-  const double edge = std::min({box.size.x, box.size.y, box.size.z});
+  const auto [edge, words] = box.smallest_dimension();
   if (diameter >= edge) {
-    section.refuse(key, fmt::format("diameters up to {} m", diameter),
-                   fmt::format("less than {}, {} m", smallest_dimension(box), edge));
+    section.refuse(key, fmt::format("diameters up to {} m", diameter), fmt::format("less than {}, {} m", words, edge));
   }
 }
 
@@ -157,12 +153,12 @@ void follow_recipe(const Section& section, const MixDesign& recipe, SpecimenSpec
   if (!spec.mastic)
     section.refuse("recipe", "[specimen.recipe] without [specimen.mastic]", "[specimen.mastic] with its radius");
   follow(recipe, spec);
-  const double edge = std::min({spec.box.size.x, spec.box.size.y, spec.box.size.z});
+  const auto [edge, words] = spec.box.smallest_dimension();
   for (const AggregateClass& c : spec.aggregate) {
     if (c.sieve_max >= edge)
       throw InputError(spec.source, c.line, "[specimen.recipe] gradation",
                        fmt::format("aggregate of {:.6g} to {:.6g} mm", 1e3 * c.sieve_min, 1e3 * c.sieve_max),
-                       fmt::format("sizes below {}, {:.6g} mm", smallest_dimension(spec.box), 1e3 * edge));
+                       fmt::format("sizes below {}, {:.6g} mm", words, 1e3 * edge));
   }
 }
 
@@ -179,7 +175,7 @@ Reader range_into(double& low, double& high) {
 }
 
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
-                           std::optional<MixDesign>& recipe) {
+                           std::optional<MixDesign>& recipe, std::vector<Notch>& notches) {
   SpecimenSpec spec;
   spec.source = section.file(), spec.line = section.line();
   const auto existing = [&](const Value& value, const char* what) {
@@ -200,8 +196,8 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
   const auto read_the_mastic = [&](const Value& v) {
     spec.mastic = read_mastic(v.section(), spec.box, section.has("recipe"));
   };
-  double diameter = 0, height = 0;
-  std::vector<Key> keys = keys_of_domain(section, diameter, height, spec.box);
+  std::map<std::string, double> dimensions;
+  std::vector<Key> keys = keys_of_domain(section, dimensions, spec.box);
   const std::vector<Key> others{
       {"file",
        Need::optional,
@@ -237,7 +233,11 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
        "none"},
       {"voids", Need::optional,
        section_by([&](const Value& v) { spec.voids = read_voids(v.section(), spec.box, section.has("recipe")); }),
-       "air voids with cells of their own", "none"}};
+       "air voids with cells of their own", "none"},
+      {"notch", Need::optional, sections_by([&](const Value& v) {
+         for (const Section& entry : v.sections()) notches.push_back(read_notch(entry, spec.box));
+       }),
+       "a thin cut that no contact crosses", "none"}};
   keys.insert(keys.end(), others.begin(), others.end());
   section.read(keys);
   if (spec.file) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "host/scene/known_keys.hpp"
+#include "host/scene/scene_changes.hpp"
 #include "host/scene/sections.hpp"
 #include "macadam/error.hpp"
 
@@ -115,8 +116,9 @@ void check_together(const Scene& scene, const Section& root) {
                                            "\"lumped\", or form = \"condensed\"");
   }
   if (scene.network.lateral_walls && !scene.specimen.box.is_box()) {
-    root.find("network")->section().refuse("lateral_walls", "true with domain = \"cylinder\" in [specimen]",
-                                           "false, because the curved side of a cylinder is free");
+    root.find("network")->section().refuse(
+        "lateral_walls", std::string("true with domain = \"") + scene.specimen.box.name() + "\" in [specimen]",
+        "false, because only the sides of a box can be held");
   }
   if (scene.output.fields.any() && !has_fields(scene)) {
     root.find("output")->section().refuse("fields", "this key with a test that has no motion of particles to show",
@@ -199,7 +201,9 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
   Scene out;
   out.file = reading.file;
   const std::filesystem::path folder = reading.file.parent_path();
-  const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
+  const auto read_the_specimen = [&](const Value& v) {
+    out.specimen = read_specimen(v.section(), folder, out.recipe, out.network.notches);
+  };
   std::optional<SolverSpec> solver;
   PhaseLaws phases;
   TemperatureTables tables;
@@ -269,6 +273,16 @@ Scene read_scene(const std::filesystem::path& file, const std::string& text, boo
   const toml::table table = scene::parse_toml(text, file, "scene");
   if (lines) return scene::read_tables({file}, text, table);
   return scene::read_tables({file}, text, scene::without_lines(table));
+}
+
+Scene read_changed_scene(const std::filesystem::path& file, const std::vector<std::string>& changes) {
+  if (changes.empty()) return read_scene(file);
+  std::string text;
+  toml::table table = scene::read_toml(file, "scene", text);
+  scene::ChangedScene changed = scene::with_changes(std::move(table), std::move(text), changes);
+  Scene out = scene::read_tables({file}, std::move(changed.text), changed.table);
+  out.changes = changes;
+  return out;
 }
 
 std::string read_scene_text(const std::filesystem::path& file) {

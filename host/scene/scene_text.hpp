@@ -29,8 +29,6 @@ class SceneText {
   const std::string& text() const { return text_; }
 
  private:
-  void replace(std::size_t begin, std::size_t end, const std::string& by) { text_.replace(begin, end - begin, by); }
-
   std::string text_;
 };
 

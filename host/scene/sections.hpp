@@ -3,6 +3,10 @@
 /// its own.
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "host/scene/table.hpp"
 #include "host/scene/temperature_tables.hpp"
 #include "macadam/scene.hpp"
@@ -16,14 +20,18 @@ toml::table read_toml(const std::filesystem::path& file, const std::string& what
 toml::table parse_toml(const std::string& text, const std::filesystem::path& file, const std::string& what);
 
 /// Reads `[specimen]`: a file, or the values for the generator. Mixtures that cannot be made are refused. `recipe`
-/// receives the mix design, if there is one. Relative paths start from `folder`. \throws InputError
+/// receives the mix design, if there is one, and `notches` the notches. Relative paths start from `folder`. \throws
+/// InputError
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
-                           std::optional<MixDesign>& recipe);
+                           std::optional<MixDesign>& recipe, std::vector<Notch>& notches);
 
-/// Returns the keys of `[specimen]` that give the domain, to be read before all keys that depend on it. `diameter` and
-/// `height` keep the dimensions of a cylinder while the keys are read. \throws InputError for an unknown kind of
-/// domain, or for dimensions of another kind
-std::vector<Key> keys_of_domain(const Section& section, double& diameter, double& height, Domain& domain);
+/// Reads one `[[specimen.notch]]`. \throws InputError
+Notch read_notch(const Section& section, const Domain& domain);
+
+/// Returns the keys of `[specimen]` that give the domain, to be read before all keys that depend on it. `dimensions`
+/// keeps the dimensions [m], by key, while the keys are read. \throws InputError for an unknown kind of domain, or for
+/// dimensions of another kind
+std::vector<Key> keys_of_domain(const Section& section, std::map<std::string, double>& dimensions, Domain& domain);
 
 /// Reads `[specimen.recipe]`.
 /// \throws InputError

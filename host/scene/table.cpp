@@ -10,12 +10,25 @@
 #include "host/base/in_quotes.hpp"
 #include "host/base/nearest.hpp"
 #include "host/scene/known_keys.hpp"
+#include "host/scene/scene_changes.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::scene {
 namespace {
 
 int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
+
+/// File and line of a value for messages; line 0 if no line applies.
+struct Place {
+  std::string file;
+  int line;
+};
+
+/// Returns where a value was written: in the scene's file or in an option that set it.
+Place place_of(const toml::source_region& region, const std::string& file) {
+  if (region.path && region.path->starts_with(set_option)) return {*region.path, 0};
+  return {file, line_of(region)};
+}
 
 std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
@@ -65,7 +78,8 @@ std::vector<Value> Value::entries(const std::string& expected) const {
   std::vector<Value> out;
   for (const toml::node& node : array(expected)) {
     const std::string entry = fmt::format("{}, entry {}", name_, out.size() + 1);
-    out.emplace_back(file_, line_of(node.source()), entry, path_, node);
+    const auto [file, line] = place_of(node.source(), file_);
+    out.emplace_back(file, line, entry, path_, node);
   }
   return out;
 }
@@ -133,9 +147,10 @@ std::vector<Section> Value::sections() const {
   if (collector_) return {Section(file_, line_, "[[" + path_ + "]]", path_, *node_->as_table(), collector_)};
   for (const toml::node& node : array(expected)) {
     const auto* table = node.as_table();
-    const Value entry(file_, line_of(node.source()), name_, path_, node);
+    const auto [file, line] = place_of(node.source(), file_);
+    const Value entry(file, line, name_, path_, node);
     if (!table) entry.refuse(entry.shown(), expected);
-    out.emplace_back(file_, line_of(node.source()), "[[" + path_ + "]]", path_, *table);
+    out.emplace_back(file, line, "[[" + path_ + "]]", path_, *table);
   }
   if (out.empty()) refuse("none", expected);
   return out;
@@ -150,7 +165,8 @@ std::optional<Value> Section::find(const std::string& key) const {
   if (collector_) return Value(file_, 0, name(key), path_of_key(), *table_, collector_);
   const auto found = table_->find(key);
   if (found == table_->end()) return {};
-  return Value(file_, line_of(found->first.source()), name(key), path_of_key(), found->second);
+  const auto [file, line] = place_of(found->first.source(), file_);
+  return Value(file, line, name(key), path_of_key(), found->second);
 }
 
 void Section::refuse(const std::string& key, const std::string& found, const std::string& expected) const {

@@ -13,6 +13,7 @@
 #include "host/simulation/refused_combinations.hpp"
 #include "host/simulation/measured_costs.hpp"
 #include "host/simulation/forecast_parts.hpp"
+#include "host/tessellation/notches.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/thread_limit.hpp"
 
@@ -119,6 +120,7 @@ Forecast forecast(const Scene& scene) {
   out.backend = select_backend(requested_backend(scene), &out.reason, scene.solver.devices);
   out.threads = scene.solver.threads > 0 ? scene.solver.threads : report_backends().threads;
   out.census = count_specimen(scene.specimen);
+  checked_notches(scene.specimen.box, scene.network.notches);
   for (const auto& more : {law_range_warnings(scene), scene.specimen.merged})
     out.census.warnings.insert(out.census.warnings.end(), more.begin(), more.end());
   const double n = static_cast<double>(out.census.particles());

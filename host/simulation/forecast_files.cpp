@@ -8,6 +8,7 @@
 #include "host/experiments/cyclic/step_rules.hpp"
 #include "host/experiments/experiment.hpp"
 #include "host/experiments/transient/transient_experiment.hpp"
+#include "host/files/result_files.hpp"
 #include "host/run/cracks.hpp"
 #include "host/run/damaged_contacts.hpp"
 #include "host/simulation/forecast_parts.hpp"
@@ -54,6 +55,7 @@ class FileForecast {
     if (name == "gradation.csv") return 10 * gradation_line;
     if (name == "contacts.csv")
       return (contact_line + (has_laws_of_phases(scene_.network.rule) ? series_columns : 0)) * f_.contacts;
+    if (name == changed_scene_file) return static_cast<double>(scene_.text.size());
     if (name == cracks_file) return crack_line * broken_points();
     if (name == damage_file) return damage_line * damaged_contacts();
     if (name == "response.csv") {

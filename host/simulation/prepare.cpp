@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // prepare.cpp  Makes specimen, tessellation and contact network of a scene, in this order.
+#include <algorithm>
 #include <span>
 #include <system_error>
 #include <unordered_map>
@@ -7,9 +8,11 @@
 #include "host/fields/field_output.hpp"
 #include "host/network/clusters.hpp"
 #include "host/network/cell_volumes.hpp"
+#include "host/files/particle_files.hpp"
 #include "host/files/result_files.hpp"
 #include "host/files/result_folder.hpp"
 #include "host/base/seconds_of.hpp"
+#include "host/scene/scene_text.hpp"
 #include "host/simulation/preparation_files.hpp"
 #include "host/simulation/run_scene.hpp"
 #include "host/simulation/summary.hpp"
@@ -93,6 +96,21 @@ void apply_rule(const Scene& scene, const std::vector<Surface>& surfaces, Prepar
   out.rock = report;
 }
 
+/// Counts the clusters that join bottom and top wall, and the particles outside them. In a domain without these two
+/// walls the largest cluster is the specimen.
+void count_clusters(Preparation& out) {
+  const Domain& domain = out.specimen.box;
+  const bool has_platens = domain.wall_area(wall_index(wall_z_lo)) > 0 && domain.wall_area(wall_index(wall_z_hi)) > 0;
+  const std::vector<Cluster> clusters = find_clusters(out.network, out.specimen.size());
+  const auto largest = std::ranges::max_element(clusters, {}, [](const Cluster& c) { return c.particles.size(); });
+  for (auto cluster = clusters.begin(); cluster != clusters.end(); ++cluster) {
+    if (has_platens ? cluster->spans() : cluster == largest)
+      ++out.spanning_clusters;
+    else
+      out.loose_particles += static_cast<std::int64_t>(cluster->particles.size());
+  }
+}
+
 /// Makes the contacts between particles whose cells exist. `surfaces`: templates of the generated aggregates. \throws
 /// InputError if no path of contacts joins bottom and top wall.
 void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, const Progress& progress,
@@ -102,13 +120,7 @@ void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, con
     out.network = build_network(out.specimen, out.tessellation, scene.network);
     require_laws(scene, out.specimen, out.network);
     if (has_laws_of_phases(scene.network.rule)) apply_rule(scene, surfaces, out);
-    for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
-      if (cluster.spans()) {
-        ++out.spanning_clusters;
-      } else {
-        out.loose_particles += static_cast<std::int64_t>(cluster.particles.size());
-      }
-    }
+    count_clusters(out);
   });
   if (out.spanning_clusters == 0) {
     throw InputError(scene.file.string(), 0, "contact network", "no path of contacts from the bottom to the top wall",
@@ -161,6 +173,15 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
   return out;
 }
 
+std::string changed_scene_text(const Scene& scene, const std::filesystem::path& out) {
+  scene::SceneText text(scene.text);
+  if (!scene.specimen.file) text.set_seed(scene.specimen.seed);
+  text.move(scene.file.parent_path(), out);
+  std::string head = "# The scene " + scene.file.string() + " with the values that the command has set:\n";
+  for (const std::string& change : scene.changes) head += "#   --set " + change + "\n";
+  return head + "\n" + text.text();
+}
+
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
                        const std::function<void()>& remove_results) {
   const bool same_specimen = scene.specimen.file && is_in(*scene.specimen.file, out),
@@ -171,6 +192,10 @@ void write_preparation(const Scene& scene, const Preparation& prepared, const st
   if (gradation)
     write_gradation_csv(files.place_of("gradation.csv"), gradation_of(*scene.recipe, prepared.composition));
   if (scene.output.contacts) write_contacts_csv(files.place_of("contacts.csv"), prepared.network);
+  std::error_code ignored;
+  const bool same_scene = std::filesystem::equivalent(scene.file, out / changed_scene_file, ignored);
+  if (!scene.changes.empty() && !same_scene)
+    write_whole(files.place_of(changed_scene_file), changed_scene_text(scene, out));
   RunResult none;
   none.warnings = packing_warnings(prepared.specimen, prepared.tessellation);
   write_whole(files.place_of("summary.json"), summary_json(scene, prepared, none, "prepared"));
@@ -179,6 +204,9 @@ void write_preparation(const Scene& scene, const Preparation& prepared, const st
   if (!aggregates && !same_specimen) remove_older(out / "aggregates.csv");
   if (!gradation && !same_specimen) remove_older(out / "gradation.csv");
   if (!scene.output.contacts) remove_older(out / "contacts.csv");
+  if (scene.changes.empty() && !same_scene) remove_older(out / changed_scene_file);
+  for (const ParticleFormat format : {ParticleFormat::data, ParticleFormat::dump, ParticleFormat::xyz})
+    remove_older(out / particle_file_name(format));
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     const std::string name = entry.path().filename().string();
     if (!same_specimen && name.starts_with("section_") && name.ends_with(".csv")) remove_older(entry.path());

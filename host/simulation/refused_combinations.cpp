@@ -18,19 +18,23 @@ void require_volumetric(const Scene& scene) {
   const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
     throw InputError(scene.file.string(), 0, what, found, expected);
   };
-  if (scene.solver.method == SolverMethod::explicit_)
-    refuse("rule in [network]", "\"volumetric\" with method \"explicit\"",
-           "method \"harmonic\", or rule \"series\", because time steps do not compute the pressures of cells");
-  if (frequencies_of(scene.experiment).empty())
-    refuse("rule in [network]", fmt::format("\"volumetric\" with kind \"{}\"", kind_of(scene.experiment)),
-           "kind \"cyclic\" or \"sweep\", or rule \"series\", because with this rule only responses to cyclic loads "
-           "can be computed");
-  if (scene.solver.method == SolverMethod::quasi_static)
-    refuse("rule in [network]", "\"volumetric\" with method \"quasi_static\"",
-           "method \"harmonic\", or rule \"series\", because increments do not compute the pressures of cells");
+  if (scene.solver.method != SolverMethod::harmonic)
+    refuse("rule in [network]", fmt::format("\"volumetric\" with method \"{}\"", to_string(scene.solver.method)),
+           "method \"harmonic\", or rule \"series\", because time steps and increments do not compute the pressures of "
+           "cells");
   if (scene.solver.backend == Backend::cuda)
     refuse("backend in [solver]", "\"cuda\" with rule \"volumetric\"",
            "\"cpu\", because the solver on GPUs does not compute the pressures of cells");
+}
+
+/// Refuses the tests of a domain that has no two platens with equal sections between them, because stress and strain
+/// of every test are those of such a domain. \throws InputError.
+[[noreturn]] void require_uniform_section(const Scene& scene) {
+  throw InputError(
+      scene.file.string(), 0, "kind in [loading]",
+      fmt::format("\"{}\" with domain = \"{}\" in [specimen]", kind_of(scene.experiment), scene.specimen.box.name()),
+      "a domain with two platens and equal sections between them, such as \"box\", \"cylinder\" or "
+      "\"beam\"; macadam specimen makes specimens of every domain");
 }
 
 }  // namespace
@@ -42,6 +46,7 @@ Backend requested_backend(const Scene& scene) {
 }
 
 void require_combination(const Scene& scene) {
+  if (!scene.specimen.box.has_uniform_section()) require_uniform_section(scene);
   if (scene.network.rule == ContactRule::volumetric) require_volumetric(scene);
   if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
     throw InputError(scene.file.string(), 0, "method",

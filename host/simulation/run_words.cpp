@@ -22,8 +22,10 @@ std::string words_of_air_voids(const Scene& scene) {
   const double porosity = scene.specimen.mastic->porosity.value_or(0);  // fraction of the volume outside the voids
   if (porosity < 1e-9) return {};
   return fmt::format(
-      "air voids: {:.3g} % of the volume outside of voids is space between spheres, which the cells "
-      "fill; it reduces the mass but does not weaken the specimen (a section [specimen.voids] makes voids of it)",
+      "air voids: the recipe's air, {:.3g} % of the volume, is only space between spheres; the cells of the spheres "
+      "cover "
+      "this space, so that the air reduces the mass but does not weaken the specimen (a section [specimen.voids] makes "
+      "voids of it)",
       100 * porosity);
 }
 

@@ -58,15 +58,21 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["warnings"] = result.warnings;
   out["macadam"] = version();
   out["scene"] = scene.file.string();
+  if (!scene.changes.empty()) out["set"] = scene.changes;
   out["particles"] = prepared.specimen.size();
   out["voids"] = prepared.specimen.voids.size();
   const Vec3d& size = prepared.specimen.box.size;
   out["box_m"] = {size.x, size.y, size.z};
-  if (!prepared.specimen.box.is_box()) {
-    out["domain"] = {{"shape", prepared.specimen.box.name()},
-                     {"section_m2", section_area(prepared.specimen)},
-                     {"gauge_length_m", gauge_length(prepared.specimen)},
-                     {"volume_m3", prepared.specimen.box.volume()}};
+  if (const Domain& domain = prepared.specimen.box; domain.name() != std::string(domains::Box::name)) {
+    out["domain"] = {{"shape", domain.name()},
+                     {"section_m2", section_area(domain)},
+                     {"gauge_length_m", gauge_length(domain)},
+                     {"volume_m3", domain.volume()}};
+    const std::vector<domains::Dimension> keys = domain.keys();
+    const std::vector<double> values = domain.values();
+    for (std::size_t k = 0; k < keys.size(); ++k) out["domain"]["dimensions_m"][keys[k].key] = values[k];
+    for (int k = 0; k < wall_count; ++k)
+      if (const double area = domain.wall_area(k); area > 0) out["domain"]["walls_m2"][domain.wall_name(k)] = area;
   }
   for (const PairType pair : {PairType::aa, PairType::ma, PairType::mm, PairType::inner, PairType::aw, PairType::mw}) {
     out["contacts"][to_string(pair)] = prepared.network.count[static_cast<std::size_t>(pair)];
@@ -75,6 +81,14 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["loose_particles"] = prepared.loose_particles;
   out["second_moment_difference"] = prepared.network.second_moment_difference;
   out["dropped"] = {{"gap", prepared.network.dropped_gap}, {"area", prepared.network.dropped_area}};
+  for (const NotchCut& cut : prepared.network.notches) {
+    out["notches"].push_back({{"axis", std::string(1, "xyz"[cut.notch.axis])},
+                              {"at_m", cut.notch.position},
+                              {"removed_contacts", cut.removed},
+                              {"shortened_contacts", cut.shortened},
+                              {"cut_area_m2", cut.cut_area},
+                              {"ligament_m2", cut.ligament}});
+  }
   out["volume_fractions"] = volume_fractions(prepared.specimen, prepared.tessellation);
   if (prepared.rock) {
     const RockReport& rock = *prepared.rock;

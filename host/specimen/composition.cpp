@@ -176,10 +176,10 @@ Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const S
 }
 
 void require_fit(const Origin& origin, const std::string& size_class, double largest, const Domain& box) {
-  const double edge = std::min({box.size.x, box.size.y, box.size.z});
+  const auto [edge, words] = box.smallest_dimension();
   if (largest > edge)
     refuse(origin, "aggregate class " + size_class + ": largest diameter", millimetres(largest) + " mm",
-           "at most the shortest edge of the box, " + millimetres(edge) + " mm");
+           std::string("at most ") + words + ", " + millimetres(edge) + " mm");
 }
 
 Composition compose(const SpecimenSpec& spec) {

@@ -24,15 +24,17 @@ std::vector<double> places(double shortest, double longest) {
   return out;
 }
 
-/// Returns the number by which a difference at time t is divided: E(t), but at least the fraction `nothing` of E(0).
-double scale(const PronySeries& exact, double t) { return std::max(exact.modulus(t), nothing * exact.instantaneous()); }
+/// Returns the number by which a difference at time t is divided: E(t), but at least the fraction `least` of E(0).
+double scale(const PronySeries& exact, double t, double least = nothing) {
+  return std::max(exact.modulus(t), least * exact.instantaneous());
+}
 
 }  // namespace
 
-double difference(const PronySeries& series, const PronySeries& exact, double shortest, double longest) {
+double difference(const PronySeries& series, const PronySeries& exact, double shortest, double longest, double least) {
   double out = std::abs(series.instantaneous() / exact.instantaneous() - 1);
   for (const double t : log_range(shortest, longest, per_decade))
-    out = std::max(out, std::abs(series.modulus(t) - exact.modulus(t)) / scale(exact, t));
+    out = std::max(out, std::abs(series.modulus(t) - exact.modulus(t)) / scale(exact, t, least));
   return out;
 }
 

@@ -3,45 +3,10 @@
 // and, for contacts with rock in series, for each class of a pair type.
 #include "host/spectrum/reduced_spectrum.hpp"
 
-#include <algorithm>
-#include <type_traits>
-
 #include "host/spectrum/decay.hpp"
+#include "host/spectrum/law_in_series.hpp"
 
 namespace macadam::harmonic {
-namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-
-/// Units of a class with a modulus below this fraction of its instantaneous modulus are left out.
-constexpr double no_modulus = 1e-14;
-
-/// Returns the relaxation of a law with a spring of compliance `series` [1/Pa] in series: the stiffness of the law's
-/// own spring is reduced.
-PronySeries relaxation_in_series(Law law, double series) {
-  std::visit(
-      [&]<class L>(L& l) {
-        if constexpr (std::is_base_of_v<laws::GeneralisedKelvin, L>)
-          l.E_m /= 1 + series * l.E_m;
-        else
-          l.E /= 1 + series * l.E;
-      },
-      law);
-  PronySeries out = prony_series(law);
-  const double least = no_modulus * out.instantaneous();
-  std::erase_if(out.units, [&](const PronySeries::Unit& u) { return !(u.modulus > least); });
-  return out;
-}
-
-/// Returns a series whose moduli are multiplied by `factor`.
-PronySeries times(double factor, PronySeries series) {
-  series.long_term *= factor;
-  for (PronySeries::Unit& u : series.units) u.modulus *= factor;
-  return series;
-}
-
-}  // namespace
 
 PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::optional<Law>, pair_types>& laws,
                              double to_modulus) {

@@ -7,40 +7,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "host/harmonic/law_stiffness.hpp"
 #include "host/spectrum/reduced_spectrum.hpp"
+#include "host/spectrum/solution_range.hpp"
+#include "host/spectrum/volumetric_spectrum.hpp"
 #include "macadam/error.hpp"
 #include "macadam/harmonic.hpp"
 
 namespace macadam {
 namespace {
 
+using namespace solution_range;
 using harmonic::ReducedModel;
 using harmonic::Vector;
 using Complex = std::complex<double>;
 
-/// The network is solved at s from about 0.1/longest to 10/shortest, because E(t) depends on E*(s) for s from about
-/// 0.1/t to 10/t.
-constexpr double slower = 10, faster = 10;
-/// The instantaneous response, in which no dashpot moves, is solved at s = at_once/t. Here t is the fastest relaxation
-/// time, or the shortest requested time if this is less.
-constexpr double at_once = 1e8;
-/// The residual tolerance of the solutions is residual_share·√tolerance, because the error of E* is the square of the
-/// error of a solution.
-constexpr double residual_share = 1e-4;
-/// The error estimate contains this fraction of the tolerance, as an allowance for the residuals of the solutions. For
-/// a specimen of 175 particles the residuals alone caused an error of 0.03 times the tolerance.
-constexpr double of_residuals = 0.1;
 /// The largest error of classes of contacts with rock in series, as a fraction of the tolerance.
 constexpr double of_classes = 0.3;
 /// Smallest tolerance if contacts have rock in series. The classes are then at most some thousand per pair type.
 constexpr double least_with_rock = 1e-7;
-// the network is solved at 9 places (values of s) in the first round, at 17, 33 and 65 in the next rounds
-constexpr int first_places = 9, most_rounds = 4;
-/// Number of frequencies at which the series is compared with solutions that were not used to make it.
-constexpr int checks = 3;
 
 /// Returns the spacing of classes with an error of at most `of_classes` times the tolerance (rock_classes.hpp).
 double class_spacing(double tolerance) { return 4 * std::atanh(std::sqrt(std::min(of_classes * tolerance, 0.01))); }
@@ -61,7 +47,7 @@ class Finder {
 
   Spectrum find() {
     const double low = std::log(1 / (slower * options_.longest)), high = std::log(faster / options_.shortest);
-    join({std::log(at_once / std::min(options_.shortest, fastest_time()))});
+    join({std::log(at_once / std::min(options_.shortest, fastest_time(laws_)))});
     std::vector<double> places;
     for (int i = 0; i < first_places; ++i) {
       places.push_back(high + (low - high) * i / (first_places - 1));
@@ -89,16 +75,6 @@ class Finder {
   }
 
  private:
-  /// Returns the shortest relaxation time of all laws, infinity if no law flows.
-  double fastest_time() const {
-    double out = std::numeric_limits<double>::infinity();
-    for (const auto& law : laws_) {
-      if (!law) continue;
-      for (const PronySeries::Unit& u : prony_series(*law).units) out = std::min(out, u.time);
-    }
-    return out;
-  }
-
   /// Adds a place (a value of ln s) in the middle between every two neighbours, and solves there.
   void halve(std::vector<double>& places) {
     std::vector<double> between;
@@ -142,14 +118,8 @@ class Finder {
   /// Compares the series with solutions that were not used to make it, at frequencies within the range. Returns whether
   /// the largest difference is within the tolerance.
   bool checked() {
-    const double slow = 1 / (2 * std::numbers::pi * options_.longest),
-                 fast = 1 / (2 * std::numbers::pi * options_.shortest);
-    out_.checked = 0;
-    for (int i = 0; i < checks; ++i) {
-      const HarmonicLoad load{slow * std::pow(fast / slow, (i + 0.5) / checks)};
-      const Complex exact = solve(load).parts.modulus();
-      out_.checked = std::max(out_.checked, std::abs(out_.relaxation.stiffness(load.s()) / exact - 1.0));
-    }
+    out_.checked = solution_range::largest_difference(
+        out_.relaxation, options_, [&](const HarmonicLoad& load) { return solve(load).parts.modulus(); });
     return out_.checked <= options_.tolerance;
   }
 
@@ -181,7 +151,8 @@ Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
                      "at least 1e-10, because the solutions are not more accurate");
   }
   const auto has_rock = [](const Contact& c) { return c.series > 0; };
-  if (options.tolerance < least_with_rock && std::any_of(network.contacts.begin(), network.contacts.end(), has_rock)) {
+  if (network.cells.empty() && options.tolerance < least_with_rock &&
+      std::any_of(network.contacts.begin(), network.contacts.end(), has_rock)) {
     throw InputError(
         "spectrum", 0, "tolerance", fmt::format("{:g} for contacts with rock in series", options.tolerance),
         fmt::format("at least {:g}, because these contacts are divided between a limited number of classes",
@@ -190,6 +161,7 @@ Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
   require_stiffness(laws);
   for (const auto& law : laws)
     if (law) prony_series(*law);  // throws before any system is solved if a law has no series
+  if (!network.cells.empty()) return volumetric_spectrum(specimen, network, laws, options);
   return Finder(specimen, network, laws, options).find();
 }
 

@@ -3,7 +3,6 @@
 #include "macadam/specimen.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -38,10 +37,7 @@ Specimen with_voids_as_cells(const Specimen& specimen) {
   return out;
 }
 
-std::string shown(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
+std::string shown(double value) { return domains::shortest_text(value); }
 
 namespace {
 
@@ -75,8 +71,7 @@ std::optional<SpecimenFault> fault_of_sphere(const Specimen& s, std::size_t i, b
   if (!(c.x >= 0 && c.x <= l.x && c.y >= 0 && c.y <= l.y && c.z >= 0 && c.z <= l.z))
     return fault("centre", point(c), "a point in the box from (0, 0, 0) to " + point(l));
   if (!s.box.contains(c))
-    return fault("centre", point(c),
-                 "a point in the " + s.box.dimensions() + ", whose axis is x = y = " + shown(0.5 * l.x) + " m");
+    return fault("centre", point(c), "a point in the " + s.box.dimensions() + ", " + s.box.position());
   if (!(std::isfinite(s.radius[i]) && s.radius[i] > 0))
     return fault("radius", shown(s.radius[i]), "a finite positive number");
   if (is_void) return std::nullopt;

@@ -71,7 +71,7 @@ class FacetMaker {
       if (walls_.is_flat(k))
         wall_facet(a, k);
       else
-        side_facets(a, begin, end);
+        side_facets(a, k, begin, end);
     }
     for (const Neighbour& b : neighbours_)
       if (b.particle > a) particle_facet(a, b);
@@ -125,12 +125,9 @@ class FacetMaker {
   /// Makes the facet between two particles, clipped by the walls that it crosses.
   void particle_facet(std::int32_t a, const Neighbour& b) {
     const unsigned walls = circulate(a, b);
+    if (walls & walls_.side_walls()) walls_.clip_by_sides(rounding_, polygon_, scratch_, [](const Vec3d&) {});
     for (int k = 0; k < wall_count; ++k) {
-      if (!(walls >> k & 1)) continue;
-      if (!walls_.is_flat(k)) {
-        walls_.clip_by_sides(rounding_, polygon_, scratch_, [](const Vec3d&) {});
-        continue;
-      }
+      if (!(walls >> k & 1) || !walls_.is_flat(k)) continue;
       const WallPlane wall(k, walls_.size());
       clip(
           polygon_, scratch_, rounding_, [&](const Vec3d& p) { return wall.height(p); },
@@ -148,15 +145,17 @@ class FacetMaker {
     facet_on_wall(a, -1 - k, wall.normal(), [&](Vec3d& p) { p.*wall.coordinate = wall.position; });
   }
 
-  /// Makes the facets of a particle on the planes of the curved sides. `begin` … `end` are the tetrahedra that contain
-  /// the particle. The cell reaches a plane only if one of their dual points lies beyond the plane.
-  void side_facets(std::int32_t a, const std::int32_t* begin, const std::int32_t* end) {
-    for (std::size_t j = 0; j < walls_.sides().size(); ++j) {
-      const domains::Plane& side = walls_.sides()[j];
+  /// Makes the facets of a particle on the planes of the sides that belong to wall k. `begin` … `end` are the
+  /// tetrahedra that contain the particle. The cell reaches a plane only if one of their dual points lies beyond the
+  /// plane.
+  void side_facets(std::int32_t a, int k, const std::int32_t* begin, const std::int32_t* end) {
+    for (const std::size_t j : walls_.sides()) {
+      const domains::SidePlane& side = walls_.side(j);
+      if (side.wall != k) continue;
       if (std::none_of(begin, end, [&](std::int32_t t) { return side.height(diagram_.dual[t]) >= -rounding_; }))
         continue;
       walls_.whole_side(j, polygon_);
-      facet_on_wall(a, wall_x_lo, side.normal, [](const Vec3d&) {});
+      facet_on_wall(a, -1 - k, side.normal, [](const Vec3d&) {});
     }
   }
 
@@ -207,8 +206,8 @@ class FacetMaker {
   std::vector<Neighbour> neighbours_;
 };
 
-/// Returns, for each dual point, the walls (as bits 0…5) that the point touches or lies beyond, up to rounding. Bit 0
-/// is also set for points near the curved sides.
+/// Returns, for each dual point, the walls (as bits 0…5) that the point touches or lies beyond, up to rounding. The
+/// bits of all walls that are sides of a prism are set for points near one of them.
 std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const DomainWalls& walls) {
   const double rounding = rounding_bound(walls.size());
   std::vector<std::uint8_t> beyond(diagram.dual.size(), 0);
@@ -216,7 +215,7 @@ std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Domain
   for (std::size_t t = 0; t < beyond.size(); ++t) {
     for (int k = 0; k < wall_count; ++k)
       if (walls.is_flat(k) && WallPlane(k, walls.size()).height(diagram.dual[t]) >= -rounding) beyond[t] |= 1U << k;
-    if (walls.may_be_beyond_sides(diagram.dual[t])) beyond[t] |= 1U;
+    if (walls.may_be_beyond_sides(diagram.dual[t])) beyond[t] |= walls.side_walls();
   }
   return beyond;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "macadam/laws/facts.hpp"
+#include "macadam/notch.hpp"
 #include "macadam/tessellation.hpp"
 
 namespace macadam {
@@ -57,6 +58,8 @@ struct NetworkSpec : FacetLimits {
   std::optional<VoidCells> void_cells =
       {};  ///< build_network() ignores it; empty: `spheres` for the rule "centres", else `volume`
 
+  std::vector<Notch> notches = {};  ///< no contact crosses a notch
+
   /// Returns `void_cells` or, if it is empty, the choice that belongs to the rule.
   VoidCells cells_of_voids() const {
     return void_cells.value_or(rule == ContactRule::centres ? VoidCells::spheres : VoidCells::volume);
@@ -94,12 +97,14 @@ struct CellStiffness {
   /// cell, and λ' = λ reduced by the free facets of the cell. It depends only on the geometry and on ν.
   double weight = 0;
   PairType law = PairType::mm;  ///< the pair that has the law of the cell's phase: mm or inner
+  double reduction = 1;         ///< λ'/λ: 1 without free facets
 };
 
 /// The contacts of a specimen, in order of (a, b) like the facets of the tessellation.
 struct ContactNetwork {
   std::vector<Contact> contacts;
-  std::vector<double> point_s, point_t;  ///< local coordinates of the contact points (vertices, then centroid) [m]
+  std::vector<double> point_s, point_t;  ///< local coordinates of the contact points [m]: vertices, then centroid; if a
+                                         ///< notch left a part of a facet, those of each convex piece
   /// A_J: one third of the area of those fan triangles that have J as a corner [m²].
   std::vector<double> point_area;
   std::vector<std::uint32_t> row_begin;  ///< particle i's contacts are rows[row_begin[i] … row_begin[i+1])
@@ -107,6 +112,7 @@ struct ContactNetwork {
   std::int64_t dropped_gap = 0, dropped_area = 0;
   /// Area of the facets left out because of area_min, over the area of all facets between particles.
   double dropped_share = 0;
+  std::vector<NotchCut> notches;                 ///< the effect of each notch of NetworkSpec, in the same order
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;  ///< of the moment ss + tt, over all contacts: Σ|lumped − exact| / Σ exact
   ContactRule rule = ContactRule::centres;  ///< the rule by which the lengths of the contacts were set
@@ -127,7 +133,8 @@ void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 /// Builds the network of a tessellation (Eq. 5–7 for the initial geometry: docs/model.md, section 3). Facets of voids
 /// are free surfaces and give no contacts.
 ///
-/// \throws InputError if a particle has no cell (names its number) or if no contact remains.
+/// \throws InputError if a particle has no cell (names its number), if no contact remains, or if a notch lies outside
+/// the specimen or severs it: cuts off at least 1 % of the particles.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});
 
 /// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. With the

@@ -2,6 +2,7 @@
 /// \file error.hpp  Defines the exceptions. A message says where the fault is, the value found and the value expected.
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +14,14 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The parts of a message about a wrong input.
+struct InputCulprit {
+  std::string file = {};  ///< file or option
+  int line = 0;           ///< 0: no line applies
+  std::string what = {};  ///< key, as messages name it: "[solver] method"
+  std::string found = {}, expected = {};
+};
+
 /// The input is wrong (command line exit code 2). The message names file and line, or the particle, and says the value
 /// found and the value expected.
 class InputError : public Error {
@@ -22,7 +31,11 @@ class InputError : public Error {
   /// Makes the message `file:line: what: found F, expected E`. Line 0 means that no line applies.
   InputError(const std::string& file, int line, const std::string& what, const std::string& found,
              const std::string& expected)
-      : Error(place(file, line) + ": " + in_one_line(what + ": found " + found + ", expected " + expected)) {}
+      : Error(place(file, line) + ": " + in_one_line(what + ": found " + found + ", expected " + expected)),
+        culprit_(std::make_shared<const InputCulprit>(InputCulprit{file, line, what, found, expected})) {}
+
+  /// Returns the parts of the message; nullptr if the error was made of a whole message.
+  const InputCulprit* culprit() const noexcept { return culprit_.get(); }
 
  private:
   static std::string place(const std::string& file, int line) {
@@ -36,6 +49,8 @@ class InputError : public Error {
       if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';
     return text;
   }
+
+  std::shared_ptr<const InputCulprit> culprit_;  ///< shared, because copying an exception must not fail
 };
 
 /// The input was correct but the run failed (exit code 1), for example because it diverged, because there is no device,

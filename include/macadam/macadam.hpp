@@ -22,6 +22,7 @@
 #include "macadam/recipe.hpp"
 #include "macadam/tessellation.hpp"
 #include "macadam/cross_section.hpp"
+#include "macadam/notch.hpp"
 #include "macadam/contact_network.hpp"
 #include "macadam/laws/prony_series.hpp"
 #include "macadam/laws/all.hpp"

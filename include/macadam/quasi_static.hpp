@@ -85,8 +85,9 @@ class QuasiStatic {
   QuasiStatic(QuasiStatic&&) noexcept;
 
   /// Replaces the undeformed state by a state of motion, for example steady_start() (harmonic.hpp). Walls are at rest
-  /// in their initial places. Velocities have no effect. \throws InputError if a law has a crack, or for a state of
-  /// another network.
+  /// in their initial places. Velocities have no effect. The energy that springs then hold is not known, so the
+  /// energies have no balance after this call. \throws InputError if a law has a crack, or for a state of another
+  /// network.
   void start(const StartState& state);
 
   /// Solves an increment from the accepted state, and keeps the solution until accept() or the next solve().

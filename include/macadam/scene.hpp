@@ -127,6 +127,9 @@ struct Scene {
   Experiment experiment;
   SolverSpec solver;
   OutputSpec output;
+  /// Texts KEY=VALUE that set values in place of those in the file; `text` has these values. Empty: the scene is as in
+  /// its file
+  std::vector<std::string> changes = {};
 
   /// Returns the cyclic test. \throws InputError if the scene has another experiment.
   experiments::Cyclic& cyclic();
@@ -150,6 +153,17 @@ Scene read_scene(const std::filesystem::path& file);
 /// Reads a scene from `text` instead of the file's contents. Messages name `file`, and paths are relative to its
 /// folder. Without `lines`, messages do not name lines, because the user has not seen the text.
 Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines = true);
+
+/// Reads the file of a scene with other values at some keys, one value per text `KEY=VALUE`, for example
+/// `solver.tolerance=1e-3`. KEY is the path of a key, with dots between its parts. A part may be the pair of an entry
+/// of
+/// `[[contacts]]`, or the number of an entry of a list, counted from 0. VALUE is a TOML value; simple texts need no
+/// quotes. A table replaces the whole section. Scene::text has the values, and so has a file `scene_as_run.toml` that
+/// run() and prepare_into() write.
+///
+/// \throws InputError as read_scene(); about a value that was set, it names `--set KEY=VALUE` in place of file and
+/// line.
+Scene read_changed_scene(const std::filesystem::path& file, const std::vector<std::string>& changes);
 
 /// Returns the text of a scene's file. Checks only that it is TOML. \throws InputError with file and line.
 std::string read_scene_text(const std::filesystem::path& file);

@@ -28,6 +28,10 @@ struct ModulusParts {
   /// logarithm of the mastic's stiffness. The derivative for the rock has the opposite contribution. It is not a part
   /// of the sum E*.
   std::complex<double> pressure_of_mastic = 0;
+  /// With laws of phases: derivatives of E* with respect to the logarithms of the two Poisson's ratios. They are not
+  /// parts of the sum E*. With the rule "series" only films between two aggregates depend on the mastic's ratio, and
+  /// nothing depends on the rock's.
+  std::complex<double> mastic_poisson_ratio = 0, rock_poisson_ratio = 0;
   std::complex<double> inertia = 0;  ///< (s² + s·β)·density scaling · uᵀ·M·u
 
   std::complex<double> modulus() const;
@@ -36,7 +40,8 @@ struct ModulusParts {
 /// Change of |E*| and φ per unit of a parameter's natural logarithm. A change of the parameter by one per cent changes
 /// |E*| and φ by a hundredth of these values.
 struct Sensitivity {
-  /// "M-A.E_m", "M-A.delta", "M-A.alpha", "rock.E", "density_scaling"; of phases "mastic.E_m", "aggregate.E"
+  /// "M-A.E_m", "M-A.delta", "M-A.alpha", "rock.E", "density_scaling"; of phases "mastic.E_m", "aggregate.E",
+  /// "mastic.poisson_ratio", "aggregate.poisson_ratio"
   std::string parameter;
   double d_e_star_pa = 0, d_phase_deg = 0;
 };
@@ -50,9 +55,10 @@ std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
                                        double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
 
 /// Returns the derivatives of |E*| and φ for motions e^(s·t) in a network with one law for each phase (rules "series"
-/// and "volumetric"), at constant Poisson's ratios. They are taken with respect to every parameter of the mastic's law
-/// ("mastic.E_m"), which all pairs with mastic share, to the modulus of the rock ("aggregate.E"), and to the density
-/// scaling if there is inertia.
+/// and "volumetric"). They are taken with respect to every parameter of the mastic's law ("mastic.E_m"), which all
+/// pairs with mastic share, to the modulus of the rock ("aggregate.E"), to the Poisson's ratios of both phases if E*
+/// depends on them, and to the density scaling if there is inertia. Derivatives with respect to moduli and viscosities
+/// are at constant Poisson's ratios.
 std::vector<Sensitivity> phase_sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
 std::vector<Sensitivity> phase_sensitivities(const ModulusParts&, const LawTable&,
                                              double) = delete;  // deleted, so that ω cannot be passed instead of s = iω

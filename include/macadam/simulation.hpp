@@ -38,7 +38,7 @@ struct Preparation {
   Tessellation tessellation;
   ContactNetwork network;
   std::int64_t loose_particles = 0;  ///< particles in clusters that do not touch both walls; they carry no load
-  int spanning_clusters = 0;         ///< number of clusters that touch both walls; usually one
+  int spanning_clusters = 0;         ///< clusters that touch both walls; 1 in a domain without them
   int relaxation_iterations = 0;     ///< iterations of the generator; generated specimens only
   double seconds_specimen = 0, seconds_tessellation = 0, seconds_network = 0;
 };

@@ -86,8 +86,10 @@ LawTable equivalent_laws(const std::array<std::optional<std::variant<L...>>, pai
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance);
 
 /// Returns the largest relative difference of E(t) of `series` from E(t) of `exact`, at t = 0 and from `shortest` to
-/// `longest` [s].
-double difference(const PronySeries& series, const PronySeries& exact, double shortest, double longest);
+/// `longest` [s]. If E(t) is smaller than the fraction `least` of E(0), differences are divided by this fraction of
+/// E(0) and not by E(t).
+double difference(const PronySeries& series, const PronySeries& exact, double shortest, double longest,
+                  double least = 1e-9);
 
 /// Range of times and accuracy of a spectrum.
 struct SpectrumOptions {
@@ -110,7 +112,9 @@ struct Spectrum {
   CreepSeries creep;
   /// Estimate of the largest relative error of E(t) between `shortest` and `longest`. It is computed from the changes
   /// of E(t) in the last two rounds of solutions, from the effect of the solutions' residuals and, if contacts have
-  /// rock in series, from the error of the classes to which they belong (host/harmonic/rock_classes.hpp).
+  /// rock in series, from the error of the classes to which they belong (host/harmonic/rock_classes.hpp). With the rule
+  /// "volumetric" the estimate contains the largest difference of the fit from the solutions instead of the error of
+  /// classes, and values of E(t) below 1e-6·E(0) count as 1e-6·E(0) (host/spectrum/volumetric_spectrum.cpp).
   double error = 0;
   /// Largest relative difference of E*(iω) of the series from solutions that were not used to make the series, at
   /// frequencies within the range.
@@ -119,7 +123,8 @@ struct Spectrum {
 };
 
 /// Returns the uniaxial relaxation of a specimen without inertia (lateral walls as in the network). \throws InputError
-/// for a law without a series, for impossible times, or for a tolerance below 1e-7 if contacts have rock in series;
+/// for a law without a series, for impossible times, for a tolerance below 1e-7 if contacts have rock in series, or for
+/// a network with the rule "volumetric" whose laws do not follow from one law of the mastic and an elastic rock;
 /// RunError as Harmonic, or if the tolerance is not reached; InterruptedError.
 Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
                      const std::array<std::optional<Law>, pair_types>& laws, const SpectrumOptions& options = {});

@@ -32,14 +32,16 @@ struct TemperatureHistory {
   bool operator==(const TemperatureHistory&) const = default;
 };
 
-/// Returns the reduced time ∫dt/a_T of a law between two times of a history [s]: the time in which the law relaxes as
-/// much at its reference temperature. NaN if the shift has no value at a temperature between them.
+/// Returns the reduced time ∫dt/a_T of a law between two times of a history [s]. At the reference temperature, the law
+/// relaxes in this time as it does between the two times. NaN if the shift has no value at a temperature between them.
 double reduced_time(const laws::Shift& shift, const TemperatureHistory& history, double from, double to);
 
 /// Coefficients of linear thermal expansion of the phases [1/K].
 struct Expansion {
   double aggregate = 0, mastic = 0;
+  /// Returns whether a phase expands.
   bool any() const { return aggregate != 0 || mastic != 0; }
+  /// Returns the coefficient of a phase [1/K]; 0 for voids.
   double of(Phase phase) const { return phase == Phase::aggregate ? aggregate : phase == Phase::mastic ? mastic : 0; }
 };
 

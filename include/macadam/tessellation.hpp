@@ -13,7 +13,7 @@
 namespace macadam {
 
 /// Walls are represented by negative numbers wherever a particle number may stand: −1…−6 for −x +x −y +y −z +z. The
-/// curved side of a cylinder has the number −1.
+/// curved side of a cylinder, a disc or a half disc has the number −1, the flat side of a half disc −2.
 enum Wall : std::int32_t {
   wall_x_lo = -1,
   wall_x_hi = -2,
@@ -43,7 +43,7 @@ struct Facet {
 /// The weights of voids may differ: see `void_weight`.
 struct Tessellation {
   /// Sorted by (a, b); among the facets of one a, walls (negative b) come first. A cell may have several facets on a
-  /// curved side, one for each plane that represents the side (domains/cylinder.hpp).
+  /// curved side, one for each plane that represents the side (domains/parts.hpp).
   std::vector<Facet> facets;
   std::vector<Vec3d> vertices;  ///< [m]; the vertices of a facet are consecutive, counter-clockwise about its normal
   /// [m³], one per particle, then one per void; 0 for a particle or void without a cell.

@@ -24,8 +24,9 @@ def _entry_of(entries: list[Any], name: str, place: str) -> Any:
     if name.isdecimal() and int(name) < len(entries):
         return entries[int(name)]
     pairs = [e["pair"] for e in entries if isinstance(e, Mapping) and "pair" in e]
-    raise _core.InputError(f"{place}: found {name!r}, expected a number below {len(entries)}"
-                           + (f" or one of {', '.join(pairs)}" if pairs else ""))
+    raise _core.InputError(f"{place}: found {name!r}, expected the position of an entry, from 0 to {len(entries) - 1}"
+                           + (f", or one of {', '.join(pairs)}" if pairs else "") if entries else
+                           f"{place}: found {name!r}, but the list has no entries")
 
 
 def set_key(table: dict[str, Any], key: str, value: Any) -> None:

@@ -111,6 +111,22 @@ void bind_contacts(nb::module_& m) {
           "dropped", [](const ContactNetwork& n) { return nb::make_tuple(n.dropped_gap, n.dropped_area); },
           "Numbers of facets that gap_max and area_min excluded: (gap, area).")
       .def_prop_ro(
+          "notches",
+          [](const ContactNetwork& n) {
+            nb::list out;
+            for (const NotchCut& cut : n.notches) {
+              nb::dict one;
+              one["axis"] = std::string(1, "xyz"[cut.notch.axis]);
+              one["at"] = cut.notch.position;
+              one["removed"] = cut.removed, one["shortened"] = cut.shortened;
+              one["cut_area"] = cut.cut_area, one["ligament"] = cut.ligament;
+              out.append(one);
+            }
+            return out;
+          },
+          "The effect of each notch: axis, at [m], numbers of removed and shortened contacts, cut_area and ligament "
+          "[m²].")
+      .def_prop_ro(
           "count",
           [](const ContactNetwork& n) {
             nb::dict out;

@@ -94,7 +94,8 @@ void put_report(const nb::tuple& report, Preparation& made) {
   if (report.size() > 4) put_series(nb::cast<nb::tuple>(report[4]), made);
 }
 
-/// Returns bounding box, particles, voids, source and domain of a specimen, the arrays as NumPy arrays.
+/// Returns bounding box, particles, voids, source, and name and dimensions of the domain of a specimen, the arrays as
+/// NumPy arrays.
 nb::tuple spheres_of(const Specimen& s) {
   std::vector<std::int32_t> phase;
   for (const Phase p : s.phase) phase.push_back(static_cast<std::int32_t>(p));
@@ -109,7 +110,7 @@ nb::tuple spheres_of(const Specimen& s) {
   const Vec3d box = s.box.size;
   return nb::make_tuple(std::array<double, 3>{box.x, box.y, box.z}, numpy(s.centre), owned(std::vector(s.radius)),
                         owned(std::move(phase)), owned(std::vector(s.body)), numpy(void_centre), owned(void_radius),
-                        s.source, s.first_line, s.box.name());
+                        s.source, s.first_line, s.box.name(), s.box.values());
 }
 
 /// Returns the specimen that spheres_of() described.
@@ -118,7 +119,11 @@ Specimen specimen_of(const nb::tuple& spheres) {
   const auto box = nb::cast<std::array<double, 3>>(spheres[0]);
   Specimen out;
   out.box.size = {box[0], box[1], box[2]};
-  if (spheres.size() > 9) out.box.shape = domains::shape_named(nb::cast<std::string>(spheres[9])).value();
+  if (spheres.size() > 10) {
+    out.box = domain_of(nb::cast<std::string>(spheres[9]), nb::cast<std::vector<double>>(spheres[10]));
+  } else if (spheres.size() > 9) {  // a pickle without dimensions
+    out.box.shape = domains::shape_named(nb::cast<std::string>(spheres[9])).value();
+  }
   out.centre = vectors(at(1), "centre");
   out.radius = numbers(at(2), "radius");
   for (const std::int32_t p : whole_numbers(at(3), "phase")) out.phase.push_back(static_cast<Phase>(p));

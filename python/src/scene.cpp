@@ -144,7 +144,7 @@ void bind_scene(nb::module_& m) {
           "Edge lengths of the bounding box [m].")
       .def_prop_ro(
           "domain", [](const GivenScene& s) { return s.specimen.box.name(); },
-          "Shape of the specimen: box or cylinder.")
+          "Shape of the specimen, such as box or cylinder.")
       .def_prop_ro(
           "recipe", &recipe_of,
           "Properties of a recipe by mass, or None: densities [kg/m³]; air voids, VMA, VFB, binder contents, and the "

@@ -145,7 +145,7 @@ void bind_particles(nb::class_<Prepared>& c) {
           "box", [](const Prepared& p) { return triple(p.made.specimen.box.size); },
           "Edge lengths of the bounding box [m].")
       .def_prop_ro(
-          "domain", [](const Prepared& p) { return p.made.specimen.box.name(); }, "Shape: box or cylinder.")
+          "domain", [](const Prepared& p) { return p.made.specimen.box.name(); }, "Shape, such as box or cylinder.")
       .def_prop_ro(
           "volume", [](const Prepared& p) { return p.made.specimen.box.volume(); }, "Volume of the domain [m³].")
       .def_prop_ro(

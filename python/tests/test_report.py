@@ -211,6 +211,18 @@ def test_the_methods_have_laws_scene_and_version(tmp_path: Path, no_pictures) ->
     assert "box = [1, 1, 1]" in other and "[specimen.mastic]" not in other
 
 
+def test_the_methods_show_the_values_of_set(tmp_path: Path, no_pictures) -> None:
+    folder = tmp_path / "changed"
+    shutil.copytree(make("harmonic"), folder)
+    summary = json.loads((folder / "summary.json").read_text())
+    (folder / "summary.json").write_text(json.dumps(summary | {"set": ["contacts.M-A.delta=2"]}))
+    page = report(folder, tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "scene_as_run.toml is not there" in page
+    (folder / "scene_as_run.toml").write_text('# delta\n[[contacts]]\npair = "M-A"\nlaw = "elastic"\ndelta = 2\n')
+    page = report(folder, tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "with the values that --set gave, scene_as_run.toml" in page and "delta = 2" in page
+
+
 def test_folders_of_one_name_are_told_apart(tmp_path: Path, no_pictures) -> None:
     for parent in "ab":
         shutil.copytree(make("harmonic"), tmp_path / parent / "same")

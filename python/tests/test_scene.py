@@ -67,7 +67,7 @@ def test_paths_are_relative_to_the_file(tmp_path, specimen):
     ({"loading.frequencis": [1]}, r'frequencis.*frequencies'),
     ({"loading.frequencies": [-1]}, r"frequencies.*-1.*positive"),
     ({"specimen.box": ["1 kg", 1, 1]}, r'box.*"1 kg"'),
-    ({"contacts.M-X.delta": 1}, r"'M-X', expected a number below 5 or one of M-M, M-A"),
+    ({"contacts.M-X.delta": 1}, r"'M-X', expected the position of an entry, from 0 to 4, or one of M-M, M-A"),
     ({"loading.kind.x": 1}, r"'cyclic' at loading.kind, expected a section"),
     ({"backend": "gpu"}, r'backend: found "gpu", expected one of auto\|cuda\|cpu\|reference'),
     ({"frequencies": [1]}, r"\[frequencies\]: found an unknown section, expected one of specimen, "),

@@ -149,6 +149,43 @@ def test_cylinders(scene):
     assert mc.specimen(core, particles={**own, "box": [14e-3, 14e-3, 15e-3]}).domain == "box"
 
 
+@pytest.mark.parametrize(
+    ("keys", "box", "volume"),
+    [
+        ({"domain": "disc", "diameter": "20 mm", "thickness": "12 mm"}, (20e-3, 12e-3, 20e-3), np.pi * 1e-4 * 12e-3),
+        ({"domain": "half_disc", "diameter": "28 mm", "thickness": "12 mm"}, (28e-3, 12e-3, 14e-3),
+         np.pi / 2 * 1.96e-4 * 12e-3),
+        ({"domain": "beam", "length": "20 mm", "width": "12 mm", "height": "13 mm"}, (20e-3, 12e-3, 13e-3), 20e-3 * 156e-6),
+        ({"domain": "trapezoid", "base_width": "18 mm", "top_width": "12 mm", "thickness": "12 mm", "height": "20 mm"},
+         (18e-3, 12e-3, 20e-3), 15e-3 * 20e-3 * 12e-3),
+    ],
+)
+def test_domains_of_laboratories(scene, keys, box, volume):
+    """Specimens of every domain have its volume, and keep the domain when they are copied."""
+    tables = scene.as_dict()
+    mix = {k: v for k, v in tables["specimen"].items() if k != "box"}
+    made = mc.specimen(mc.Scene({**tables, "specimen": {**mix, **keys}}))
+    assert made.domain == keys["domain"] and made.box == pytest.approx(box)
+    assert made.volume == pytest.approx(volume, rel=1e-12)
+    assert made.cells.volume.sum() == pytest.approx(made.volume, rel=1e-12)  # rounding of some thousand terms
+    again = pickle.loads(pickle.dumps(made))
+    assert again.domain == made.domain and again.volume == made.volume
+
+
+def test_notches(scene):
+    """A notch leaves the contacts of its ligament, also in a copy of the specimen."""
+    tables = scene.as_dict()
+    x, y, z = mc.specimen(scene).box
+    notch = {"axis": "x", "at": x / 2, "z": [0, z / 3]}
+    made = mc.specimen(mc.Scene({**tables, "specimen": {**tables["specimen"], "notch": [notch]}}))
+    (cut,) = made.contacts.notches
+    assert (cut["axis"], cut["at"]) == ("x", x / 2) and cut["removed"] > 0 and cut["shortened"] > 0
+    assert cut["ligament"] + cut["cut_area"] == pytest.approx(y * z, rel=1e-9)  # sums of some hundred facets
+    assert cut["cut_area"] == pytest.approx(y * z / 3, rel=1e-9)
+    assert pickle.loads(pickle.dumps(made)).contacts.notches == [cut]
+    assert mc.specimen(scene).contacts.notches == []
+
+
 def test_texts_have_numbers(specimen, tmp_path):
     n, contacts, cells = len(specimen), specimen.contacts, specimen.cells
     assert repr(specimen) == f"<macadam.Specimen: {n} particles, {len(contacts)} contacts, box 12 × 12 × 15 mm>"

@@ -11,7 +11,8 @@ import pandas as pd
 import pytest
 
 import macadam.study.__main__ as command
-from macadam.study import StudyError, study
+from macadam.study import StudyError, predictions, study
+from macadam.study.checks import Checked
 from macadam.study.design import read_design
 from report_folders import PROGRAM
 from study_faults import lines, scene, stand_in
@@ -167,9 +168,52 @@ def test_every_scene_is_checked_when_asked(folder: Path, monkeypatch, capsys) ->
     Path("study.toml").write_text(f'{text}"loading.frequencies" = [[10], [-10]]\n"{DELTA}" = [1, 2]\n', encoding="utf-8")
     assert command.main(["study.toml", "--out", "out", "--check"]) == 2
     said = capsys.readouterr()
-    assert "4 points, 4 scenes checked, 2 wrong" in said.out and said.err.count("wrong: ") == 2
+    assert "4 points, 4 scenes checked, 2 wrong; about " in said.out
+    assert said.err.startswith("macadam study: 2 of 4 scenes are wrong\n") and said.err.count("wrong: ") == 2
     assert f"wrong: loading.frequencies = [-10], {DELTA} = 2: " in said.err and "found -10" in said.err
     assert not Path("out").exists()
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
+def test_a_check_lists_what_every_point_would_take(folder: Path, monkeypatch, capsys) -> None:
+    monkeypatch.setenv("MACADAM_PROGRAM", PROGRAM)
+    text = f'scene = "scene.toml"\narguments = ["--linear=direct"]\n[grid]\n"{DELTA}" = [1, 2.5]\n[run]\nworkers = 2\n'
+    text += '[experiment.fast]\n"loading.frequencies" = [10]\n[experiment.slow]\n"loading.frequencies" = [1, 2, 3]\n'
+    Path("study.toml").write_text(text, encoding="utf-8")
+    assert command.main(["study.toml", "--out", "out", "--check"]) == 0
+    said = capsys.readouterr()
+    head, *rows, total = said.out.splitlines()
+    assert said.err == "" and not Path("out").exists() and len(rows) == 4
+    words = [re.split(r"  +", row) for row in [head, *rows]]
+    assert words[0] == [DELTA, "experiment", "test", "method", "particles", "solutions", "memory", "time"]
+    # every row: the factor, the experiment, the test, the method, the two particles of the specimen, and the number of
+    # solutions, which is the number of frequencies
+    assert [w[:6] for w in words[1:]] == [
+        [delta, name, "sweep", "harmonic", "2", number]
+        for delta in ("1", "2.5")
+        for name, number in (("fast", "1"), ("slow", "3"))
+    ]
+    assert all(w[6].endswith(" MB") and w[7].endswith(" s") for w in words[1:])
+    assert total.startswith("4 points, 4 scenes checked, 0 wrong; about ") and "with 2 at a time" in total
+
+
+def test_predictions_name_warnings_once_and_leave_out_what_no_point_has(folder: Path) -> None:
+    design = read_design({"scene": "scene.toml", "grid": {DELTA: [1, 2, 3]}}, "1")
+    forecast = {"kind": "cyclic", "method": "explicit", "particles": 1234, "solutions": 0, "host_bytes": 2e9}
+    forecast |= {"device_bytes": 0, "specimen_s": 1.0, "network_s": 2.0, "seconds": 3600.0, "warnings": ["too few"]}
+    forecast |= {"steps": [{"steps": 123456}, {"steps": 1000}]}
+    checked = [Checked(job, forecast, "") for job in design.jobs[:2]] + [Checked(design.jobs[2], {}, "found 3")]
+    found = predictions.lines(design, checked, 2)
+    assert re.split(r"  +", found[0]) == [DELTA, "test", "method", "particles", "steps", "memory", "time"]
+    # 124,456 steps are shown with two digits, 3600 s in minutes
+    assert re.split(r"  +", found[1]) == ["1", "cyclic", "explicit", "1,234", "120,000", "2.0 GB", "60 min"]
+    assert re.split(r"  +", found[3]) == ["3", "wrong"]
+    assert found[4] == f"warning: too few ({DELTA} = 1 and 1 more)"
+    # two scenes of an hour each, both at a time
+    assert found[5] == (
+        "3 points, 3 scenes checked, 1 wrong; about 2.0 h of computing, 60 min with 2 at a time, which take up to 4.0 GB of "
+        "memory"
+    )
 
 
 def test_the_command_refuses_with_exit_2(folder: Path, monkeypatch, capsys) -> None:

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that a wheel needs is listed and has a licence. No wheel is built for these tests."""
 import ast
+import ctypes
 import importlib
 import re
 import shutil
+import subprocess
 import sys
 import tomllib
 from importlib.machinery import SourceFileLoader
@@ -20,12 +22,21 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 DEPENDENCIES = (ROOT / "scripts" / "dependencies").read_text()
 
 
+def loaded(script):
+    """Loads a Python script of scripts/ as a module."""
+    module = ModuleType(script.replace("-", "_"))
+    SourceFileLoader(module.__name__, str(ROOT / "scripts" / script)).exec_module(module)
+    return module
+
+
 @pytest.fixture(scope="module")
 def licences():
-    """Loads scripts/wheel-licences as a module."""
-    module = ModuleType("wheel_licences")
-    SourceFileLoader("wheel_licences", str(ROOT / "scripts" / "wheel-licences")).exec_module(module)
-    return module
+    return loaded("wheel-licences")
+
+
+@pytest.fixture(scope="module")
+def older():
+    return loaded("older-symbols")
 
 
 def imports_of(files):
@@ -100,3 +111,52 @@ def test_the_version_is_one(monkeypatch):
     monkeypatch.syspath_prepend(ROOT / table["provider-path"])
     asked = importlib.import_module(table["provider"]).dynamic_metadata("version", {}, {})
     assert asked.split("+")[0] == mc.__version__.split("+")[0]
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    """Compiles a library that asks for hypot and, for its version's name in the file, for another symbol of libm."""
+    if not shutil.which("g++"):
+        pytest.skip("no g++")
+    folder = tmp_path_factory.mktemp("older")
+    (folder / "length.cpp").write_text('''#include <cmath>
+extern "C" double length(double x, double y) { return hypot(x, y) + 0 * std::floor(x); }
+''')
+    subprocess.run(["g++", "-O0", "-fno-builtin", "-shared", "-fPIC", "-o", folder / "length.so", folder / "length.cpp"], check=True)
+    return folder / "length.so"
+
+
+def test_older_versions_are_asked_for(older, library, tmp_path, capsys):
+    """The changed library loads and computes the same."""
+    copy = Path(shutil.copy(library, tmp_path))
+    versions = {need.version for need in older.Elf("length", copy.read_bytes()).needs()}
+    if "GLIBC_2.35" not in versions:
+        pytest.skip("a glibc before 2.35: hypot has no newer version")
+    assert any("found GLIBC_2.35 of libm.so.6 (hypot), expected at most GLIBC_2.34" in m for m in older.main(["--check", str(copy)]))
+    assert copy.read_bytes() == library.read_bytes()
+    assert older.main([str(copy)]) == []
+    assert "hypot asks for GLIBC_2.2.5 in place of GLIBC_2.35" in capsys.readouterr().out
+    assert "GLIBC_2.35" not in {need.version for need in older.Elf("length", copy.read_bytes()).needs()}
+    assert older.main([str(copy)]) == [] and not capsys.readouterr().out  # nothing is left to change
+    length = ctypes.CDLL(str(copy)).length
+    length.argtypes, length.restype = [ctypes.c_double, ctypes.c_double], ctypes.c_double
+    assert length(3, 4) == 5
+
+
+def test_an_unknown_symbol_keeps_its_version(older, library, monkeypatch):
+    """A version is changed only if all symbols that have it are known to be the same under the older one."""
+    monkeypatch.setattr(older, "OLDER", {version: (to, set()) for version, (to, _) in older.OLDER.items()})
+    elf = older.Elf("length", library.read_bytes())
+    assert elf.make_older() == [] and elf.data == library.read_bytes()
+
+
+def test_other_files_are_refused(older, tmp_path):
+    (tmp_path / "text.so").write_text("no library")
+    with pytest.raises(ValueError, match=r"text\.so: found b'no lib', expected a little-endian ELF file of 64 bits"):
+        older.main([str(tmp_path / "text.so")])
+
+
+def test_hashes_of_versions(older):
+    """The expected values are stored in libraries that the linker has made (objdump -p prints them)."""
+    assert older.elf_hash("GLIBC_2.2.5") == 0x09691A75
+    assert older.elf_hash("GLIBCXX_3.4.11") == 0x0297F861

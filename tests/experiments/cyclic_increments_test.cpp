@@ -84,7 +84,7 @@ TEST_F(CyclicIncrements, ContinueToTheSameResult) {
   EXPECT_EQ(result("pieces", 1).at("linear_systems"), result("one", 1).at("linear_systems"));
 }
 
-// Cracks grow in the first cycle, so that later cycles are softer. No energy is needed for the comparison.
+// Cracks grow in the first cycle, so that later cycles are softer.
 TEST_F(CyclicIncrements, ReportTheModulusOfEachCycleWithCracks) {
   const Scene scene =
       cracking("kind = \"cyclic\"\nfrequencies = [20.0]\nstrain_amplitude = 3e-4\ncycles = 3\nfit_cycles = 1\n");

@@ -41,6 +41,17 @@ class ThermalScene : public TestFolder {
     write(folder_ / "cooling.toml", all);
     return read_scene(folder_ / "cooling.toml");
   }
+  /// Returns the text of a scene of a column of two spheres that a crack can cross.
+  std::string breaking(const std::string& loading) const {
+    std::string all = text(loading);
+    write(folder_ / "column.csv",
+          "id,x,y,z,radius,phase,body\n0,0.005,0.005,0.005,0.005,mastic,-1\n1,0.005,0.005,0.015,0.005,mastic,-1\n");
+    all.replace(all.find("0.04"), 4, "0.02");
+    all.insert(all.find("[[contacts]]\npair = \"M-W\"\n"),
+               "alpha = 1.0\ncrack = { tensile_strength = \"0.2 MPa\", shear_strength = \"0.2 MPa\", fracture_energy = "
+               "\"0.25 J/m2\" }\n");
+    return all;
+  }
   std::string refusal(const std::string& all) const {
     return message_of([&] { scene(all); });
   }
@@ -97,13 +108,7 @@ TEST_F(ThermalScene, AShiftSlowsRelaxationDownDuringTheTest) {
 // One facet of 0.2 MPa softens over 2.5e-6 m, less than the 4e-6 m by which the column of 20 mm shortens at this
 // stress. So no equilibrium exists beyond the strength, which is reached after 10 K of cooling.
 TEST_F(ThermalScene, AHeldColumnBreaksSuddenly) {
-  const std::string wall = "[[contacts]]\npair = \"M-W\"\n";
-  std::string all = text(restrained + cooling);
-  write(folder_ / "column.csv",
-        "id,x,y,z,radius,phase,body\n0,0.005,0.005,0.005,0.005,mastic,-1\n1,0.005,0.005,0.015,0.005,mastic,-1\n");
-  all.replace(all.find("0.04"), 4, "0.02");
-  all.insert(all.find(wall), "alpha = 0.1\ncrack = { tensile_strength = \"0.2 MPa\", fracture_energy = 0.25 }\n");
-  const RunResult result = run(scene(all), out("out"));
+  const RunResult result = run(scene(breaking(restrained + cooling)), out("out"));
   const auto& found = std::get<SteppedResponse>(result.found);
   ASSERT_TRUE(found.increments && found.increments->sudden_break);
   // the last increment is at most a hundredth of the longest one, which lasts 900 s, or 7.5 K
@@ -114,6 +119,18 @@ TEST_F(ThermalScene, AHeldColumnBreaksSuddenly) {
   EXPECT_HAS(result.warnings.back(), "breaks suddenly");
   EXPECT_HAS(read(out("out") / "summary.json"), "\"sudden_break\"");
   EXPECT_HAS(read(out("out") / "history.csv"), "thermal_work_j");
+}
+
+/// A load that grows to 1.5 times the strength in 100 s breaks the column at the strength, which is reported as a
+/// stress.
+TEST_F(ThermalScene, ALoadedColumnBreaksSuddenly) {
+  const RunResult result =
+      run(scene(breaking("kind = \"creep\"\nstress = 3e5\nramp = 100\ntimes = [200]\n" + cooling)), out("out"));
+  const auto& found = std::get<SteppedResponse>(result.found);
+  ASSERT_TRUE(found.increments && found.increments->sudden_break);
+  EXPECT_NEAR(found.increments->sudden_break->stress_pa, 2e5, 2e3);
+  EXPECT_TRUE(found.points.empty()) << "it breaks before the first row";
+  EXPECT_HAS(read(out("out") / "damage.csv"), "contact,");
 }
 
 TEST_F(ThermalScene, ChoosesIncrementsAndRefusesOtherMethods) {

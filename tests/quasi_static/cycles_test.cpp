@@ -60,9 +60,7 @@ TEST(QuasiStaticCycles, HaveTheModulusOfTheFrequencyDomain) {
     EXPECT_LT(std::abs(phase), bound);
     const double error = std::hypot(modulus, phase);
     EXPECT_GT(error, 1e-3 * bound);  // there is an error that can fall
-    if (before > 0) {
-      EXPECT_NEAR(error / before, 1.0 / 16, 0.02);
-    }
+    if (before > 0) { EXPECT_NEAR(error / before, 1.0 / 16, 0.02); }
     before = error;
   }
 }

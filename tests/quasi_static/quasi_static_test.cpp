@@ -170,8 +170,8 @@ TEST(QuasiStaticState, HasTheSameBitsWithAnyNumberOfThreads) {
       EXPECT_GT(q.energies().crack_j, 0);
       states.push_back(q.state());
     }
-    ASSERT_EQ(states[0].size(), states[1].size());
-    for (std::size_t k = 0; k < states[0].size(); ++k)
+    EXPECT_EQ(states[0].size(), states[1].size());
+    for (std::size_t k = 0; k < std::min(states[0].size(), states[1].size()); ++k)
       EXPECT_TRUE(states[0][k].values == states[1][k].values) << states[0][k].name;
   }
   omp_set_num_threads(before);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cylinder_scene_test.cpp  Tests scenes whose specimen is a cylinder: their keys, messages about wrong values, and the
-// generated specimens.
+// cylinder_scene_test.cpp  Tests scenes whose specimen is a cylinder or another domain: their keys, messages about
+// wrong values, and the generated specimens.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
-#include <numbers>
 #include <string>
 
+#include "host/simulation/refused_combinations.hpp"
 #include "host/specimen/generate.hpp"
 #include "macadam/macadam.hpp"
 #include "tests/scene/scene_file.hpp"
@@ -37,7 +36,34 @@ TEST_F(CylinderScene, DiameterAndHeightGiveTheDomain) {
   EXPECT_TRUE(read(with("domain = \"box\"\nbox = [0.02, 0.02, 0.03]")).specimen.box.is_box());
 }
 
+TEST_F(CylinderScene, TheKeysOfAShapeGiveItsDimensions) {
+  const auto domain = [&](const std::string& keys) { return read(with(keys)).specimen.box; };
+  const Domain disc = domain("domain = \"disc\"\nthickness = 0.02\ndiameter = \"30 mm\"");
+  EXPECT_STREQ(disc.name(), "disc");
+  EXPECT_EQ(norm(disc.size - Vec3d{0.03, 0.02, 0.03}), 0);
+  EXPECT_EQ(norm(domain("domain = \"half_disc\"\ndiameter = 0.06\nthickness = 0.02").size - Vec3d{0.06, 0.02, 0.03}),
+            0);
+  EXPECT_EQ(
+      norm(domain("domain = \"beam\"\nlength = 0.06\nwidth = 0.02\nheight = 0.03").size - Vec3d{0.06, 0.02, 0.03}), 0);
+  const Domain trapezoid =
+      domain("domain = \"trapezoid\"\nbase_width = 0.04\ntop_width = 0.02\nthickness = 0.025\nheight = 0.05");
+  EXPECT_EQ(trapezoid.values(), (std::vector<double>{0.04, 0.02, 0.025, 0.05}));
+  EXPECT_DOUBLE_EQ(trapezoid.volume(), 0.03 * 0.025 * 0.05);
+}
+
 TEST_F(CylinderScene, WrongKeysAreNamed) {
+  EXPECT_HAS(message(with("domain = \"disc\"\ndiameter = 0.02")), "[specimen] thickness: found nothing");
+  EXPECT_HAS(message(with("domain = \"disc\"\ndiameter = 0.02\nthickness = 0.03\nheight = 0.1")),
+             "[specimen] height: found this key with domain = \"disc\", expected diameter and thickness");
+  EXPECT_HAS(message(with("domain = \"beam\"\nlength = 0.02\nwidth = 0.03\nheight = 0.02")),
+             "a length greater than width and height");
+  EXPECT_HAS(
+      message(with("domain = \"trapezoid\"\nbase_width = 0.02\ntop_width = 0.03\nthickness = 0.02\nheight = 0.02")),
+      "a top width above 0 and at most the base width");
+  EXPECT_HAS(message(with("box = [0.02, 0.02, 0.03]\nthickness = 0.02")),
+             "[specimen] thickness: found this key without domain = \"disc\", \"half_disc\" or \"trapezoid\"");
+  EXPECT_HAS(message(with("domain = \"disc\"\ndiameter = 0.02\nthickness = 0.009")),
+             "less than the smaller of diameter and thickness, 0.009 m");
   EXPECT_HAS(message(with("domain = \"cylinder\"\nheight = 0.03")),
              "[specimen] diameter: found nothing, expected this key, which is required");
   EXPECT_HAS(message(with("domain = \"cylinder\"\ndiameter = 0.03")), "[specimen] height: found nothing");
@@ -56,6 +82,19 @@ TEST_F(CylinderScene, WrongKeysAreNamed) {
   EXPECT_HAS(message(with("")), "[specimen] box: found nothing");
 }
 
+// Stress and strain of the tests are those of two platens with equal sections between them.
+TEST_F(CylinderScene, TestsOfDomainsWithoutAUniformSectionAreRefused) {
+  const auto refusal = [&](const std::string& keys) {
+    return test::message_of([&] { require_combination(read(with(keys))); });
+  };
+  EXPECT_HAS(refusal("domain = \"disc\"\ndiameter = 0.02\nthickness = 0.02"),
+             "kind in [loading]: found \"cyclic\" with domain = \"disc\" in [specimen]");
+  EXPECT_HAS(refusal("domain = \"trapezoid\"\nbase_width = 0.04\ntop_width = 0.02\nthickness = 0.025\nheight = 0.05"),
+             "with domain = \"trapezoid\"");
+  require_combination(read(with("domain = \"beam\"\nlength = 0.06\nwidth = 0.02\nheight = 0.03")));
+  require_combination(read(with(cylinder("0.02", "0.03"))));
+}
+
 SpecimenSpec small_mix(const Domain& domain, std::uint64_t seed) {
   SpecimenSpec spec;
   spec.box = domain;
@@ -63,50 +102,6 @@ SpecimenSpec small_mix(const Domain& domain, std::uint64_t seed) {
   spec.aggregate = {{0.002, 0.00475, 0.2, {}}, {0.00475, 0.0095, 0.2, {}}};
   spec.mastic = MasticSpec{0.00075, 0.001, 0.05, {}};
   return spec;
-}
-
-/// Expects all aggregates inside the domain, all centres too, and cells that fill the domain.
-void expect_inside(const GeneratedWithCells& made) {
-  const Specimen& s = made.made.specimen;
-  // Positions are doubles, rounded by half a unit in the last place of the dimensions.
-  const double rounding = 8 * std::numeric_limits<double>::epsilon() * norm(s.box.size);
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    EXPECT_TRUE(s.box.contains(s.centre[i])) << i;
-    if (s.phase[i] == Phase::aggregate) { EXPECT_LE(s.box.signed_distance(s.centre[i]), rounding - s.radius[i]) << i; }
-  }
-  double volume = 0;
-  for (const double v : made.tessellation.value().cell_volume) volume += v;
-  EXPECT_NEAR(volume / s.box.volume(), 1, 1e-12);  // rounding of some hundred terms
-}
-
-TEST(GeneratedCylinder, SpheresLieInside) {
-  const Domain domain = cylinder_domain(0.015, 0.014);
-  const GeneratedWithCells made = generate_with_cells(small_mix(domain, 2), {});
-  EXPECT_STREQ(made.made.specimen.box.name(), "cylinder");
-  expect_inside(made);
-  // with 5 % porosity, the spheres fill 95 % of the volume of the cylinder, to within one sphere of mastic
-  double solid = 0;
-  for (const double r : made.made.specimen.radius) solid += 4 * std::numbers::pi / 3 * r * r * r;
-  EXPECT_NEAR(solid / domain.volume(), 0.95, 4 * std::numbers::pi / 3 * 1e-9 / domain.volume());
-}
-
-TEST(GeneratedCylinder, ShapesLieInside) {
-  for (const PlacementMethod placement : {PlacementMethod::insertion, PlacementMethod::packing}) {
-    SpecimenSpec spec = small_mix(cylinder_domain(0.024, 0.022), 3);
-    spec.aggregate = {{4.75e-3, 9.5e-3, std::nullopt, 6}, {2e-3, 4.75e-3, std::nullopt, 30}};
-    spec.shapes.emplace();
-    spec.shapes->library = ShapeSpec::Library::icosahedron;
-    spec.shapes->placement = placement;
-    spec.shapes->fill.radius_min = 0.75e-3;
-    spec.shapes->fill.radius_max = 1e-3;
-    spec.shapes->fill.porosity = 0;
-    const GeneratedSpecimen made = generate_specimen(spec);
-    for (const Aggregate& a : made.aggregates) {
-      if (a.surface < 0) continue;
-      for (const Vec3d& p : made.surfaces[static_cast<std::size_t>(a.surface)].points)
-        EXPECT_LT(spec.box.signed_distance(a.pose(p)), 1e-9) << a.body;  // packing accepts overlaps of this depth
-    }
-  }
 }
 
 TEST_F(CylinderScene, ASpecimenFileGivesTheSameSpecimen) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // volumetric_scene_test.cpp  Tests scenes with rule "volumetric": keys, laws of pairs, refused combinations with their
 // reasons, and the result of a run.
+#include <cmath>
 #include <fstream>
 
 #include "host/scene/new_scene.hpp"
@@ -58,8 +59,11 @@ TEST_F(VolumetricSceneFile, PathsWithoutTheRuleAreRefused) {
           {"\"volumetric\" with method \"explicit\"", "\"harmonic\"", expected});
   const std::string body = specimen + rock + aggregate + mastic + rule;
   for (const std::string loading :
-       {"kind = \"relaxation\"\ntimes = [0.1, 1]\n", "kind = \"creep\"\ntimes = [0.1, 1]\nstress = 1e5\n"})
-    refused(body + "[loading]\n" + loading + harmonic, {"\"volumetric\" with kind", "\"sweep\"", expected});
+       {"kind = \"relaxation\"\ntimes = [0.1, 1]\n", "kind = \"creep\"\ntimes = [0.1, 1]\nstress = 1e5\n"}) {
+    EXPECT_EQ(refusal(body + "[loading]\n" + loading + harmonic), "");
+    refused(body + "[loading]\n" + loading + "[solver]\nmethod = \"quasi_static\"\n",
+            {"\"volumetric\" with method \"quasi_static\"", "\"harmonic\"", expected});
+  }
   refused(good + harmonic + "backend = \"cuda\"\n", {"backend", "\"volumetric\"", "\"cpu\""});
   EXPECT_EQ(refusal(good + harmonic + "[output]\nsensitivities = true\n"), "");
   refused(good + harmonic + "[[contacts]]\npair = \"M-A\"\nlaw = \"elastic\"\nE = 1e9\n",
@@ -67,7 +71,7 @@ TEST_F(VolumetricSceneFile, PathsWithoutTheRuleAreRefused) {
 }
 
 TEST_F(VolumetricSceneFile, NewScenesAreRead) {
-  for (const char* test : {"cyclic", "sweep"}) {
+  for (const char* test : {"cyclic", "sweep", "relaxation", "creep", "monotonic", "history"}) {
     const std::string text = scene::new_scene(scene::NewKind::spheres, test, ContactRule::volumetric);
     EXPECT_EQ(refusal(text), "") << test;
     EXPECT_EQ(read(text).network.rule, ContactRule::volumetric);
@@ -83,6 +87,21 @@ TEST_F(VolumetricSceneFile, RunOfMastic) {
   EXPECT_NEAR(found.stiffness.e_star_pa, 4e9, 4);
   ASSERT_TRUE(found.poisson_ratio);
   EXPECT_NEAR(found.poisson_ratio->real(), 0.35, 1e-5);
+}
+
+// A specimen of mastic relaxes as the chain of the mastic, here a spring in series with a dashpot: E·exp(−t·E/C). The
+// relaxation of one material needs no fit, so that the error is that of E* of the solutions.
+TEST_F(VolumetricSceneFile, RelaxationOfMastic) {
+  const std::string chain =
+      "[materials.mastic]\ndensity = 2110\nlaw = \"generalised_kelvin\"\nE_m = \"4 GPa\"\nC_m = 2e9\nE = []\nC = []\n"
+      "poisson_ratio = 0.35\n";
+  const std::string loading = "[loading]\nkind = \"relaxation\"\ntimes = [0.1, 1]\npoints_per_decade = 2\n";
+  const Scene scene = read(specimen + chain + rule + loading + harmonic);
+  EXPECT_EQ(refusal(specimen + chain + rule + loading + harmonic), "");
+  const RunResult result = run(scene, folder_ / "out");
+  const auto& found = std::get<experiments::SpectrumResponse>(result.found);
+  ASSERT_FALSE(found.points.empty());
+  for (const auto& p : found.points) EXPECT_NEAR(p.ratio / (4e9 * std::exp(-2 * p.time_s)), 1, 1e-7) << p.time_s;
 }
 
 }  // namespace

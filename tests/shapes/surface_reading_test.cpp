@@ -152,8 +152,8 @@ TEST_F(SurfaceReading, CornersThatDifferByRoundingAreJoined) {
     EXPECT_EQ(r.points.size(), s.points.size());
     EXPECT_EQ(r.facets.size(), s.facets.size());
     expect_closed(r, volume, area, fmt::format("noise {}", noise), 1e-7);  // points are moved by at most 1e-7 of a side
-    EXPECT_TRUE(r.reading.starts_with("joined ") &&
-                r.reading.ends_with(" points at open edges with points less than 7.6e-06 m away"))
+    EXPECT_TRUE(r.reading.starts_with("merged ") &&
+                r.reading.ends_with(" points on open edges, each with another one less than 7.6e-06 m away"))
         << r.reading;
   }
 }
@@ -203,8 +203,8 @@ TEST_F(SurfaceReading, JoiningDoesNotChain) {
   ASSERT_EQ(r.points.size(), 7u);  // six of the eleven points in a row are left, and the apex
   for (int k = 0; k <= 5; ++k) EXPECT_EQ(r.points[1 + k].x, fan.points[1 + 2 * k].x);
   EXPECT_EQ(r.facets.size(), 5u);
-  EXPECT_TRUE(r.reading.starts_with("joined 5 points at open edges")) << r.reading;
-  EXPECT_TRUE(r.reading.ends_with(", which left 5 facets without area")) << r.reading;
+  EXPECT_TRUE(r.reading.starts_with("merged 5 points on open edges")) << r.reading;
+  EXPECT_TRUE(r.reading.ends_with("; 5 facets then have no area")) << r.reading;
 }
 
 TEST_F(SurfaceReading, SpellingsOfAsciiStlAreRead) {

@@ -430,7 +430,7 @@ TEST(Generate, ImpossibleRecipesAreRefused) {
   expect_refused(spoilt([](S& s) { s.mastic->porosity = 1; }), "porosity: found 1");
   expect_refused(spoilt([](S& s) { s.mastic->radius_min = -1; }), "0 < smallest <= largest");
   expect_refused(spoilt([](S& s) { s.mastic = MasticSpec{1e-9, 1e-9, 0.05, {}}; }), "number of spheres");
-  expect_refused(spoilt([](S& s) { s.aggregate[1] = {0.0132, 0.0134, {}, 1}; }), "shortest edge of the box, 13 mm");
+  expect_refused(spoilt([](S& s) { s.aggregate[1] = {0.0132, 0.0134, {}, 1}; }), "smallest edge of the box, 13 mm");
   expect_refused(spoilt([](S& s) { s.aggregate[1].sieve_min = 0.0094; }), "or 19.79 % (1 spheres); wider sieves");
   expect_refused(spoilt([](S& s) { s.aggregate.clear(), s.mastic.reset(); }), "particles: found 0");
 }

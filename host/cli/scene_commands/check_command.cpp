@@ -11,6 +11,7 @@
 
 #include "host/cli/terminal/help.hpp"
 #include "host/cli/terminal/job.hpp"
+#include "host/cli/terminal/json_lines.hpp"
 #include "host/cli/terminal/options.hpp"
 #include "host/cli/terminal/streams.hpp"
 #include "host/simulation/forecast.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 struct CheckArguments {
   std::string scene;
+  std::vector<std::string> set;
   Overrides instead;
   bool json = false;
 };
@@ -53,8 +55,11 @@ std::string files_in_words(const Forecast& f) {
   return out + fmt::format("; about {} on disk", sum < 1e6 ? fmt::format("{:.0f} kB", sum / 1e3) : bytes_in_words(sum));
 }
 
-nlohmann::ordered_json as_json(const Scene& scene, const Forecast& f) {
-  nlohmann::ordered_json out{{"kind", kind_of(scene.experiment)},
+/// Returns the event `forecast`.
+nlohmann::ordered_json as_json(const std::string& file, const Scene& scene, const Forecast& f) {
+  nlohmann::ordered_json out{{"event", "forecast"},
+                             {"scene", file},
+                             {"kind", kind_of(scene.experiment)},
                              {"method", to_string(scene.solver.method)},
                              {"particles", f.census.particles()},
                              {"aggregates", f.census.aggregates},
@@ -124,11 +129,11 @@ void say_forecast(const std::string& file, const Scene& scene, const Forecast& f
 }
 
 void check_command(const CheckArguments& arguments) {
-  Scene scene = read_scene(arguments.scene);
+  Scene scene = read_changed_scene(arguments.scene, arguments.set);
   apply(arguments.instead, scene);
   const Forecast f = forecast(scene);
   if (arguments.json)
-    say("{}\n", as_json(scene, f).dump(1));
+    print_json_line(as_json(arguments.scene, scene, f));
   else
     say_forecast(arguments.scene, scene, f);
 }
@@ -140,7 +145,9 @@ void add_check_command(CLI::App& app) {
       *app.add_subcommand("check", "predict the particles, memory, time and files of a run, without running it");
   const auto arguments = std::make_shared<CheckArguments>();
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
-  command.add_flag("--json", arguments->json, "print the prediction as JSON");
+  command.add_flag("--json", arguments->json, "print one JSON object per line, for other programs")
+      ->disable_flag_override();
+  add_set(command, arguments->set);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam check examples/demo/scene.toml",
                          "macadam check examples/ac14_ss_am1/scene.toml --method harmonic --json"});

@@ -3,7 +3,10 @@
 #include "host/cli/scene_commands/run_scenes.hpp"
 
 #include <map>
+#include <new>
 
+#include "host/cli/scene_commands/run_events.hpp"
+#include "host/cli/terminal/json_lines.hpp"
 #include "host/cli/terminal/stop_signals.hpp"
 #include "macadam/error.hpp"
 #include "macadam/run_many.hpp"
@@ -17,11 +20,14 @@ std::string name_of(const std::filesystem::path& scene) {
   return (whole.stem() == "scene" ? whole.parent_path().filename() : whole.stem()).string();
 }
 
-std::string text_of(const std::exception_ptr& error) {
+/// Reports the error of a scene.
+void say_failure(const std::string& scene, const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
-  } catch (const std::bad_alloc&) { return "out of memory"; } catch (const std::exception& e) {
-    return e.what();
+  } catch (const std::exception& e) {
+    const bool memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
+    say_error("macadam: {}: {}\n", scene, memory ? "out of memory" : e.what());
+    print_json_error(e, scene);
   }
 }
 
@@ -51,19 +57,24 @@ void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Ov
     jobs.push_back({scene_of(one), std::filesystem::path(job.out) / name});
     apply(instead, jobs.back().scene);
   }
+  std::vector<std::pair<std::string, std::filesystem::path>> folders;
+  for (std::size_t k = 0; k < jobs.size(); ++k) folders.emplace_back(scenes[k], jobs[k].out);
+  print_start_event(folders);
   ProgressLine line;
   std::size_t ended = 0, failed = 0, interrupted = 0;
   ManyOptions options;
   options.at_once = at_once;
   options.resume = resume;
   options.stop = stop_asked;
-  options.progress = [&](std::size_t, const std::string&, double) {
+  options.progress = [&](std::size_t k, const std::string& stage, double share) {
+    print_json_progress(scenes[k], stage, share);
     line.show(fmt::format("{} of {} scenes", ended, jobs.size()),
               static_cast<double>(ended) / static_cast<double>(jobs.size()));
   };
   options.warn = [&](std::size_t k, const std::string& warning) {
     line.clear();
     say_error("macadam: warning: {}: {}\n", scenes[k], warning);
+    print_json_warning(scenes[k], warning);
   };
   options.done = [&](std::size_t k, const JobOutcome& outcome) {
     line.clear();
@@ -72,11 +83,12 @@ void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Ov
       ++interrupted;
     } else if (outcome.error) {
       ++failed;
-      say_error("macadam: {}: {}\n", scenes[k], text_of(outcome.error));
+      say_failure(scenes[k], outcome.error);
     } else {
       say("{}: {}\n{}", scenes[k], outcome.result->solver, results_table(*outcome.result));
       for (const std::string& warning : outcome.result->warnings) say("warning: {}\n", warning);
       say("\n");
+      print_result_event(scenes[k], jobs[k].out, files_left(jobs[k].scene, jobs[k].out), *outcome.result);
       flush_output();
     }
   };

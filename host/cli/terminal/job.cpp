@@ -43,6 +43,16 @@ void add_out_and_seed(CLI::App& command, Job& job) {
       ->group(instead_of_scene);
 }
 
+void add_set(CLI::App& command, std::vector<std::string>& set) {
+  command
+      .add_option("--set", set,
+                  "value of a key of the scene, such as solver.method=harmonic, contacts.M-A.delta=2 or "
+                  "\"loading.frequencies=[1, 10]\"; may be given several times")
+      ->allow_extra_args(false)  // the argument that follows may be the scene
+      ->type_name("KEY=VALUE")
+      ->group(instead_of_scene);
+}
+
 void add_overrides(CLI::App& command, Overrides& instead) {
   add_choice(
       command, "--backend", instead.backend,
@@ -70,7 +80,7 @@ void add_overrides(CLI::App& command, Overrides& instead) {
 }
 
 Scene scene_of(const Job& job) {
-  Scene scene = read_scene(job.scene);
+  Scene scene = read_changed_scene(job.scene, job.set);
   Overrides instead;
   instead.seed = job.seed;
   apply(instead, scene);
@@ -123,6 +133,9 @@ void say_preparation(const Preparation& p) {
     say("facets that are not contacts: {} because of gap_max, {} because of area_min\n", p.network.dropped_gap,
         p.network.dropped_area);
   }
+  for (const NotchCut& cut : p.network.notches)
+    say("notch at {} = {:.6g} mm: {} contacts removed, {} shortened; ligament {:.6g} mm2\n", "xyz"[cut.notch.axis],
+        1e3 * cut.notch.position, cut.removed, cut.shortened, 1e6 * cut.ligament);
   if (p.loose_particles > 0)
     say("warning: {} particles have no path of contacts to the bottom wall, to the top wall or to both\n",
         p.loose_particles);

@@ -18,6 +18,7 @@ namespace macadam {
 struct Job {
   std::string scene, out;
   std::optional<std::uint64_t> seed;
+  std::vector<std::string> set = {};  ///< texts KEY=VALUE that change values of the scene
 };
 
 /// Title in the help for options that replace keys of the scene.
@@ -30,6 +31,9 @@ DeviceList devices_of(const std::string& text);
 void add_job_options(CLI::App& command, Job& job);
 /// Adds --out and --seed only.
 void add_out_and_seed(CLI::App& command, Job& job);
+
+/// Adds --set, which may be given several times.
+void add_set(CLI::App& command, std::vector<std::string>& set);
 
 /// Adds --backend, --precision, --method, --linear, --threads and --device.
 void add_overrides(CLI::App& command, Overrides& instead);
@@ -50,7 +54,7 @@ inline void add_ranks(CLI::App& command, bool& ranks) {
                    "step one specimen with all processes that mpirun started, each on a CUDA device of its own");
 }
 
-/// Reads the scene and replaces its seed if the command line gives one. \throws InputError.
+/// Reads the scene with the values of --set and replaces its seed if the command line gives one. \throws InputError.
 Scene scene_of(const Job& job);
 
 /// Prints the volumes and densities that follow from a recipe by mass, and the gradation that the specimen reached.

@@ -11,6 +11,11 @@
 #include <iostream>
 
 namespace macadam {
+namespace {
+
+bool to_standard_error = false, silent = false;  ///< whether say() writes to standard error
+
+}  // namespace
 
 void hold_standard_streams() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -23,7 +28,11 @@ void hold_standard_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void say_text(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+void say_text(const std::string& text) {
+  if (!silent) std::fwrite(text.data(), 1, text.size(), to_standard_error ? stderr : stdout);
+}
+
+void say_to_standard_error() { to_standard_error = true; }
 
 bool say_error_text(std::string_view text) {
   const bool whole = std::fwrite(text.data(), 1, text.size(), stderr) == text.size();
@@ -31,6 +40,7 @@ bool say_error_text(std::string_view text) {
 }
 
 void silence_output() {
+  silent = true;
   if (!std::freopen("/dev/null", "w", stdout)) std::clearerr(stdout);
 }
 

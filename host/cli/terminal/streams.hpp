@@ -16,7 +16,7 @@ namespace macadam {
 /// program. Must be called before any file is opened.
 void hold_standard_streams();
 
-/// Writes to standard output.
+/// Writes to standard output or, after say_to_standard_error(), to standard error.
 void say_text(const std::string& text);
 /// Writes to standard error without allocating memory. Returns whether everything was written.
 bool say_error_text(std::string_view text);
@@ -29,6 +29,9 @@ template <class... Args>
 bool say_error(fmt::format_string<Args...> text, Args&&... args) {
   return say_error_text(fmt::format(text, std::forward<Args>(args)...));
 }
+
+/// Makes say() write to standard error from now on, because standard output is for another program.
+void say_to_standard_error();
 
 /// Discards standard output from now on.
 void silence_output();

@@ -66,7 +66,9 @@ Course CyclicSteps::course_of(std::size_t i, LineWriter* writer, CrackWatch& cra
   const FrequencyPlan& p = at_.plan.frequencies[i];
   const std::int64_t per_cycle = at_.plan.samples_per_cycle, per_period = p.loading.steps_per_period;
   const std::int64_t stride = per_period / per_cycle;
-  const std::int64_t kept = writer ? 0 : std::int64_t{std::max(0, p.cycles - p.fit_cycles - 1)} * per_cycle;
+  // The modulus of each cycle is a result if increments follow cracks; then all cycles are stored
+  const bool all = writer || (is_quasi_static() && cracks.active());
+  const std::int64_t kept = all ? 0 : std::int64_t{std::max(0, p.cycles - p.fit_cycles - 1)} * per_cycle;
   Course course;
   course.name = fmt::format("{} Hz", p.loading.frequency);
   course.dt = p.loading.dt();

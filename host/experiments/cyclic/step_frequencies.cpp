@@ -12,6 +12,7 @@
 #include "host/experiments/cyclic/finished_frequency.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
 #include "host/experiments/cyclic/methods.hpp"
+#include "host/run/increment_words.hpp"
 #include "host/harmonic/law_stiffness.hpp"
 #include "host/run/error_model.hpp"
 #include "host/run/phases.hpp"
@@ -146,15 +147,6 @@ std::unique_ptr<Stepper> CyclicSteps::make_increments(std::size_t i, const std::
   increments_ = made.get();
   return made;
 }
-
-experiments::Increments CyclicSteps::increments_found() const {
-  const quasi_static::CourseReport& report = increments_->report();
-  experiments::Increments out;
-  out.increments = report.increments, out.rejected = report.rejected, out.systems = report.passes;
-  out.error = report.error, out.loose = report.loose;
-  return out;
-}
-
 std::unique_ptr<Stepper> CyclicSteps::make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
   if (is_quasi_static()) return make_increments(i, from, result);
   const InPhase in(result.phases, &PhaseSeconds::stepper);
@@ -217,7 +209,11 @@ void CyclicSteps::step(std::size_t i, LineWriter* writer, SampledRuns& sampled_r
   sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
   warn_of_cracks(i, cracks.found(), result);
   at_.seconds.push_back(before + seconds_since(start));
-  if (is_quasi_static()) at_.increments.push_back(increments_found());
+  if (is_quasi_static()) {
+    at_.increments.push_back(increments_found(*increments_));
+    for (const std::string& warning : increment_warnings(increments_->report()))
+      warn(fmt::format("{} Hz: {}", p.loading.frequency, warning), result);
+  }
 }
 
 void CyclicSteps::finish(std::size_t i, RunResult& result) {

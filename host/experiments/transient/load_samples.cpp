@@ -43,8 +43,7 @@ void SteppedLoad::follow_peak(const Observation& now) {
     at_.stresses.push_back({strain, stress});
 }
 
-std::vector<experiments::CrackEvent> SteppedLoad::look_for_cracks(SteppedPoint& point, const ParticleState& particles) {
-  if (!cracks_.active()) return {};
+std::vector<experiments::CrackEvent> SteppedLoad::read_cracks(double time) {
   const auto survey = quasi_static_ && cracks_.sums() ? quasi_static_->survey_cracks() : std::nullopt;
   if (quasi_static_ && !survey) {  // its energies need no states of contacts
     contact_state_.point_breaks = stepper_->point_breaks(prepared_.network);
@@ -52,8 +51,14 @@ std::vector<experiments::CrackEvent> SteppedLoad::look_for_cracks(SteppedPoint& 
   } else if (!survey) {
     read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
   }
-  auto events = survey ? cracks_.look(*survey, point.time_s) : cracks_.look(contact_state_, point.time_s);
+  auto events = survey ? cracks_.look(*survey, time) : cracks_.look(contact_state_, time);
   at_.cracks.insert(at_.cracks.end(), events.begin(), events.end());
+  return events;
+}
+
+std::vector<experiments::CrackEvent> SteppedLoad::look_for_cracks(SteppedPoint& point, const ParticleState& particles) {
+  if (!cracks_.active()) return {};
+  auto events = read_cracks(point.time_s);
   point.broken_points = cracks_.found().points();
   const Observation now = stepper_->observe();
   if (cracks_.sums()) {

@@ -12,6 +12,7 @@
 #include "host/experiments/transient/load_rules.hpp"
 #include "host/experiments/transient/quasi_static_plan.hpp"
 #include "host/experiments/transient/stepped_load.hpp"
+#include "host/run/increment_words.hpp"
 #include "host/files/result_files.hpp"
 #include "host/run/damaged_contacts.hpp"
 #include "host/run/phases.hpp"
@@ -190,11 +191,11 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
     if (measures_peak() && cracks_.sums())
       found.fitted = quasi_static_ ? interpolate_peak(at_.stresses) : fit_peak(at_.stresses, at_.peak);
     if (rupture_) found.steps = stepper_->observe().step;
-    if (!quasi_static_) return;
-    found.increments = increments_found(*quasi_static_);
-    if (!sudden_break_) return;
-    found.increments->sudden_break = sudden_break_;
-    found.increments->temperature_at_break_c = test_.temperature.at(sudden_break_->time_s);
+    if (quasi_static_) found.increments = increments_found(*quasi_static_);
+    if (sudden_break_) {
+      found.increments->sudden_break = sudden_break_;
+      found.increments->temperature_at_break_c = test_.temperature.at(sudden_break_->time_s);
+    }
     found.seconds = before + seconds_since(start);
     found.kinetic_share = kinetic_share(found.points, prepared_.specimen.box.volume());
     owns_checkpoint_ = sampled_runs.own_checkpoint();
@@ -208,6 +209,7 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
       throw;
     }
     sudden_break_ = {error.last.time_s, error.last.strain, error.last.stress_pa};
+    write_cracks(read_cracks(error.last.time_s));
   } catch (...) {
     finish();
     throw;
@@ -216,10 +218,12 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
   writer.close();
   if (cracks_writer) cracks_writer->close();
   // a device keeps the states of the points until somebody needs them
-  if (quasi_static_ && cracks_.sums() && contact_state_.point_cracks.empty() && !found.points.empty())
+  if (quasi_static_ && cracks_.sums() && contact_state_.point_cracks.empty())
     contact_state_.point_cracks = stepper_->point_cracks(prepared_.network);
-  if (cracks_.sums())
-    write_damage(out, prepared_, contact_state_.point_cracks, found.points.empty() ? 0 : found.points.back().time_s);
+  if (cracks_.sums()) {
+    const double last = found.points.empty() ? 0 : found.points.back().time_s;
+    write_damage(out, prepared_, contact_state_.point_cracks, sudden_break_ ? sudden_break_->time_s : last);
+  }
   judge(found, result.warnings);
 }
 
@@ -233,7 +237,9 @@ void SteppedLoad::judge(const SteppedResponse& found, std::vector<std::string>& 
         "suddenly, and the test ends there",
         sudden_break_->time_s, test_.temperature.at(sudden_break_->time_s), sudden_break_->stress_pa / 1e6));
   }
-  if (quasi_static_) warn_of_increments(quasi_static_->report(), warnings);
+  if (quasi_static_) {
+    for (std::string& warning : increment_warnings(quasi_static_->report())) warnings.push_back(std::move(warning));
+  }
   if (quasi_static_ && !at_.unstepped) return;
   if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
 }

@@ -61,6 +61,10 @@ class SteppedLoad : public PlannedExperiment {
   /// Keeps the largest stress so far, with its time and strain.
   void follow_peak(const Observation& now);
 
+  /// Reads the state of the contacts at the stepper's present state, and returns the contact points that have broken
+  /// since the last call. `time`: of this state [s].
+  std::vector<experiments::CrackEvent> read_cracks(double time);
+
   /// Counts the contact points that are broken at a sample, sums the energies, and returns the events since the last
   /// sample. Under tension the test ends when no path of intact contacts joins the walls. In compression broken points
   /// still bear load, so the test goes on.

@@ -145,10 +145,11 @@ Surface surface_in(const SurfaceFile& file, SurfaceFormat format, double scale) 
   if (surface.facets.empty())
     file.fail(0, "surface", "no facet that single precision resolves", "a triangulated surface");
   if (seams.points > 0)
-    add_note(surface,
-             fmt::format(
-                 "joined {} at open edges with points less than {:.2g} m away{}", counted(seams.points, "point"), width,
-                 seams.facets > 0 ? fmt::format(", which left {} without area", counted(seams.facets, "facet")) : ""));
+    add_note(
+        surface,
+        fmt::format("merged {} on open edges, each with another one less than {:.2g} m away{}",
+                    counted(seams.points, "point"), width,
+                    seams.facets > 0 ? fmt::format("; {} then have no area", counted(seams.facets, "facet")) : ""));
   return surface;
 }
 

@@ -247,22 +247,27 @@ ShapeContact contact(const ShapeBody& a, const ShapeBody& b, double gap) {
 ShapeContact wall_contact(const ShapeBody& body, const Domain& domain, double gap) {
   const double reach = body.radius() + gap;
   const Vec3d c = body.centre, l = domain.size;
+  constexpr double Vec3d::*axes[]{&Vec3d::x, &Vec3d::y, &Vec3d::z};
+  double Vec3d::*const along = axes[domain.prism_axis()];
+  Vec3d inwards{};
+  inwards.*along = 1;
   const double near = -domain.signed_distance(c);
   if (near >= reach) return {0, near - reach, {}, {}};
   Manifold m;
   const auto add = [&](const Vec3d& p, double radius) {
-    const auto wall = [&](double x, double length, const Vec3d& inwards) {
+    const auto wall = [&](double x, double length, const Vec3d& inward) {
       const double low = gap + radius - x, high = gap + radius - (length - x);
-      if (low > 0) m.add(low, p, inwards);
-      if (high > 0) m.add(high, p, -inwards);
+      if (low > 0) m.add(low, p, inward);
+      if (high > 0) m.add(high, p, -inward);
     };
     if (domain.is_box()) {
       wall(p.x, l.x, {1, 0, 0}), wall(p.y, l.y, {0, 1, 0});
     } else {
-      const Vec3d push = domain.overlap(p, gap + radius).push, side{push.x, push.y, 0};
+      Vec3d side = domain.overlap(p, gap + radius).push;
+      side.*along = 0;  // the ends of the prism follow
       if (const double depth = norm(side); depth > 0) m.add(depth, p, (1 / depth) * side);
     }
-    wall(p.z, l.z, {0, 0, 1});
+    wall(p.*along, l.*along, inwards);
   };
   if (body.sphere) {
     add(c, body.sphere_radius());

@@ -16,8 +16,21 @@ namespace macadam::domains {
 /// The whole bounding box. Its walls are −x +x −y +y −z +z; the last two are the platens.
 struct Box {
   static constexpr const char* name = "box";
+  static constexpr std::array<Dimension, 0> keys{};
+  static constexpr bool is_box = true, has_uniform_section = true;
+  static constexpr int prism_axis = 2;
+  static constexpr unsigned flat_walls = 0b111111;
 
-  double section_area(const Vec3d& size) const { return size.x * size.y; }
+  static Sized<Box> of(const std::vector<double>& edges) { return {{edges.at(0), edges.at(1), edges.at(2)}, {}}; }
+  std::vector<double> values(const Vec3d& size) const { return {size.x, size.y, size.z}; }
+
+  double volume(const Vec3d& size) const { return size.x * size.y * size.z; }
+
+  double section_area(const Vec3d& size, int axis) const { return wall_area(size, 2 * axis); }
+
+  SmallestDimension smallest_dimension(const Vec3d& size) const {
+    return {std::min({size.x, size.y, size.z}), "the smallest edge of the box"};
+  }
 
   double signed_distance(const Vec3d& size, const Vec3d& p) const {
     const auto beyond = [](double x, double length) { return std::max(-x, x - length); };
@@ -28,7 +41,7 @@ struct Box {
 
   bool inside_sides(const Vec3d& /*size*/, const Vec3d& /*p*/, double /*inset*/) const { return true; }
 
-  std::vector<Plane> side_planes(const Vec3d& /*size*/) const { return {}; }
+  std::vector<SidePlane> side_planes(const Vec3d& /*size*/) const { return {}; }
 
   double wall_area(const Vec3d& size, int k) const {
     return k < 2 ? size.y * size.z : k < 4 ? size.z * size.x : size.x * size.y;
@@ -62,6 +75,8 @@ struct Box {
     std::snprintf(text, sizeof text, "box of %g x %g x %g m", size.x, size.y, size.z);
     return text;
   }
+
+  std::string position(const Vec3d& /*size*/) const { return "with one corner at the origin"; }
 };
 
 }  // namespace macadam::domains

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -22,9 +23,24 @@ namespace macadam::domains {
 /// x = π/sides. With 360 sides the prism's surface is at most 2.6e-5·r from the cylinder's surface.
 struct Cylinder {
   static constexpr const char* name = "cylinder";
+  static constexpr std::array<Dimension, 2> keys{
+      {{"diameter", "of a cylinder, whose vertical axis passes through x = y = diameter/2"},
+       {"height", "of a cylinder"}}};
+  static constexpr bool is_box = false, has_uniform_section = true;
+  static constexpr int prism_axis = 2;
+  static constexpr unsigned flat_walls = 0b110000;
   static constexpr int sides = 360;
 
-  double section_area(const Vec3d& size) const { return std::numbers::pi / 4 * size.x * size.x; }
+  static Sized<Cylinder> of(const std::vector<double>& v) { return {{v.at(0), v.at(0), v.at(1)}, {}}; }
+  std::vector<double> values(const Vec3d& size) const { return {size.x, size.z}; }
+
+  double volume(const Vec3d& size) const { return circle_area(size) * size.z; }
+
+  double section_area(const Vec3d& size, int axis) const { return axis == 2 ? circle_area(size) : size.x * size.z; }
+
+  SmallestDimension smallest_dimension(const Vec3d& size) const {
+    return {std::min(size.x, size.z), "the smaller of diameter and height"};
+  }
 
   double signed_distance(const Vec3d& size, const Vec3d& p) const {
     const double side = from_axis(size, p) - 0.5 * size.x, end = std::max(-p.z, p.z - size.z);
@@ -35,20 +51,20 @@ struct Cylinder {
     return from_axis(size, p) <= 0.5 * size.x - inset;
   }
 
-  std::vector<Plane> side_planes(const Vec3d& size) const {
-    std::vector<Plane> out;
+  std::vector<SidePlane> side_planes(const Vec3d& size) const {
+    std::vector<SidePlane> out;
     const double middle = 0.5 * size.x, inner = inner_radius(size);
     for (int k = 0; k < sides; ++k) {
       const double angle = 2 * std::numbers::pi * (k + 0.5) / sides;
       const Vec3d n{std::cos(angle), std::sin(angle), 0};
-      out.push_back({n, middle * (n.x + n.y) + inner});
+      out.push_back({{n, middle * (n.x + n.y) + inner}});
     }
     return out;
   }
 
   double wall_area(const Vec3d& size, int k) const {
-    if (k >= 4) return section_area(size);
-    return k == 0 ? 2 * section_area(size) / inner_radius(size) * size.z : 0;  // the area of a polygon is a·U/2
+    if (k >= 4) return circle_area(size);
+    return k == 0 ? 2 * circle_area(size) / inner_radius(size) * size.z : 0;  // the area of a polygon is a·U/2
   }
 
   const char* wall_name(int k) const { return k == 4 ? "-z" : k == 5 ? "+z" : "side"; }
@@ -83,12 +99,18 @@ struct Cylinder {
     return text;
   }
 
+  std::string position(const Vec3d& size) const {
+    return "whose axis is x = y = " + shortest_text(0.5 * size.x) + " m";
+  }
+
   /// Returns the distance of a side's middle from the axis [m]: √(A / (n·tan(π/n))).
   double inner_radius(const Vec3d& size) const {
-    return std::sqrt(section_area(size) / (sides * std::tan(std::numbers::pi / sides)));
+    return std::sqrt(circle_area(size) / (sides * std::tan(std::numbers::pi / sides)));
   }
 
  private:
+  static double circle_area(const Vec3d& size) { return std::numbers::pi / 4 * size.x * size.x; }
+
   static double from_axis(const Vec3d& size, const Vec3d& p) {
     return std::hypot(p.x - 0.5 * size.x, p.y - 0.5 * size.x);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,15 +29,46 @@ struct Domain {
   const char* name() const {
     return ask([](const auto& s) { return s.name; });
   }
-  bool is_box() const { return std::holds_alternative<domains::Box>(shape); }
-
-  double volume() const { return section_area() * size.z; }  ///< [m³]
-  /// Returns the area of the section perpendicular to the loading axis [m²].
-  double section_area() const {
-    return ask([&](const auto& s) { return s.section_area(size); });
+  /// Returns whether the domain is its whole bounding box.
+  bool is_box() const {
+    return ask([](const auto& s) { return s.is_box; });
   }
-  /// Returns the distance of the two platens [m].
-  double gauge_length() const { return size.z; }
+  /// Returns whether z = 0 and z = size.z are flat platens, and all sections between them are equal. Tests under one
+  /// stress along z need such a domain.
+  bool has_uniform_section() const {
+    return ask([](const auto& s) { return s.has_uniform_section; });
+  }
+  /// Returns the number of the prism's axis, 0 to 2; 2 for a box.
+  int prism_axis() const {
+    return ask([](const auto& s) { return s.prism_axis; });
+  }
+  /// Returns whether a wall of the bounding box, by wall_index(), is a wall of the domain.
+  bool is_flat(int k) const {
+    return ask([&](const auto& s) { return (s.flat_walls >> k & 1U) != 0; });
+  }
+
+  /// Returns the dimensions that describe the shape in scenes; none for a box.
+  std::vector<domains::Dimension> keys() const {
+    return ask([](const auto& s) { return std::vector<domains::Dimension>(s.keys.begin(), s.keys.end()); });
+  }
+  /// Returns the dimensions [m] from which domain_of() makes the same domain.
+  std::vector<double> values() const {
+    return ask([&](const auto& s) { return s.values(size); });
+  }
+
+  double volume() const {  ///< [m³]
+    return ask([&](const auto& s) { return s.volume(size); });
+  }
+  /// Returns the area of the section perpendicular to an axis (0 to 2) through the middle of the bounding box [m²].
+  double section_area(int axis = 2) const {
+    return ask([&](const auto& s) { return s.section_area(size, axis); });
+  }
+  /// Returns the extent along an axis (0 to 2) [m]; along z it is the distance of the two platens.
+  double gauge_length(int axis = 2) const { return axis == 0 ? size.x : axis == 1 ? size.y : size.z; }
+  /// Returns the smallest dimension; larger spheres do not fit into the domain.
+  domains::SmallestDimension smallest_dimension() const {
+    return ask([&](const auto& s) { return s.smallest_dimension(size); });
+  }
 
   /// Returns the distance of a point from the surface [m], negative inside.
   double signed_distance(const Vec3d& p) const {
@@ -48,12 +80,12 @@ struct Domain {
         p.x >= 0 && p.x <= size.x && p.y >= 0 && p.y <= size.y && p.z >= 0 && p.z <= size.z;  // false for NaN
     return in_bounds && signed_distance(p) <= 0;
   }
-  /// Returns whether a point of the bounding box is at least `inset` [m] from every curved side.
+  /// Returns whether a point of the bounding box is at least `inset` [m] from every side (domains::DomainShape).
   bool inside_sides(const Vec3d& p, double inset) const {
     return ask([&](const auto& s) { return s.inside_sides(size, p, inset); });
   }
-  /// Returns the planes that represent the curved sides in the tessellation; their wall has the index 0.
-  std::vector<domains::Plane> side_planes() const {
+  /// Returns the planes that represent the sides in the tessellation; none for a box.
+  std::vector<domains::SidePlane> side_planes() const {
     return ask([&](const auto& s) { return s.side_planes(size); });
   }
   /// Returns the area of a wall in the tessellation [m²], by wall_index(); 0 for an index without a wall.
@@ -72,7 +104,7 @@ struct Domain {
   Vec3d pulled_inside(const Vec3d& p) const {
     return ask([&](const auto& s) { return s.pulled_inside(size, p); });
   }
-  /// Returns the condition that the edges of the bounding box violate; a null pointer if they are right.
+  /// Returns the condition that the dimensions violate; a null pointer if they are right.
   const char* expected_size() const {
     return ask([&](const auto& s) { return s.expected_size(size); });
   }
@@ -80,10 +112,24 @@ struct Domain {
   std::string dimensions() const {
     return ask([&](const auto& s) { return s.dimensions(size); });
   }
+  /// Returns the place of the shape in its bounding box for messages, such as "whose axis is x = y = 1 m".
+  std::string position() const {
+    return ask([&](const auto& s) { return s.position(size); });
+  }
 };
 
 /// A domain that is a box: `Box{{Lx, Ly, Lz}}`.
 using Box = Domain;
+
+/// Returns the domain with the shape of this name and these dimensions [m], in the order of the shape's `keys` (of a
+/// box: its edges). \throws std::bad_optional_access for an unknown name, std::out_of_range for too few dimensions.
+inline Domain domain_of(const std::string& name, const std::vector<double>& values) {
+  const auto make = [&](const auto& s) -> Domain {
+    auto made = s.of(values);
+    return {made.size, std::move(made.shape)};
+  };
+  return std::visit(make, domains::shape_named(name).value());
+}
 
 /// Returns the cylinder with these dimensions [m]. Its axis is along z through x = y = diameter/2.
 inline Domain cylinder_domain(double diameter, double height) {

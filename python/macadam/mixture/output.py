@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas
 
+from macadam._files import write_text
 from macadam.mixture import page, predictions, stiffening
 from macadam.mixture.driver import Chain, Mixture, rounded
 from macadam.mixture.steps import Step
@@ -30,11 +30,11 @@ def write(chain: Chain, folder: Path) -> Mixture:
         old.unlink()
     for step in chain.steps:
         for name, text in law_texts(step).items():
-            _write(laws / name, text)
-    _write(folder / "mixture.csv", table.to_csv(index=False, float_format=_FLOAT))
-    _write(folder / "master_curve.csv", curves.to_csv(index=False, float_format=_FLOAT))
+            write_text(laws / name, text)
+    write_text(folder / "mixture.csv", table.to_csv(index=False, float_format=_FLOAT))
+    write_text(folder / "master_curve.csv", curves.to_csv(index=False, float_format=_FLOAT))
     page.report(chain, table, folder / "report.html")
-    _write(folder / "summary.json", json.dumps(summary, indent=1, ensure_ascii=False) + "\n")
+    write_text(folder / "summary.json", json.dumps(summary, indent=1, ensure_ascii=False) + "\n")
     return Mixture(folder, table, curves, summary, chain.decisions, chain.warnings)
 
 
@@ -180,13 +180,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (float, np.floating)):
         return float(value) if math.isfinite(value) else None
     return int(value) if isinstance(value, np.integer) else value
-
-
-def _write(file: Path, text: str) -> None:
-    """Replaces the file completely; after an error the old file is unchanged."""
-    part = file.with_name(f".{file.name}.{os.getpid()}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(file)
-    finally:
-        part.unlink(missing_ok=True)

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import datetime
-import os
 import platform
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from macadam._files import write_text
 from macadam.report import contacts, cracks, decisions, fields, fits, histories, look, loops, methods, mixture, modulus, scans, specimen
 from macadam.report.export import Export
 from macadam.report.folders import Folder, ReportError, read_all
@@ -88,12 +88,7 @@ def write(page: Page, out: str | Path, title: str, subtitle: str) -> Path:
         f"Written {now:%Y-%m-%d %H:%M %Z} on {platform.node()}, {platform.system()} {platform.machine()}, "
         f"Python {platform.python_version()}, matplotlib {matplotlib.__version__}. This file needs no other files."
     )
-    part = out.with_name(f".{out.name}.{os.getpid()}.part")
-    try:
-        part.write_text(page.html(title, subtitle, foot), encoding="utf-8")
-        part.replace(out)
-    finally:
-        part.unlink(missing_ok=True)
+    write_text(out, page.html(title, subtitle, foot))
     return out
 
 

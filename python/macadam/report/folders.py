@@ -125,7 +125,10 @@ def read(path: str | Path) -> Folder:
     if not path.is_dir():
         raise ReportError(f"{path}: found a file, expected the results folder that holds the file")
     kind = next((kind for name, kind in KINDS.items() if (path / name).is_file()), None)
-    if kind is None and (path / "study.toml").is_file():
+    # a study of seeds has a summary.json too
+    if (kind is None or kind == "run" and _json(path / "summary.json").get("kind") == "seeds") and (
+        path / "study.toml"
+    ).is_file():
         raise ReportError(
             f"{path}: found a study; its own report is {path / 'report.html'}, its results are in {path / 'results'}"
         )

@@ -59,11 +59,11 @@ def paragraph(group: list[Folder]) -> list[str]:
     contacts = _span([sum(v or 0 for v in (f.summary.get("contacts") or {}).values()) for f in group])
     seeds = [f.summary.get("specimen", {}).get("seed") for f in group]
     edges = " × ".join(map(look.length, s.get("box_m") or []))
-    cylinder = (s.get("domain") or {}).get("shape") == "cylinder"
+    shape = (s.get("domain") or {}).get("shape", "box").replace("_", " ")
     words = [
         f"The computations were made with Macadam {s.get('macadam', '(version not recorded)')}.",
         f"{'The specimen' if len(group) == 1 else f'Each of the {len(group)} specimens'}"
-        f"{' is a cylinder within a box' if cylinder else ' is a box'} of {edges} mm with {number} particles"
+        f"{f' is a {shape}' if shape in ('box', 'beam') else f' is a {shape} within a box'} of {edges} mm with {number} particles"
         + (f" (seed {', '.join(map(str, seeds))})" if None not in seeds else "")
         + f", whose Laguerre cells meet in {contacts} contacts.",
     ]
@@ -119,11 +119,16 @@ def scene_of(f: Folder) -> tuple[str | None, str]:
     name = f.summary.get("scene")
     if not name:
         return None, "summary.json names no scene"
+    changed = f.path / "scene_as_run.toml" if f.summary.get("set") else None
     try:
-        text = Path(name).read_text(encoding="utf-8")
+        text = (changed or Path(name)).read_text(encoding="utf-8")
         tomllib.loads(text)
     except (OSError, ValueError):
+        if changed:
+            return None, f"{changed} is not there, or is not a scene"
         return None, f"{name} is not there, or is not a scene; run the report in the folder in which the run was started"
+    if changed:
+        return text, f"The scene file {name} with the values that --set gave, {changed.name}, without other options of the command"
     return text, f"The scene file {name}, as it was when this report was written, without options of the command"
 
 

@@ -42,8 +42,9 @@ def _facts_of_mix(folder: Folder) -> list[tuple[str, Any]]:
     s, recipe = folder.summary, folder.summary.get("recipe")
     rows: list[tuple[str, Any]] = []
     if s.get("box_m"):
-        cylinder = (s.get("domain") or {}).get("shape") == "cylinder"
-        rows.append(("bounding box of the cylinder" if cylinder else "box", " × ".join(map(look.length, s["box_m"])) + " mm"))
+        shape = (s.get("domain") or {}).get("shape", "box").replace("_", " ")
+        name = shape if shape in ("box", "beam") else f"bounding box of the {shape}"
+        rows.append((name, " × ".join(map(look.length, s["box_m"])) + " mm"))
     rows.append(("particles", s.get("particles")))
     if s.get("voids"):
         rows.append(("air voids with cells", s["voids"]))

@@ -148,11 +148,22 @@ def plane_of(
     for a, b in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):
         rim[a] |= (body[a] != body[b]) & (body[a] >= 0) & (body[b] >= 0)
     picture[rim] *= 0.45
-    if (folder.summary.get("domain") or {}).get("shape") == "cylinder":
-        at = {u: along[0][None, :], v: along[1][:, None], axis: np.array([[value]])}
-        outside = np.hypot(at[0] - box[0] / 2, at[1] - box[1] / 2) > box[0] / 2
-        picture[np.broadcast_to(outside, body.shape)] = 1  # white
+    at = {u: along[0][None, :], v: along[1][:, None], axis: np.array([[value]])}
+    picture[np.broadcast_to(_outside(folder.summary.get("domain") or {}, at, box), body.shape)] = 1  # white
     return picture
+
+
+def _outside(domain: dict[str, Any], at: dict[int, np.ndarray], box: np.ndarray) -> np.ndarray:
+    """Returns which points of the bounding box, given by their coordinates x, y, z [m], lie outside the domain."""
+    x, y, z = (at[k] for k in range(3))
+    if domain.get("shape") == "cylinder":
+        return np.hypot(x - box[0] / 2, y - box[0] / 2) > box[0] / 2
+    if domain.get("shape") in ("disc", "half_disc"):
+        return np.hypot(x - box[0] / 2, z - (box[0] / 2 if domain["shape"] == "disc" else 0)) > box[0] / 2
+    if domain.get("shape") == "trapezoid" and "dimensions_m" in domain:
+        half = (box[0] + (domain["dimensions_m"]["top_width"] - box[0]) * z / box[2]) / 2
+        return np.abs(x - box[0] / 2) > half
+    return np.zeros(np.broadcast_shapes(x.shape, y.shape, z.shape), bool)
 
 
 def _section(folder: Folder, box: np.ndarray, paint: Paint, pixels: int = PIXELS) -> tuple[Any, str]:

@@ -57,7 +57,12 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         "Results that are already in the folder are not computed again.",
         epilog="example: macadam study study.toml --out results/study",
     )
-    parser.add_argument("study", metavar="STUDY.toml", help="file that says which keys to vary (docs/studies.md)")
+    parser.add_argument(
+        "study",
+        metavar="STUDY.toml",
+        help="file that says which keys to vary (docs/studies.md); with "
+        "--seeds, a scene",
+    )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of the study; created if it does not exist")
     parser.add_argument(
         "--on",
@@ -71,17 +76,38 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         metavar="N",
         help="number of programs that run at the same time on one machine, in place of run.workers in the study file",
     )
+    parser.add_argument(
+        "--seeds",
+        type=int,
+        metavar="N",
+        help="compute the scene STUDY.toml with N seeds of its specimen, and the mean and standard deviation of each result",
+    )
+    parser.add_argument(
+        "--first-seed", type=int, metavar="SEED", help="with --seeds: the first of the seeds, in place of the scene's seed"
+    )
+    parser.add_argument(
+        "--run-option",
+        action="append",
+        default=[],
+        metavar="OPTION",
+        help="with --seeds: an option of macadam run, such as --run-option=--precision=mixed; may be given several times",
+    )
     parser.add_argument("--retry-failed", action="store_true", help="compute failed points again")
     parser.add_argument("--list", action="store_true", help="print the points and compute nothing")
     parser.add_argument(
-        "--check", action="store_true", help="check the scene of every point by macadam check, and compute nothing"
+        "--check",
+        action="store_true",
+        help="check the scene of every point by macadam check, print what each point would take, and compute nothing",
     )
-    return parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    if options.seeds is None and (options.first_seed is not None or options.run_option):
+        parser.error("--first-seed and --run-option need --seeds")
+    return options
 
 
 # Runs, lists or checks a study, as the options say. Returns the exit code.
 def _command(options: argparse.Namespace, stop: _Stop) -> int:
-    from macadam.study import StudyError, study
+    from macadam.study import StudyError, seeds, study
     from macadam.study.driver import checked_design
     from macadam.study.program import find_program, version_of
 
@@ -95,11 +121,22 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
     try:
         if options.list or options.check:
             program = find_program()
-            design = checked_design(options.study, version_of(program), options.on, options.workers)
+            source: Any = options.study
+            if options.seeds is not None:
+                source = seeds.study_of(
+                    options.study, options.seeds, options.first_seed, options.run_option, options.workers
+                )
+            design = checked_design(source, version_of(program), options.on, options.workers)
             _print_notes(design.notes)
             for job in design.jobs if options.list else ():
                 print(job.key, job.experiment, *(f"{k}={v}" for k, v in job.values.items()))
-            return _check(design, program, options.workers) if options.check else 0
+            return _check(design, program) if options.check else 0
+        if options.seeds is not None:
+            found, summary = seeds.run(options, progress)
+            if shown:
+                print(file=sys.stderr)
+            print(*seeds.lines(summary), sep="\n")
+            return _print_study(found, options.out)
         found = study(
             options.study,
             options.out,
@@ -119,16 +156,27 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
     return _print_study(found, options.out)
 
 
-def _check(design: Any, program: str, asked: int | None) -> int:
-    """Checks all scenes and prints the wrong ones. Returns the exit code."""
-    from macadam.study.checks import wrong_scenes
+def _check(design: Any, program: str) -> int:
+    """Checks all scenes. Prints the predictions for all points, and one message about all wrong scenes. Returns the exit
+    code."""
+    from macadam.study import predictions
+    from macadam.study.checks import check_scenes
     from macadam.study.executors import workers
 
-    wrong = wrong_scenes(design, program, asked or workers({}))
-    for job, message in wrong:
-        print(f"wrong: {job.label}: {message}", file=sys.stderr)
-    print(f"{len(design.jobs)} points, {len(design.results)} scenes checked, {len(wrong)} wrong")
-    return 2 if wrong else 0
+    at_once = workers(design.run)
+    checked = check_scenes(design, program, at_once)
+    print(*predictions.lines(design, checked, at_once), sep="\n")
+    wrong = [one for one in checked if one.message]
+    if not wrong:
+        return 0
+    # a scene that several points share is checked once; its message names one of them
+    print(
+        f"macadam study: {len(wrong)} of {len(checked)} scenes are wrong",
+        *(f"wrong: {one.job.label}: {one.message}" for one in wrong),
+        sep="\n",
+        file=sys.stderr,
+    )
+    return 2
 
 
 def _print_notes(notes: list[str]) -> None:
@@ -155,7 +203,7 @@ def _print_study(found: Any, out: str) -> int:
             f"macadam study: {found.missing} results were not computed: {found.reason}",
             file=sys.stderr,
         )
-    names = [n for n in ("table.csv", "table.parquet", "failures.csv", "report.html") if (found.folder / n).is_file()]
+    names = [n for n in ("summary.json", "table.csv", "table.parquet", "failures.csv", "report.html") if (found.folder / n).is_file()]
     print(
         f"{found.table['key'].nunique() if len(found.table) else 0} results, {failed_results(found.failures)} failed | files in "
         f"{out}: {' '.join(names)}"

@@ -120,8 +120,8 @@ def _count(design: Design) -> str:
     each = (
         "" if numbers == {1} else f", each with {numbers.pop()} seeds" if len(numbers) == 1 else ", with several seeds"
     )
-    return f"{len(seeds)} points{each}" + (
-        f" by {len(experiments)} experiments ({', '.join(experiments)})" if len(experiments) > 1 else ""
+    return f"{len(seeds)} points of the study{each}" + (
+        f", in each of {len(experiments)} experiments ({', '.join(experiments)})" if len(experiments) > 1 else ""
     )
 
 

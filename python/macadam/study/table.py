@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import re
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from macadam._files import write_with
 from macadam.study.design import AT, MEASURED, Design, number_and_unit
 from macadam.study.errors import StudyError
 
@@ -111,13 +111,13 @@ def failed_results(failed: list[dict[str, Any]]) -> int:
 def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> None:
     """Writes table.csv, table.parquet if pyarrow is installed, and failures.csv if there are failures. An error leaves
     no incomplete file."""
-    _write_completely(folder / "table.csv", lambda file: found.to_csv(file, index=False, encoding="utf-8"))
+    write_with(folder / "table.csv", lambda file: found.to_csv(file, index=False, encoding="utf-8"))
     try:
         import pyarrow  # noqa: F401
     except ImportError:
         (folder / "table.parquet").unlink(missing_ok=True)
     else:
-        _write_completely(folder / "table.parquet", lambda file: found.to_parquet(file, index=False))
+        write_with(folder / "table.parquet", lambda file: found.to_parquet(file, index=False))
     if not failed:
         (folder / "failures.csv").unlink(missing_ok=True)
         return
@@ -130,17 +130,7 @@ def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> No
                 values = "; ".join(f"{k} = {v}" for k, v in f["values"].items())
                 writer.writerow([f["key"], f["experiment"], values, f["exit_code"], f["message"]])
 
-    _write_completely(folder / "failures.csv", rows)
-
-
-# Writes to a temporary name and renames the file, which is therefore never incomplete. fill: writes to the given path.
-def _write_completely(file: Path, fill: Any) -> None:
-    part = file.with_name(f".{file.name}.{os.getpid()}.part")
-    try:
-        fill(part)
-        part.replace(file)
-    finally:
-        part.unlink(missing_ok=True)
+    write_with(folder / "failures.csv", rows)
 
 
 def read_json(file: Path) -> dict[str, Any]:
