@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "kernels/quasi_static/contact_accept.hpp"
 #include "macadam/quasi_static.hpp"
 
 namespace macadam::quasi_static {
@@ -22,12 +23,21 @@ using SixBySix = std::array<double, 36>;
 /// Durations of an increment for the law of each pair type [s].
 using LawTimes = std::array<double, pair_types>;
 
-/// Sums over contacts at the end of an increment.
-struct ContactEnergies {
-  double elastic = 0, viscous = 0, crack = 0, friction = 0, crack_work = 0;  ///< [J]
-  double opened = 0, growing = 0;  ///< of points that grew: sum of area times increase of opening [m³], and area [m²]
-  ContactEnergies& operator+=(const ContactEnergies& o);
+using kernels::ContactEnergies;
+
+/// The law of a pair type. Elastic laws are chains without dashpots.
+struct PairLaw {
+  laws::GeneralisedKelvin chain;
+  std::optional<laws::Cracked<laws::GeneralisedKelvin>> cracked;
+
+  kernels::IncrementLaw increment(double dt) const {
+    return kernels::IncrementLaw::of(chain, cracked ? &*cracked : nullptr, dt);
+  }
 };
+using PairLaws = std::array<PairLaw, pair_types>;
+/// Returns the laws of those pair types that occur. \throws InputError for a law without a tangent, and for a contact
+/// that has a crack and rock in series.
+PairLaws pair_laws(const ContactNetwork& network, const LawTable& laws);
 
 class ContactIncrements {
  public:
@@ -67,28 +77,19 @@ class ContactIncrements {
  private:
   using Chain = laws::GeneralisedKelvin;
   using CrackedChain = laws::Cracked<Chain>;
-  /// The law of a pair type. Elastic laws are chains without dashpots.
-  struct PairLaw {
-    Chain chain;
-    std::optional<CrackedChain> cracked;
-    int words = 1;  ///< numbers per component
-    double dt = 0;  ///< duration of the increment for this law [s]
-    Chain::Step<double> step{};
-    std::optional<decltype(CrackedChain{}.increment(1.0))> increment;
-  };
 
   void prepare(std::size_t c);
   void evaluate_linear(std::size_t c, const Six& u);
   void evaluate_points(std::size_t c, const Six& u);
-  /// `before`: memory for the states before the increment.
-  ContactEnergies accept_linear(std::size_t c, const Six& u, std::vector<double>& before);
-  ContactEnergies accept_points(std::size_t c, const Six& u, std::vector<double>& before);
+  ContactEnergies accept_contact(std::size_t c, const Six& u);
   /// Returns the area of the points with a mark that is not 0.
   double area_of(const std::vector<char>& points) const;
-  const PairLaw& law(const Contact& c) const { return laws_[static_cast<std::size_t>(c.pair)]; }
+  const kernels::IncrementLaw& law(const Contact& c) const { return increment_[static_cast<std::size_t>(c.pair)]; }
+  const CrackedChain& cracked(const Contact& c) const { return *laws_[static_cast<std::size_t>(c.pair)].cracked; }
 
   const ContactNetwork& network_;
-  std::array<PairLaw, pair_types> laws_;
+  PairLaws laws_;
+  std::array<kernels::IncrementLaw, pair_types> increment_;  ///< of the present lengths
   bool has_cracks_ = false;
   std::vector<double> states_;
   std::vector<std::size_t> begin_;       ///< of each contact in states_
@@ -107,6 +108,8 @@ class ContactIncrements {
 /// Returns the relative displacements of a contact whose ends move by `a` and `b` (three displacements, three
 /// rotations).
 Six relative(const Contact& c, const double* a, const double* b);
+/// Returns area moments over length, as kernels::LinearContact::moments.
+std::array<double, 6> moments_over_length(const Contact& c);
 /// Returns the load on an end (0: A, 1: B) that does the work of the forces `f`; the contact exerts its negative.
 Six load_on(const Contact& c, const Six& f, int end);
 /// Returns the derivatives of the relative displacements with respect to the motion of an end, [6][6] row by row.

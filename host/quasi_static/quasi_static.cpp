@@ -23,6 +23,19 @@ double sum_of(const QuasiStaticEnergies& e) {
   return std::max({std::abs(e.work_j), std::abs(e.thermal_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j)});
 }
 
+std::unique_ptr<quasi_static::Engine> make_engine(const Specimen& specimen, const ContactNetwork& network,
+                                                  const LawTable& laws, const QuasiStaticOptions& options) {
+  if (options.backend == Backend::reference)
+    throw InputError("quasi-static: found backend reference, expected cpu, cuda or auto");
+  if (!options.expansion.empty() && options.expansion.size() != network.contacts.size())
+    throw InputError("quasi-static: found expansions of " + std::to_string(options.expansion.size()) +
+                     " contacts, expected " + std::to_string(network.contacts.size()));
+  const bool only_cpu = options.backend == Backend::automatic && !options.expansion.empty();
+  const bool on_device = !only_cpu && select_backend(options.backend, nullptr, options.devices) == Backend::cuda;
+  return (on_device ? quasi_static::make_device_engine : quasi_static::make_cpu_engine)(specimen, network, laws,
+                                                                                        options);
+}
+
 }  // namespace
 
 double QuasiStaticEnergies::imbalance() const {
@@ -40,20 +53,15 @@ struct QuasiStatic::Parts {
         const QuasiStaticOptions& options)
       : network(network),
         particles(specimen.size()),
-        expansion(options.expansion),
-        newton(specimen, network, laws, options),
-        motions(particles) {
-    displacement.assign(6 * particles, 0.0);
-  }
+        newton(make_engine(specimen, network, laws, options), options),
+        motions(particles) {}
 
   const ContactNetwork& network;
   std::size_t particles;
-  std::vector<double> expansion;  ///< as QuasiStaticOptions::expansion
   Newton newton;
-  // The accepted state
+  // The accepted state; the engine has the states of particles and contacts
   double time = 0, scale = 0;
-  std::vector<double> displacement;  ///< [6·particles]
-  std::array<Vec3d, wall_count> wall{}, reaction{};
+  quasi_static::Walls wall{}, reaction{};
   MotionGuess motions;
   QuasiStaticEnergies energies;
   double last_opening = 0;
@@ -61,9 +69,11 @@ struct QuasiStatic::Parts {
   Trial trial;
   WallIncrement increment;
   bool solved = false;
-  std::array<Vec3d, wall_count> shown_force{}, shown_wall{};
+  quasi_static::Walls shown_force{}, shown_wall{};
 
-  void show(const std::array<Vec3d, wall_count>& at, const std::array<Vec3d, wall_count>& held) {
+  quasi_static::Engine& engine() { return newton.engine(); }
+
+  void show(const quasi_static::Walls& at, const quasi_static::Walls& held) {
     shown_wall = at;
     for (std::size_t w = 0; w < wall_count; ++w) shown_force[w] = -held[w];
   }
@@ -77,7 +87,7 @@ struct QuasiStatic::Parts {
     if (solved) {
       auto at = wall;
       for (std::size_t w = 0; w < wall_count; ++w) at[w] += trial.wall[w];
-      show(at, trial.reaction);
+      show(at, trial.sums.reaction);
     } else {
       show(wall, reaction);
     }
@@ -85,58 +95,50 @@ struct QuasiStatic::Parts {
   }
 
   void start(const StartState& state) {
-    auto& contacts = newton.contacts();
+    const auto& contacts = engine().contacts();
     if (contacts.has_cracks() || state.chain.size() != contacts.states().size() ||
         state.displacement.size() != particles || state.rotation.size() != particles)
       throw InputError("quasi-static: found a state of motion with " + std::to_string(state.chain.size()) +
                        " numbers of contacts and " + std::to_string(state.displacement.size()) +
                        " particles, expected " + std::to_string(contacts.states().size()) + " and " +
                        std::to_string(particles) + ", and laws without cracks");
+    quasi_static::EngineState to{quasi_static::Vector(6 * particles), state.chain, contacts.grew()};
     for (std::size_t i = 0; i < particles; ++i) {
       const Vec3d &u = state.displacement[i], &r = state.rotation[i];
       const double six[6] = {u.x, u.y, u.z, r.x, r.y, r.z};
-      std::copy(six, six + 6, &displacement[6 * i]);
+      std::copy(six, six + 6, &to.displacement[6 * i]);
     }
-    contacts.set_states(state.chain, contacts.grew());
+    engine().set_state(std::move(to));
+    const auto& started = engine().contacts();
     reaction.fill({});
     for (std::size_t c = 0; c < network.contacts.size(); ++c) {
       const Contact& contact = network.contacts[c];
       if (contact.b >= 0) continue;
-      const Six load = quasi_static::load_on(contact, contacts.accepted_force(c), 1);
+      const Six load = quasi_static::load_on(contact, started.accepted_force(c), 1);
       reaction[wall_index(contact.b)] += Vec3d{load[0], load[1], load[2]};
     }
     show(wall, reaction);
   }
 
-  /// Returns the work of the contacts' forces against the expansion of the increment that is to be accepted [J].
-  double thermal_work() const {
-    if (expansion.empty() || increment.warming == 0) return 0;
-    const auto& contacts = newton.contacts();
-    return sum_in_parallel<double>(expansion.size(), [&](std::size_t c) {
-      const double mean = 0.5 * (contacts.accepted_force(c)[0] + contacts.force(c)[0]);
-      return -mean * expansion[c] * increment.warming;
-    });
-  }
-
   void accept() {
     if (!solved) throw RunError("quasi-static: accept() needs an increment that has converged");
-    energies.thermal_j += thermal_work();
-    const quasi_static::ContactEnergies sums = newton.contacts().accept(trial.relative);
+    energies.thermal_j += engine().thermal_work(increment.warming);
+    const quasi_static::ContactEnergies sums = engine().accept();
     for (std::size_t w = 0; w < wall_count; ++w) {
-      energies.work_j += 0.5 * dot(reaction[w] + trial.reaction[w], trial.wall[w]);
+      energies.work_j += 0.5 * dot(reaction[w] + trial.sums.reaction[w], trial.wall[w]);
       wall[w] += trial.wall[w];
     }
-    reaction = trial.reaction;
+    reaction = trial.sums.reaction;
     energies.elastic_j = sums.elastic;
     energies.viscous_j += sums.viscous;
     energies.crack_j = sums.crack;
     energies.friction_j = sums.friction;
     energies.crack_work_j += sums.crack_work;
     last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
-    for_each_of(displacement.size(), [&](std::size_t i) { displacement[i] += trial.motion[i]; });
+    trial.motion = engine().motion();
     motions.accept(increment, trial, last_opening);
     time += increment.dt;
-    scale = std::max(scale, trial.scale);
+    scale = std::max(scale, trial.sums.scale);
     solved = false;
   }
 };
@@ -156,20 +158,19 @@ void QuasiStatic::reject() {
 }
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_force() const { return parts_->shown_force; }
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_displacement() const { return parts_->shown_wall; }
-double QuasiStatic::growing_area() const { return parts_->newton.contacts().growing_part(); }
+double QuasiStatic::growing_area() const { return parts_->engine().growing_part(); }
 double QuasiStatic::last_opening() const { return parts_->last_opening; }
 double QuasiStatic::time() const { return parts_->time; }
 const QuasiStaticEnergies& QuasiStatic::energies() const { return parts_->energies; }
-std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->newton.contacts().point_cracks(); }
-std::vector<Break> QuasiStatic::point_breaks() const { return parts_->newton.contacts().point_breaks(); }
-std::int64_t QuasiStatic::bytes() const { return parts_->newton.bytes(); }
-std::string QuasiStatic::description() const {
-  return std::string("quasi-static, cpu, double, ") + parts_->newton.solver_name();
-}
+std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->engine().point_cracks(); }
+std::vector<Break> QuasiStatic::point_breaks() const { return parts_->engine().point_breaks(); }
+std::optional<experiments::CrackSurvey> QuasiStatic::survey_cracks() const { return parts_->engine().survey_cracks(); }
+std::int64_t QuasiStatic::bytes() const { return parts_->engine().bytes(); }
+std::string QuasiStatic::description() const { return "quasi-static, " + parts_->engine().description(); }
 
 ParticleState QuasiStatic::particles() const {
   ParticleState out;
-  const std::vector<double>& u = parts_->displacement;
+  const std::vector<double> u = parts_->engine().displacement();
   out.displacement.resize(parts_->particles), out.rotation.resize(parts_->particles);
   for_each_of(parts_->particles, [&](std::size_t i) {
     out.displacement[i] = {u[6 * i], u[6 * i + 1], u[6 * i + 2]};
@@ -182,9 +183,9 @@ ParticleState QuasiStatic::particles() const {
 
 ContactState QuasiStatic::contacts() const {
   ContactState out;
-  const auto& contacts = parts_->newton.contacts();
+  const auto& contacts = parts_->engine().contacts();
   const auto& network = parts_->network;
-  const std::vector<double>& u = parts_->displacement;
+  const std::vector<double> u = parts_->engine().displacement();
   out.point_breaks = contacts.point_breaks();
   out.point_cracks = contacts.point_cracks();
   const std::size_t n = network.contacts.size();
@@ -229,13 +230,13 @@ std::vector<StateArray> QuasiStatic::state() const {
   numbers.insert(numbers.end(),
                  {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j, e.thermal_j});
   numbers.push_back(p.newton.friction_matters() ? 1.0 : 0.0);
-  const std::vector<char>& grew = p.newton.contacts().grew();
+  quasi_static::EngineState own = p.newton.engine().state();
   return {{"quasi_static", "s, 1, m, 1, s, m, m, s, m, m, m, N, J, 1", std::move(numbers)},
-          {"displacement", "m, 1", p.displacement},
+          {"displacement", "m, 1", std::move(own.displacement)},
           {"motion", "m, 1", last.motion},
           {"motion_before", "m, 1", before.motion},
-          {"contacts", "Pa m, m", p.newton.contacts().states()},
-          {"growing", "1", std::vector<std::int64_t>(grew.begin(), grew.end())}};
+          {"contacts", "Pa m, m", std::move(own.states)},
+          {"growing", "1", std::vector<std::int64_t>(own.grew.begin(), own.grew.end())}};
 }
 
 void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
@@ -269,9 +270,8 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5],
   e.thermal_j = numbers[at + 6];
   p.newton.set_friction_matters(numbers[at + 7] != 0);
-  p.displacement = doubles(1);
   const auto& grew = std::get<std::vector<std::int64_t>>(found[5]->values);
-  p.newton.contacts().set_states(doubles(4), {grew.begin(), grew.end()});
+  p.engine().set_state({doubles(1), doubles(4), {grew.begin(), grew.end()}});
   p.solved = false;
   p.show(p.wall, p.reaction);
 }

@@ -41,6 +41,8 @@ class QuasiStaticStepper : public Stepper {
   /// Calls f after each increment, with the observation at its end.
   void after_each(std::function<void(const Observation&)> f) { after_each_ = std::move(f); }
   const quasi_static::CourseReport& report() const { return increments_.report(); }
+  /// As QuasiStatic::survey_cracks().
+  std::optional<experiments::CrackSurvey> survey_cracks() const { return increments_.network().survey_cracks(); }
   const QuasiStaticEnergies& energies() const { return increments_.network().energies(); }
 
  private:

@@ -21,6 +21,20 @@ class TangentMatrix {
   /// Computes all blocks. `symmetric`: of the symmetric part of the contacts' stiffnesses.
   void assemble(const ContactIncrements& contacts, bool symmetric);
   bool is_symmetric() const { return symmetric_; }
+  /// Takes blocks that another processor has assembled: the diagonal block of each row and then its other blocks in the
+  /// order of ContactNetwork::row(), each of them [6][6] column by column. first(particle): number of the first block
+  /// of a row. The top column is not known then.
+  template <class F>
+  void set(const std::vector<double>& numbers, bool symmetric, F&& first) {
+    symmetric_ = symmetric;
+    for (std::size_t i = 0; i < particles(); ++i) {
+      const auto block = [&, from = &numbers[36 * first(i)]](std::size_t k) {
+        return Eigen::Map<const Eigen::Matrix<double, 6, 6>>(from + 36 * k);
+      };
+      diagonal_[i] = block(0);
+      for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) blocks_[k] = block(1 + k - begin_[i]);
+    }
+  }
 
   std::size_t particles() const { return diagonal_.size(); }
   const Block& diagonal(std::size_t particle) const { return diagonal_[particle]; }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tangent_solver.hpp  Declares the linear solvers of Newton's method. A solver on a device would implement the
-/// same interface.
+/// \file tangent_solver.hpp  Declares the linear solvers of Newton's method on the CPU.
 #pragma once
 
 #include <memory>

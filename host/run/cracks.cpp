@@ -122,6 +122,22 @@ std::vector<CrackEvent> CrackWatch::look(const ContactState& state, double time)
   return out;
 }
 
+std::vector<CrackEvent> CrackWatch::look(const experiments::CrackSurvey& survey, double time) {
+  std::vector<CrackEvent> out;
+  for (CrackEvent event : survey.broken) {
+    if (broken_[event.point]) continue;
+    event.time_s = time;
+    out.push_back(event);
+    add(event);
+  }
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    found_.by_pair[pair].cracked = survey.cracked[pair];
+    found_.by_pair[pair].cracked_area_m2 = survey.sums.cracked_area_m2[pair];
+  }
+  found_.sums = survey.sums;
+  return out;
+}
+
 void CrackWatch::sum(const std::vector<laws::PointCrack>& cracks) {
   const auto all =
       sum_of_pieces<PieceSums>(network_.contacts.size(), contacts_at_once, [&](std::size_t from, std::size_t to) {

@@ -38,6 +38,7 @@ class CrackWatch {
   /// Adds an event for each point that has broken since the last call. Returns the events of this call. `state`: the
   /// present state, from read_contact_state().
   std::vector<experiments::CrackEvent> look(const ContactState& state, double time);
+  std::vector<experiments::CrackEvent> look(const experiments::CrackSurvey& survey, double time);
   /// Returns whether contacts with at least one intact point join the top wall to the bottom wall or to a wall at the
   /// sides. Returns true also if the walls were not joined when the test began. All processes of a run must call this
   /// together.

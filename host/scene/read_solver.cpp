@@ -56,7 +56,7 @@ DeviceList read_devices(const Value& value, int most) {
 /// Refuses the keys that apply only to time steps, in a scene that is solved by increments. \throws InputError
 void refuse_steps(const Section& section) {
   for (const char* key :
-       {"density_scaling", "safety", "time_step", "damping_kind", "damping", "form", "inertia", "linear", "device"}) {
+       {"density_scaling", "safety", "time_step", "damping_kind", "damping", "form", "inertia", "linear"}) {
     if (const auto value = section.find(key))
       section.refuse(key, value->shown() + " with method \"quasi_static\"",
                      "no such key, because increments have no inertia and no time step; or method = \"explicit\"");
@@ -68,7 +68,8 @@ void refuse_steps(const Section& section) {
   };
   only("geometry", "fixed");
   only("precision", "double");
-  only("backend", "cpu");
+  if (const auto value = section.find("backend"); value && value->shown() == "\"reference\"")
+    section.refuse("backend", value->shown() + " with method \"quasi_static\"", "\"auto\", \"cpu\" or \"cuda\"");
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ Forecast forecast(const Scene& scene) {
   const ThreadLimit threads(scene.solver.threads);
   const Cost cost;
   Forecast out;
-  out.backend = select_backend(requested_backend(scene.solver), &out.reason, scene.solver.devices);
+  out.backend = select_backend(requested_backend(scene), &out.reason, scene.solver.devices);
   out.threads = scene.solver.threads > 0 ? scene.solver.threads : report_backends().threads;
   out.census = count_specimen(scene.specimen);
   checked_notches(scene.specimen.box, scene.network.notches);

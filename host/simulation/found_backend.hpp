@@ -6,6 +6,7 @@
 #include <future>
 
 #include "host/backends/choose_devices.hpp"
+#include "host/simulation/refused_combinations.hpp"
 #include "macadam/simulation.hpp"
 
 namespace macadam {
@@ -16,8 +17,10 @@ class FoundBackend {
  public:
   /// Begins to look for the backend, and waits for the result for at most `wait`. \throws as select_backend(), if the
   /// search fails within that time. That a device exists but cannot be used may become known only later.
-  FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(requested_backend(solver)) {
-    const auto select = [solver] { return select_backend(requested_backend(solver), nullptr, solver.devices); };
+  FoundBackend(const Scene& scene, std::chrono::milliseconds wait) : asked_(requested_backend(scene)) {
+    const auto select = [asked = asked_, devices = scene.solver.devices] {
+      return select_backend(asked, nullptr, devices);
+    };
     if (asked_ == Backend::cuda || asked_ == Backend::automatic) {
       waking_ = std::async(select);  // runs in this thread if no other thread can be started
       waking_.wait_for(wait);

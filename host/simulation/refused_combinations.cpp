@@ -39,6 +39,12 @@ void require_volumetric(const Scene& scene) {
 
 }  // namespace
 
+Backend requested_backend(const Scene& scene) {
+  const bool on_cpu =
+      scene.solver.method == SolverMethod::quasi_static && !temperature_history_of(scene.experiment).empty();
+  return on_cpu && scene.solver.backend == Backend::automatic ? Backend::cpu : scene.solver.backend;
+}
+
 void require_combination(const Scene& scene) {
   if (!scene.specimen.box.has_uniform_section()) require_uniform_section(scene);
   if (scene.network.rule == ContactRule::volumetric) require_volumetric(scene);
@@ -72,8 +78,12 @@ void require_combination(const Scene& scene) {
     };
     if (stepping_of(scene.experiment) == experiments::Stepping::never)
       refuse("kind", kind_of(scene.experiment), "\"cyclic\", \"monotonic\", \"relaxation\", \"creep\" or \"history\"");
-    if (scene.solver.backend == Backend::cuda || scene.solver.backend == Backend::reference)
-      refuse("backend", to_string(scene.solver.backend), "cpu");
+    if (scene.solver.backend == Backend::reference) refuse("backend", "reference", "auto, cpu or cuda");
+    if (scene.solver.backend == Backend::cuda && !temperature_history_of(scene.experiment).empty())
+      refuse("backend", "cuda and a temperature that changes",
+             "auto or cpu, because no GPU computes thermal expansion");
+    if (scene.solver.devices.size() > 1)
+      refuse("device", to_string(scene.solver.devices), "one device, because several cannot share such a test");
     if (scene.solver.precision.value_or(Precision::double_) != Precision::double_)
       refuse("precision", to_string(*scene.solver.precision), "double");
     if (scene.solver.inertia)

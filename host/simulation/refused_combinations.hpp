@@ -10,4 +10,8 @@ namespace macadam {
 /// \throws InputError naming the scene, the settings that exclude each other, and settings that are possible.
 void require_combination(const Scene& scene);
 
+/// Returns the backend that the scene asks for. Backend "auto" is the CPU if the temperature changes during the test,
+/// because devices do not compute thermal expansion.
+Backend requested_backend(const Scene& scene);
+
 }  // namespace macadam

@@ -16,6 +16,7 @@
 
 #include "host/run/checkpoints.hpp"
 #include "host/simulation/device_shares.hpp"
+#include "host/simulation/refused_combinations.hpp"
 #include "host/simulation/run_scene.hpp"
 #include "host/backends/cuda_code.hpp"
 #include "macadam/error.hpp"
@@ -59,7 +60,7 @@ void require_folders_differ(const std::vector<SceneJob>& jobs) {
 /// second, only if a scene may use one.
 DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   const auto may = [](const SceneJob& job) {
-    const Backend backend = requested_backend(job.scene.solver);
+    const Backend backend = requested_backend(job.scene);
     return backend == Backend::cuda || backend == Backend::automatic;
   };
   if (std::ranges::none_of(jobs, may)) return {};

@@ -119,7 +119,7 @@ class SceneRun {
   /// Looks for the backend, locks the folder and reads the checkpoint.
   void begin() {
     const InPhase starting(start_, &PhaseSeconds::start);
-    backend_.emplace(scene_.solver, parts_.place ? std::chrono::milliseconds(0) : none_is_known_within);
+    backend_.emplace(scene_, parts_.place ? std::chrono::milliseconds(0) : none_is_known_within);
     if (resume_) require_resumable(scene_);
     folder_.emplace(out_);
     if (!resume_) return;
@@ -168,7 +168,7 @@ class SceneRun {
     std::string decision;
     if (parts_.place) {
       parts_.place(scene_.solver);
-    } else if (is_stepped() && scene_.solver.devices.empty()) {
+    } else if (scene_.solver.method == SolverMethod::explicit_ && scene_.solver.devices.empty()) {
       scene_.solver.devices = choose_devices(prepared().network.contacts.size(), decision);
     }
     return decision.empty() ? std::vector<std::string>{} : std::vector{decision};

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "macadam/backend.hpp"
+#include "macadam/experiments/cracks.hpp"
 #include "macadam/experiments/energies.hpp"
 #include "macadam/stepper.hpp"
 
@@ -23,6 +25,10 @@ struct QuasiStaticOptions {
   int passes = 25;
   /// Systems with at most this number of unknowns are solved by factors of their matrix, larger ones by iterations.
   std::size_t direct_below = 6000;
+  /// The processor that computes: the CPU, or one CUDA device.
+  Backend backend = Backend::cpu;
+  /// The CUDA device; empty: the first one.
+  DeviceList devices = {};
   /// Opening of each contact per kelvin in a specimen that expands freely, as free_openings() returns it [m/K]; empty:
   /// temperature causes no expansion.
   std::vector<double> expansion = {};
@@ -71,7 +77,8 @@ struct QuasiStaticEnergies : experiments::Energies {
 class QuasiStatic {
  public:
   /// Starts from the undeformed state. Specimen and network must outlive this object. \throws InputError for a law that
-  /// is neither linear nor a linear law with a crack (brittle_bond), naming the pair and the law.
+  /// is neither linear nor a linear law with a crack (brittle_bond), naming the pair and the law, for the backend
+  /// reference, and for several devices; RunError for a device that cannot run, or has too little memory.
   QuasiStatic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
               const QuasiStaticOptions& options = {});
   ~QuasiStatic();
@@ -111,6 +118,9 @@ class QuasiStatic {
   /// Cracks, and breaks, of all points in the accepted state, network order.
   std::vector<laws::PointCrack> point_cracks() const;
   std::vector<Break> point_breaks() const;
+  /// Returns the cracks of the accepted state in short if a device has the states; point_cracks() would copy all of
+  /// them. Empty on the CPU.
+  std::optional<experiments::CrackSurvey> survey_cracks() const;
 
   /// Everything that accept() changes, as for Stepper::state().
   std::vector<StateArray> state() const;

@@ -101,12 +101,6 @@ struct SolverSpec {
   bool inertia = false;                           ///< harmonic only: include −ω²M, multiplied by density_scaling
 };
 
-/// Returns the backend that the scene asks for; increments without inertia are computed by the CPU.
-inline Backend requested_backend(const SolverSpec& solver) {
-  const bool on_cpu = solver.method == SolverMethod::quasi_static && solver.backend == Backend::automatic;
-  return on_cpu ? Backend::cpu : solver.backend;
-}
-
 /// The section `[output]` of a scene.
 struct OutputSpec {
   bool contacts = false;       ///< write contacts.csv

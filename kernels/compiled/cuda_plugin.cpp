@@ -22,8 +22,8 @@ std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& ne
   }
 }
 
-constexpr CudaCode code{report_cuda_devices, cuda_refusal,           cuda_idle_beside, make,
-                        make_device_solver,  kernels::measure_device};
+constexpr CudaCode code{report_cuda_devices, cuda_refusal,           cuda_idle_beside,       make,
+                        make_device_solver,  make_device_increments, kernels::measure_device};
 
 }  // namespace
 

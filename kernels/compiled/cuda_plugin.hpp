@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kernels/harmonic/linear_system.hpp"
+#include "kernels/quasi_static/increment_system.hpp"
 #include "macadam/backend.hpp"
 #include "macadam/stepper.hpp"
 
@@ -27,6 +28,8 @@ struct CudaCode {
   /// to the first body whose own stiffness is singular, else −1. \throws RunError if a device has too little memory.
   std::unique_ptr<DeviceSolver> (*make_solver)(const LinearSystem& system, const DeviceList& devices,
                                                std::int64_t& singular_body);
+  /// Makes the operations of quasi-static increments on a device; see make_device_increments().
+  std::unique_ptr<DeviceIncrements> (*make_increments)(const IncrementSystem& system, int device);
   /// Measures the bandwidths and the clock of a device.
   DeviceSpeed (*measure)(int device);
 };
@@ -40,6 +43,6 @@ struct CudaPlugin {
 };
 
 /// Version of the interface; increases with every change of CudaCode, or of the types in its functions.
-inline constexpr int cuda_interface = 8;
+inline constexpr int cuda_interface = 9;
 
 }  // namespace macadam::kernels

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/simulation/refused_combinations.hpp"
 #include "tests/support/test_files.hpp"
 #include "tests/support/test_folder.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -136,6 +137,11 @@ TEST_F(ThermalScene, ChoosesIncrementsAndRefusesOtherMethods) {
   EXPECT_EQ(scene(text(restrained + cooling)).solver.method, SolverMethod::quasi_static);
   EXPECT_HAS(refusal(text(restrained + cooling, "[solver]\nmethod = \"harmonic\"\n")), "quasi_static");
   EXPECT_HAS(refusal(text(restrained + cooling, "[solver]\nmethod = \"explicit\"\n")), "quasi_static");
+  const Scene on_device =
+      scene(text(restrained + cooling, "[solver]\nbackend = \"cuda\"\nmethod = \"quasi_static\"\n"));
+  EXPECT_HAS(message_of([&] { require_combination(on_device); }), "no GPU computes thermal expansion");
+  const Scene automatic = scene(text(restrained + cooling, "[solver]\nbackend = \"auto\"\n"));
+  EXPECT_EQ(requested_backend(automatic), Backend::cpu);
 }
 
 TEST_F(ThermalScene, RefusesTemperaturesThatDoNotFit) {

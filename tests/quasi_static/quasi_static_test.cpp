@@ -10,34 +10,27 @@
 #include "macadam/drives/constant_rate.hpp"
 #include "macadam/quasi_static.hpp"
 #include "macadam/spectrum.hpp"
-#include "tests/support/test_scenes.hpp"
+#include "tests/support/cracking_t8.hpp"
 
 namespace macadam::test {
 namespace {
 
-constexpr double height = 0.011, area = 64e-6;  ///< of the specimen t8 [m], [m²]
+constexpr double height = t8_height, area = t8_area;
 constexpr std::size_t driven = wall_index(wall_z_hi);
-
-template <class Chain>
-Law cracked(const Chain& chain, double strength, double energy, double ratio, double friction) {
-  return laws::Cracked<Chain>{chain, {strength, energy, ratio * strength, energy, friction, friction}};
-}
-
-/// Returns the specimen t8 with cracks in mastic and at aggregates. The shear strengths are 1.5 times the tensile ones.
-TestScene cracking_t8() {
-  Laws laws = am1_laws();
-  const auto chain = [&](PairType pair) {
-    return std::get<laws::GeneralisedKelvin>(*laws[static_cast<std::size_t>(pair)]);
-  };
-  laws[static_cast<std::size_t>(PairType::mm)] = cracked(chain(PairType::mm), 1e6, 50, 1.5, 0.5);
-  laws[static_cast<std::size_t>(PairType::ma)] = cracked(chain(PairType::ma), 0.8e6, 40, 1.5, 0.5);
-  laws[static_cast<std::size_t>(PairType::aa)] = cracked(laws::Elastic{1.151e11, 0.05}, 2e6, 60, 1.5, 0.6);
-  return make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}}), {}, laws);
-}
 
 QuasiStatic quasi_static(const TestScene& scene, const QuasiStaticOptions& options = {}) {
   return {scene.specimen, scene.network, scene.laws, options};
 }
+QuasiStaticOptions on(Backend backend) {
+  QuasiStaticOptions out;
+  out.backend = backend;
+  return out;
+}
+
+/// Tests that run on the CPU and, if there is one, on a device.
+class QuasiStaticOn : public testing::TestWithParam<Backend> {};
+INSTANTIATE_TEST_SUITE_P(Backends, QuasiStaticOn, testing::ValuesIn(tested_backends()),
+                         [](const auto& info) { return std::string(to_string(info.param)); });
 
 double stress(const QuasiStatic& q) { return -q.wall_force()[driven].z / area; }
 
@@ -120,29 +113,15 @@ TEST(QuasiStaticSpecimen, ClosesAndOpensAgain) {
   }
 }
 
-/// Returns a bar of cubes along z with the middle contact as the weakest.
-TestScene bar(int facets) {
-  HandMade made = cubic_lattice_network(1, 1, facets, 2e-3, 1e-5);
-  Laws laws;
-  laws.fill(laws::Elastic{1e10, 0});
-  laws[static_cast<std::size_t>(PairType::mm)] = cracked(laws::Elastic{1e10, 0.1}, 2e6, 60, 1.5, 0);
-  laws[static_cast<std::size_t>(PairType::ma)] = cracked(laws::Elastic{1e10, 0.1}, 1.96e6, 60, 1.5, 0);
-  std::size_t weak = made.network.contacts.size() / 2;
-  while (made.network.contacts[weak].b < 0) weak = (weak + 1) % made.network.contacts.size();
-  made.network.contacts[weak].pair = PairType::ma;
-  --made.network.count[static_cast<std::size_t>(PairType::mm)];
-  ++made.network.count[static_cast<std::size_t>(PairType::ma)];
-  return {made.specimen, made.network, laws, made.inertia};
-}
-
 // The weakest facet takes G_f·A, and nothing else is damaged, for any length of the bar.
-TEST(QuasiStaticBar, TakesTheFractureEnergy) {
+TEST_P(QuasiStaticOn, TakesTheFractureEnergyOfABar) {
   for (const int facets : {2, 4, 8}) {
-    const TestScene scene = bar(facets);
+    const TestScene scene = cracking_bar(facets);
     quasi_static::CourseOptions options;
     options.drive = std::make_shared<drives::ConstantRate>(1e-4, 1e-6, 1);  // the crack is separated at 6.1e-5 m
     options.height = facets * 2e-3, options.area = 4e-6, options.grows = true;
     options.stops = {1'000'000}, options.first = 100;
+    options.solver = on(GetParam());
     quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
     while (increments.step() < options.stops.back()) increments.advance();
     const QuasiStatic& q = increments.network();
@@ -212,9 +191,9 @@ TEST(QuasiStaticSolvers, Agree) {
 }
 
 // The top wall carries the given load, at once and while the specimen creeps.
-TEST(QuasiStaticLinear, CarriesALoad) {
+TEST_P(QuasiStaticOn, CarriesALoad) {
   const TestScene scene = make_scene(random_specimen(4));
-  QuasiStatic q = quasi_static(scene);
+  QuasiStatic q = quasi_static(scene, on(GetParam()));
   double before = 0;
   for (int k = 0; k < 5; ++k) {
     WallIncrement next;
@@ -232,7 +211,7 @@ TEST(QuasiStaticLinear, CarriesALoad) {
 
 // A constant rate, and a linear specimen: the stress is that of the relaxation modulus. The tolerance of the increments
 // is 1e-4, that of the spectrum 1e-5.
-TEST(QuasiStaticLinear, FollowsTheRelaxationOfTheSpecimen) {
+TEST_P(QuasiStaticOn, FollowsTheRelaxationOfTheSpecimen) {
   const TestScene scene = make_scene(random_specimen(4));
   SpectrumOptions spectrum;
   spectrum.shortest = 0.01, spectrum.longest = 10, spectrum.tolerance = 1e-5;
@@ -244,6 +223,7 @@ TEST(QuasiStaticLinear, FollowsTheRelaxationOfTheSpecimen) {
   options.height = size.z, options.area = size.x * size.y;
   options.grows = true, options.tolerance = 1e-4, options.first = 100;
   options.stops = {1000, 10'000, 100'000, 1'000'000};
+  options.solver = on(GetParam());
   quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
   for (const std::int64_t stop : options.stops) {
     while (increments.step() < stop) increments.advance();
@@ -294,16 +274,13 @@ TEST(QuasiStaticSpecimen, EstimatesTheErrorOfItsIncrements) {
 
 // After a fall of stress for which no equilibrium exists at a larger displacement of the wall, the opening of cracks
 // controls the test, and the displacement decreases.
-TEST(QuasiStaticSpecimen, FollowsSnapBack) {
-  Laws laws = am1_laws();
-  laws[static_cast<std::size_t>(PairType::mm)] = cracked(laws::Elastic{1.115e10, 0.1}, 1e6, 1.5, 1, 0.5);
-  laws[static_cast<std::size_t>(PairType::ma)] = cracked(laws::Elastic{3.511e10, 0.1}, 0.8e6, 1, 1, 0.5);
-  laws[static_cast<std::size_t>(PairType::aa)] = cracked(laws::Elastic{1.151e11, 0.05}, 2e6, 1.5, 1, 0.5);
-  const TestScene scene = make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}}), {}, laws);
+TEST_P(QuasiStaticOn, FollowsSnapBack) {
+  const TestScene scene = brittle_t8();
   quasi_static::CourseOptions options;
   options.drive = std::make_shared<drives::ConstantRate>(height, 1e-9, 1e-3);
   options.height = height, options.area = area, options.grows = true;
   options.stops = {1'000'000};
+  options.solver = on(GetParam());
   quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
   double peak = 0, furthest = 0, least = 1, last = 1;
   while (increments.report().by_opening < 200 && (last > 0.14e6 || peak < 0.14e6)) {

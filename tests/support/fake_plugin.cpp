@@ -86,7 +86,7 @@ std::unique_ptr<DeviceSolver> make_solver(const LinearSystem&, const DeviceList&
   throw RunError("the device of paper has no solver for the frequency domain");
 }
 
-constexpr CudaCode code{report, refusal, nullptr, make, make_solver, nullptr};
+constexpr CudaCode code{report, refusal, nullptr, make, make_solver, nullptr, nullptr};
 
 }  // namespace
 

@@ -48,7 +48,6 @@ class CyclicSteps : public PlannedExperiment {
   bool is_quasi_static() const;
   /// Makes the increments of a frequency.
   std::unique_ptr<Stepper> make_increments(std::size_t i, const std::vector<StateArray>& from, RunResult& result);
-
   /// Makes the stepper of a frequency. If there is a stepper of another frequency, reuses its data. At this point the
   /// run may move to other devices (GPUs).
   std::unique_ptr<Stepper> make(std::size_t i, const std::vector<StateArray>& from, RunResult& result);

@@ -105,8 +105,10 @@ Plan make_increment_plan(const Scene& asked, const Preparation& prepared, const 
 
 std::unique_ptr<QuasiStaticStepper> make_cycle_increments(const Scene& scene, const Preparation& prepared,
                                                           const Plan& plan, const FrequencyPlan& frequency,
-                                                          const std::vector<StateArray>& state) {
+                                                          const std::vector<StateArray>& state, Backend backend) {
   quasi_static::CourseOptions options;
+  options.solver.backend = backend;
+  if (backend == Backend::cuda) options.solver.devices = scene.solver.devices;
   options.height = gauge_length(prepared.specimen);
   options.area = section_area(prepared.specimen);
   const double tolerance = scene.solver.tolerance.value_or(usual_increment_tolerance);

@@ -14,8 +14,9 @@ Plan make_increment_plan(const Scene& scene, const Preparation& prepared, const 
                          const Watcher& watcher, Backend backend, PhaseSeconds& phases);
 
 /// Returns a stepper for a frequency. It continues from `state`, the state in a checkpoint, unless that is empty.
+/// `backend`: cpu or cuda.
 std::unique_ptr<QuasiStaticStepper> make_cycle_increments(const Scene& scene, const Preparation& prepared,
                                                           const Plan& plan, const FrequencyPlan& frequency,
-                                                          const std::vector<StateArray>& state);
+                                                          const std::vector<StateArray>& state, Backend backend);
 
 }  // namespace macadam

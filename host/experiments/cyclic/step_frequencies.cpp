@@ -143,11 +143,10 @@ bool CyclicSteps::is_quasi_static() const { return scene_.solver.method == Solve
 std::unique_ptr<Stepper> CyclicSteps::make_increments(std::size_t i, const std::vector<StateArray>& from,
                                                       RunResult& result) {
   const InPhase in(result.phases, &PhaseSeconds::stepper);
-  auto made = make_cycle_increments(scene_, prepared_, at_.plan, at_.plan.frequencies[i], from);
+  auto made = make_cycle_increments(scene_, prepared_, at_.plan, at_.plan.frequencies[i], from, result.backend);
   increments_ = made.get();
   return made;
 }
-
 std::unique_ptr<Stepper> CyclicSteps::make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
   if (is_quasi_static()) return make_increments(i, from, result);
   const InPhase in(result.phases, &PhaseSeconds::stepper);

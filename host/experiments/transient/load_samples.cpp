@@ -44,8 +44,14 @@ void SteppedLoad::follow_peak(const Observation& now) {
 }
 
 std::vector<experiments::CrackEvent> SteppedLoad::read_cracks(double time) {
-  read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
-  auto events = cracks_.look(contact_state_, time);
+  const auto survey = quasi_static_ && cracks_.sums() ? quasi_static_->survey_cracks() : std::nullopt;
+  if (quasi_static_ && !survey) {  // its energies need no states of contacts
+    contact_state_.point_breaks = stepper_->point_breaks(prepared_.network);
+    contact_state_.point_cracks = stepper_->point_cracks(prepared_.network);
+  } else if (!survey) {
+    read_contact_state(scene_, *stepper_, prepared_.network, contact_state_);
+  }
+  auto events = survey ? cracks_.look(*survey, time) : cracks_.look(contact_state_, time);
   at_.cracks.insert(at_.cracks.end(), events.begin(), events.end());
   return events;
 }

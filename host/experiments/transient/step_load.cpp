@@ -70,7 +70,7 @@ void SteppedLoad::make(RunResult& result, const std::filesystem::path& checkpoin
   drive_ = options.boundary.wall[wall_index(wall_z_hi)].axis[2].drive;
   const std::vector<StateArray> state = std::exchange(at_.state, {});
   try {
-    if (is_quasi_static()) return make_quasi_static(options.boundary, state);
+    if (is_quasi_static()) return make_quasi_static(options.boundary, state, result.backend);
     stepper_ = stepper_from(state, result.backend, scene_, prepared_, inertia_, options);
   } catch (const Error& error) {
     if (!state.empty())
@@ -89,9 +89,12 @@ void SteppedLoad::set_in_motion() {
   ledger_.start(stepper_->particles());
 }
 
-void SteppedLoad::make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state) {
+void SteppedLoad::make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state, Backend backend) {
+  quasi_static::CourseOptions options = course_options(test_, at_.plan, scene_, prepared_);
+  options.solver.backend = backend;
+  if (backend == Backend::cuda) options.solver.devices = scene_.solver.devices;
   auto made = std::make_unique<QuasiStaticStepper>(prepared_.specimen, prepared_.network, scene_.laws, boundary,
-                                                   course_options(test_, at_.plan, scene_, prepared_));
+                                                   std::move(options));
   if (!state.empty()) made->set_state(state);
   quasi_static_ = made.get();
   if (measures_peak()) made->after_each([this](const Observation& now) { follow_peak(now); });
@@ -214,6 +217,9 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
   finish();
   writer.close();
   if (cracks_writer) cracks_writer->close();
+  // a device keeps the states of the points until somebody needs them
+  if (quasi_static_ && cracks_.sums() && contact_state_.point_cracks.empty())
+    contact_state_.point_cracks = stepper_->point_cracks(prepared_.network);
   if (cracks_.sums()) {
     const double last = found.points.empty() ? 0 : found.points.back().time_s;
     write_damage(out, prepared_, contact_state_.point_cracks, sudden_break_ ? sudden_break_->time_s : last);

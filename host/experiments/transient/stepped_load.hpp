@@ -47,7 +47,7 @@ class SteppedLoad : public PlannedExperiment {
   /// wall at the top.
   void set_in_motion();
   bool is_quasi_static() const { return scene_.solver.method == SolverMethod::quasi_static; }
-  void make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state);
+  void make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state, Backend backend);
 
   std::string head(const LoadWords& words) const;
   std::string line(const LoadWords& words, const experiments::SteppedPoint& p) const {

@@ -22,8 +22,8 @@ struct CrackTangent {
   /// Computes an increment. `normal`, `shear`: stresses if the crack did not move [Pa]; `kappa`: change of the normal
   /// stress per opening [Pa/m]; `old`: openings at the beginning.
   template <int passes>
-  static CrackTangent of(const CrackSolve<double, passes>& crack, double normal, const double (&shear)[2], double kappa,
-                         const CrackOpenings<double>& old) {
+  MACADAM_HD static CrackTangent of(const CrackSolve<double, passes>& crack, double normal, const double (&shear)[2],
+                                    double kappa, const CrackOpenings<double>& old) {
     CrackTangent out{{}, {}, old, PointBranch::rests};
     const auto stresses = crack(normal, shear, kappa, out.w);
     out.stress[0] = stresses.normal, out.stress[1] = stresses.shear[0], out.stress[2] = stresses.shear[1];
@@ -34,7 +34,7 @@ struct CrackTangent {
     typename CrackSolve<double, passes>::template Closed<double> closed;
     closed.kappa = kappa, closed.kappa_s = kappa_s;
     const double normal_closed = normal + kappa * old.opening;
-    closed.opens = std::max(normal_closed, 0.0);
+    closed.opens = normal_closed > 0 ? normal_closed : 0;
     closed.pressure = closed.opens - normal_closed;
     for (int k = 0; k < 2; ++k) {
       closed.slip[k] = old.slip[k];

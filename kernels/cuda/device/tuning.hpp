@@ -107,4 +107,16 @@ inline constexpr std::size_t segments_per_multiprocessor = 16;
 /// values are not recorded.
 inline constexpr int iterations_per_batch = 8;
 
+// ---- quasi-static increments (cuda/quasi_static) ----
+// The numbers of this part have not been measured against others yet.
+
+/// Threads per block of all kernels.
+inline constexpr unsigned increment_threads = 256;
+/// Threads that share the points of one contact; a contact has seven points on average.
+inline constexpr unsigned point_lanes = 8;
+/// Thread blocks of the product with the tangent; each has one partial sum.
+inline constexpr unsigned product_blocks = 1056;
+/// Iterations of conjugate gradients that the host enqueues before it looks at the result of the previous batch.
+inline constexpr int increment_batch = 8;
+
 }  // namespace macadam::kernels
