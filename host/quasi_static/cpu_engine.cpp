@@ -70,9 +70,10 @@ class CpuEngine : public Engine {
     find_wall_stiffness();
   }
 
-  void begin(const LawTimes& dt, const Vector& guess) override {
+  void begin(const LawTimes& dt, const Vector& guess, double drag) override {
     contacts_.begin(dt);
     trial_ = guess;
+    drag_ = drag;
   }
 
   TrialSums evaluate(const Walls& wall, double warming) override {
@@ -94,7 +95,10 @@ class CpuEngine : public Engine {
         const Six load = load_on(c, contacts_.force(number), c.a == static_cast<std::int32_t>(i) ? 0 : 1);
         for (std::size_t k = 0; k < 6; ++k) sum[k] += load[k], size[k] += std::abs(load[k]);
       }
-      for (std::size_t k = 0; k < 6; ++k) residual_[6 * i + k] = sum[k], sizes[6 * i + k] = size[k];
+      for (std::size_t k = 0; k < 6; ++k) {
+        const std::size_t degree = 6 * i + k;
+        residual_[degree] = sum[k] + drag_ * intact_[degree] * trial_[degree], sizes[degree] = size[k];
+      }
     });
     TrialSums out;
     out.size = size_of(residual_);
@@ -148,7 +152,8 @@ class CpuEngine : public Engine {
       for (std::size_t k = 0; k < 3; ++k) now += diagonal_number(6 * i + k), intact += intact_[6 * i + k];
       const bool is_loose = now < loose_part * intact;
       for (std::size_t k = 0; k < 6; ++k)
-        matrix_.add_to_diagonal(6 * i + k, (is_loose ? loose_part : held_part) * intact_[6 * i + k]);
+        matrix_.add_to_diagonal(6 * i + k,
+                                (is_loose ? std::max(loose_part, drag_) : held_part + drag_) * intact_[6 * i + k]);
       return std::int64_t{is_loose};
     };
     loose = sum_in_parallel<std::int64_t>(particles_, hold, particles_at_once);
@@ -199,6 +204,7 @@ class CpuEngine : public Engine {
   }
   double growing_part() override { return contacts_.growing_part(); }
 
+  const Vector& intact() const override { return intact_; }
   Vector motion() const override { return trial_; }
   EngineState state() const override { return {displacement_, contacts_.states(), contacts_.grew()}; }
   void set_state(EngineState state) override {
@@ -241,6 +247,7 @@ class CpuEngine : public Engine {
   std::vector<double> expansion_;        ///< as QuasiStaticOptions::expansion
   std::vector<std::uint32_t> at_walls_;  ///< the contacts at walls, in the network's order
   Vector intact_;                        ///< diagonal of the intact, instantaneous stiffness
+  double drag_ = 0;                      ///< of the increment, WallIncrement::drag
   double wall_stiffness_ = 0;            ///< derivative of the top wall's reaction with respect to its displacement
   Vector displacement_, trial_, kept_, residual_, correction_, by_wall_;
   std::vector<Six> relative_;  ///< relative displacements of the contacts at the last evaluation

@@ -42,22 +42,23 @@ class DeviceEngine : public Engine {
       for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) crackable_area_ += network.point_area[j];
     }
     // Without motion the tangent is the intact, instantaneous stiffness
-    begin(all_laws(1e-30), Vector(6 * specimen.size()));
+    begin(all_laws(1e-30), Vector(6 * specimen.size()), 0);
     device_->evaluate({});
     wall_stiffness_ = device_->assemble(true, 0, 0).wall_stiffness;
-    const Vector intact = intact_stiffness(to_particles(device_->diagonal()), specimen);
-    device_->set_intact(to_bodies(intact));
+    intact_ = intact_stiffness(to_particles(device_->diagonal()), specimen);
+    device_->set_intact(to_bodies(intact_));
     if (6 * specimen.size() > options.direct_below) return;
     direct_ = make_direct_solver();
     matrix_.emplace(network, specimen.size());
   }
 
-  void begin(const LawTimes& dt, const Vector& guess) override {
+  void begin(const LawTimes& dt, const Vector& guess, double drag) override {
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       if (dt[pair] != increment_[pair].dt) increment_[pair] = laws_[pair].increment(dt[pair]);
     }
     device_->write(IncrementVector::trial, to_bodies(guess));
-    device_->begin(increment_, growing_area_);
+    drag_ = drag;
+    device_->begin(increment_, growing_area_, drag);
   }
   TrialSums evaluate(const Walls& wall, double /*warming*/) override {
     const kernels::IncrementSums found = device_->evaluate(wall);
@@ -70,7 +71,7 @@ class DeviceEngine : public Engine {
 
   bool wants_symmetric() const override { return !direct_; }
   LinearReport prepare(bool symmetric, std::int64_t& loose) override {
-    const kernels::AssembledSums sums = device_->assemble(symmetric, held_part, loose_part);
+    const kernels::AssembledSums sums = device_->assemble(symmetric, held_part + drag_, std::max(loose_part, drag_));
     loose = sums.loose;
     wall_stiffness_ = sums.wall_stiffness;
     LinearReport out;
@@ -113,6 +114,7 @@ class DeviceEngine : public Engine {
   }
   double growing_part() override { return crackable_area_ > 0 ? device_->growing_area() / crackable_area_ : 0; }
 
+  const Vector& intact() const override { return intact_; }
   Vector motion() const override { return to_particles(device_->read(IncrementVector::trial)); }
   EngineState state() const override {
     const kernels::IncrementStates found = device_->states();
@@ -201,7 +203,8 @@ class DeviceEngine : public Engine {
   std::vector<std::size_t> state_begin_;  ///< as ContactIncrements::state_begin()
   std::unique_ptr<kernels::DeviceIncrements> device_;
   kernels::IncrementLaws increment_{};
-  double growing_area_ = 0, crackable_area_ = 0, wall_stiffness_ = 0;
+  Vector intact_;  ///< as Engine::intact()
+  double growing_area_ = 0, crackable_area_ = 0, wall_stiffness_ = 0, drag_ = 0;
   bool has_cracks_ = false;
   std::unique_ptr<TangentSolver> direct_;  ///< small systems only
   std::optional<TangentMatrix> matrix_;

@@ -38,8 +38,8 @@ class Engine {
   virtual ~Engine() = default;
 
   /// Prepares an increment from the accepted state. `dt`: its duration for the law of each pair type [s]; `guess`: the
-  /// motion at which the trial begins [6·particles].
-  virtual void begin(const LawTimes& dt, const Vector& guess) = 0;
+  /// motion at which the trial begins [6·particles]; `drag`: WallIncrement::drag.
+  virtual void begin(const LawTimes& dt, const Vector& guess, double drag = 0) = 0;
   /// Evaluates all contacts at the trial, with these displacements of the walls and this increase of the temperature
   /// [K] in the increment.
   virtual TrialSums evaluate(const Walls& wall, double warming) = 0;
@@ -52,7 +52,7 @@ class Engine {
   /// Whether the linear solver needs a symmetric matrix at first.
   virtual bool wants_symmetric() const = 0;
   /// Assembles the tangent, or its symmetric part, at the last evaluation, and prepares its solution. `loose`: number
-  /// of particles without stiffness.
+  /// of particles without stiffness. The drag counts as stiffness.
   virtual LinearReport prepare(bool symmetric, std::int64_t& loose) = 0;
   virtual LinearReport solve(Unknown unknown, double tolerance) = 0;
   /// Adds `factor` times the motion by the wall to the correction.
@@ -74,6 +74,8 @@ class Engine {
   /// Returns the part of the area of points with a crack law that grows at the last evaluation.
   virtual double growing_part() = 0;
 
+  /// Returns the diagonal of the intact, instantaneous stiffness [6·particles].
+  virtual const Vector& intact() const = 0;
   /// Returns the motion of the last evaluation, also after accept() [6·particles].
   virtual Vector motion() const = 0;
   virtual EngineState state() const = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // increments.cpp  Takes increments of a length for which the estimated error is within the tolerance. Where no
-// equilibrium exists at a larger displacement of the wall, the test is controlled by the opening of cracks.
+// equilibrium exists at a larger displacement of the wall, the test is controlled by the opening of cracks, or the
+// stress drops suddenly (sudden_drop.cpp).
 #include "host/quasi_static/increments.hpp"
 
 #include <fmt/format.h>
@@ -31,12 +32,17 @@ constexpr double impossibly_short = 1.0 / 100;
 constexpr double forgotten = 0.8;
 /// In an increment controlled by opening, the stress may change by at most this part of the largest stress.
 constexpr double stress_change = 0.03;
+/// A drop begins after this many halvings of an increment, or if it is shorter than this part of a usual one, because
+/// iterations need long to find no solution.
+constexpr int halvings_before_drop = 2;
+constexpr double too_short_before_drop = 1.0 / 20;
 
 }  // namespace
 
 Increments::Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                        CourseOptions options)
     : options_(std::move(options)),
+      may_drop_(options_.grows && !options_.by_force && 6 * specimen.size() > options_.solver.direct_below),
       network_(specimen, network, laws, options_.solver),
       length_(static_cast<double>(options_.first)),
       past_{{0, 0}} {}
@@ -142,15 +148,16 @@ void Increments::advance() {
     } else {
       next.wall[driven].z = drive_at(step_ + steps) - moved;
     }
-    const IncrementReport found = network_.solve(next);
-    report_.passes += found.passes, report_.iterations += found.iterations;
+    const IncrementReport found = solve(next);
     if (!found.converged) {
       ++report_.rejected;
-      const bool too_short = static_cast<double>(steps) <= impossibly_short * usual_;
-      if (steps > 1 && !too_short && ++halvings <= most_halvings) {
+      const bool too_short =
+          static_cast<double>(steps) <= (may_drop_ ? too_short_before_drop : impossibly_short) * usual_;
+      if (steps > 1 && !too_short && ++halvings <= (may_drop_ ? halvings_before_drop : most_halvings)) {
         length_ = 0.5 * static_cast<double>(steps);
         continue;
       }
+      if (may_drop_) return drop(steps, found);
       if (!options_.grows || options_.by_force || network_.last_opening() <= 0) fail(found);
       by_opening_ = true;
       furthest_ = moved;
@@ -186,8 +193,7 @@ void Increments::advance_by_opening(std::int64_t stop) {
     WallIncrement next = increment_of(steps);
     next.opening = opening_;
     const double moved = network_.wall_displacement()[driven].z, before = past_.back().value;
-    const IncrementReport found = network_.solve(next);
-    report_.passes += found.passes, report_.iterations += found.iterations;
+    const IncrementReport found = solve(next);
     const double change = found.converged ? std::abs(observed_value() - before) / largest_ : 0;
     if (!found.converged || change > 2 * stress_change) {
       network_.reject();
@@ -216,6 +222,12 @@ void Increments::advance_by_opening(std::int64_t stop) {
     }
     return;
   }
+}
+
+IncrementReport Increments::solve(const WallIncrement& next) {
+  const IncrementReport found = network_.solve(next);
+  report_.passes += found.passes, report_.iterations += found.iterations;
+  return found;
 }
 
 void Increments::fail(const IncrementReport& found) const {
@@ -252,12 +264,15 @@ std::vector<StateArray> Increments::state() const {
                               report_.unstable ? 1.0 : 0.0};
   const CourseReport::Unstable unstable = report_.unstable.value_or(CourseReport::Unstable{});
   numbers.insert(numbers.end(), {unstable.time_s, unstable.strain, unstable.stress_pa});
+  const CourseReport::Unstable dropped = report_.first_drop.value_or(CourseReport::Unstable{});
   numbers.push_back(static_cast<double>(past_.size()));
   numbers.insert(numbers.end(), {usual_, usual_opening_, error_sum_, largest_error_});
   for (std::size_t k = 0; k < 3; ++k) {
     const Past p = k < past_.size() ? past_[k] : Past{0, 0};
     numbers.insert(numbers.end(), {p.step, p.value});
   }
+  numbers.insert(numbers.end(),
+                 {static_cast<double>(report_.drops), dropped.time_s, dropped.strain, dropped.stress_pa});
   out.push_back({"increments", "1", std::move(numbers)});
   return out;
 }
@@ -267,8 +282,8 @@ void Increments::set_state(const std::vector<StateArray>& arrays) {
   for (const StateArray& array : arrays) {
     if (array.name == "increments") n = std::get_if<std::vector<double>>(&array.values);
   }
-  if (!n || n->size() != 30 || !((*n)[19] >= 1 && (*n)[19] <= 3))
-    throw RunError("state: found no array increments with 30 numbers for method \"quasi_static\"");
+  if (!n || n->size() != 34 || !((*n)[19] >= 1 && (*n)[19] <= 3))
+    throw RunError("state: found no array increments with 34 numbers for method \"quasi_static\"");
   network_.set_state(arrays);
   const auto whole = [&](std::size_t k) { return static_cast<std::int64_t>((*n)[k]); };
   usual_ = (*n)[20], usual_opening_ = (*n)[21], error_sum_ = (*n)[22], largest_error_ = (*n)[23];
@@ -276,6 +291,8 @@ void Increments::set_state(const std::vector<StateArray>& arrays) {
   opening_steps_ = whole(5), furthest_ = (*n)[6], lag_ = whole(7);
   report_ = {whole(8), whole(9), whole(10), whole(11), (*n)[12], whole(13), {}, whole(14)};
   if ((*n)[15] != 0) report_.unstable = {(*n)[16], (*n)[17], (*n)[18]};
+  report_.drops = whole(30);
+  if (report_.drops > 0) report_.first_drop = {(*n)[31], (*n)[32], (*n)[33]};
   past_.clear();
   for (std::size_t k = 0; k < static_cast<std::size_t>((*n)[19]); ++k)
     past_.push_back({(*n)[24 + 2 * k], (*n)[25 + 2 * k]});

@@ -47,6 +47,10 @@ struct CourseReport {
   };
   std::optional<Unstable> unstable = {};
   std::int64_t by_opening = 0;  ///< number of increments that were controlled by the opening of cracks
+  /// The state before the first sudden drop of the stress: no equilibrium was found nearby, so the specimen moved
+  /// against a drag, with the wall at rest, until it was in equilibrium again.
+  std::optional<Unstable> first_drop = {};
+  std::int64_t drops = 0;
 };
 
 /// No equilibrium was found, although increments became very short. Holds the last equilibrium.
@@ -93,9 +97,17 @@ class Increments {
   /// `by_time`: whether the increment has an error of the trapezoidal rule that can be estimated.
   void accept(std::int64_t steps, const IncrementReport& found, bool by_time);
   void advance_by_opening(std::int64_t stop);
+  /// Takes an increment of `steps` steps, after which no equilibrium is near, and moves the specimen against a drag
+  /// until it is in equilibrium again.
+  void drop(std::int64_t steps, const IncrementReport& found);
+  /// Solves an increment and counts its passes.
+  IncrementReport solve(const WallIncrement& next);
   [[noreturn]] void fail(const IncrementReport& found) const;
 
   CourseOptions options_;
+  /// Whether the stress drops suddenly if no equilibrium is found. Otherwise the test is controlled by the opening of
+  /// cracks, which needs a direct solver.
+  bool may_drop_;
   QuasiStatic network_;
   CourseReport report_;
   std::int64_t step_ = 0;

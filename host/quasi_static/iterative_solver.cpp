@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t degrees_at_once = 6144;  ///< degrees of freedom per piece of parallel work
 constexpr double particles_per_box = 60;
-constexpr int most_iterations = 2000;
+constexpr int most_iterations = 600;
 /// The preconditioner is made again when a solution takes this many times the iterations of the first one with it.
 constexpr double more_iterations = 1.3;
 constexpr std::size_t restart = 50;  ///< vectors of GMRES

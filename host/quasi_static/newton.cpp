@@ -69,7 +69,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
   IncrementReport out;
   const bool wall_unknown = increment.load || increment.opening;
   double& top = trial.wall[wall_index(wall_z_hi)].z;
-  engine_->begin(increment.reduced_dt.value_or(all_laws(increment.dt)), trial.motion);
+  engine_->begin(increment.reduced_dt.value_or(all_laws(increment.dt)), trial.motion, increment.drag);
   least_scale_ = 0;
   evaluate(increment, trial);
   if (!options_.expansion.empty()) {

@@ -20,7 +20,8 @@ using quasi_static::Trial;
 namespace {
 
 double sum_of(const QuasiStaticEnergies& e) {
-  return std::max({std::abs(e.work_j), std::abs(e.thermal_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j)});
+  return std::max(
+      {std::abs(e.work_j), std::abs(e.thermal_j), e.elastic_j + e.viscous_j + std::abs(e.crack_work_j) + e.damping_j});
 }
 
 std::unique_ptr<quasi_static::Engine> make_engine(const Specimen& specimen, const ContactNetwork& network,
@@ -40,7 +41,7 @@ std::unique_ptr<quasi_static::Engine> make_engine(const Specimen& specimen, cons
 
 double QuasiStaticEnergies::imbalance() const {
   const double sum = sum_of(*this);
-  return sum > 0 ? std::abs(work_j + thermal_j - elastic_j - viscous_j - crack_work_j) / sum : 0;
+  return sum > 0 ? std::abs(work_j + thermal_j - elastic_j - viscous_j - crack_work_j - damping_j) / sum : 0;
 }
 
 double QuasiStaticEnergies::increment_error() const {
@@ -65,6 +66,8 @@ struct QuasiStatic::Parts {
   MotionGuess motions;
   QuasiStaticEnergies energies;
   double last_opening = 0;
+  quasi_static::Vector drag_load;  ///< the drag at the end of the accepted increment [6·particles]; empty: none
+  double drag_size = 0;            ///< of `drag_load`, relative to `scale`
   // The solution, until it is accepted
   Trial trial;
   WallIncrement increment;
@@ -120,6 +123,24 @@ struct QuasiStatic::Parts {
     show(wall, reaction);
   }
 
+  /// Adds the work of the drag by the trapezoidal rule, and keeps the drag at the end of the increment.
+  void drag() {
+    drag_size = 0;
+    if (increment.drag == 0 && drag_load.empty()) return;
+    const quasi_static::Vector& intact = engine().intact();
+    drag_load.resize(intact.size());
+    energies.damping_j += 0.5 * sum_in_parallel<double>(intact.size(), [&](std::size_t i) {
+                            const double now = increment.drag * intact[i] * trial.motion[i];
+                            return (now + drag_load[i]) * trial.motion[i];
+                          });
+    const double size = sum_in_parallel<double>(intact.size(), [&](std::size_t i) {
+      drag_load[i] = increment.drag * intact[i] * trial.motion[i];
+      return drag_load[i] * drag_load[i] / intact[i];
+    });
+    drag_size = scale > 0 ? std::sqrt(size) / scale : 0;
+    if (increment.drag == 0) drag_load.clear();
+  }
+
   void accept() {
     if (!solved) throw RunError("quasi-static: accept() needs an increment that has converged");
     energies.thermal_j += engine().thermal_work(increment.warming);
@@ -136,9 +157,10 @@ struct QuasiStatic::Parts {
     energies.crack_work_j += sums.crack_work;
     last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
     trial.motion = engine().motion();
+    scale = std::max(scale, trial.sums.scale);
+    drag();
     motions.accept(increment, trial, last_opening);
     time += increment.dt;
-    scale = std::max(scale, trial.sums.scale);
     solved = false;
   }
 };
@@ -160,6 +182,7 @@ const std::array<Vec3d, wall_count>& QuasiStatic::wall_force() const { return pa
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_displacement() const { return parts_->shown_wall; }
 double QuasiStatic::growing_area() const { return parts_->engine().growing_part(); }
 double QuasiStatic::last_opening() const { return parts_->last_opening; }
+double QuasiStatic::drag_size() const { return parts_->drag_size; }
 double QuasiStatic::time() const { return parts_->time; }
 const QuasiStaticEnergies& QuasiStatic::energies() const { return parts_->energies; }
 std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->engine().point_cracks(); }
@@ -229,9 +252,9 @@ std::vector<StateArray> QuasiStatic::state() const {
   const QuasiStaticEnergies& e = p.energies;
   numbers.insert(numbers.end(),
                  {e.work_j, e.elastic_j, e.viscous_j, e.crack_j, e.friction_j, e.crack_work_j, e.thermal_j});
-  numbers.push_back(p.newton.friction_matters() ? 1.0 : 0.0);
+  numbers.insert(numbers.end(), {e.damping_j, p.newton.friction_matters() ? 1.0 : 0.0});
   quasi_static::EngineState own = p.newton.engine().state();
-  return {{"quasi_static", "s, 1, m, 1, s, m, m, s, m, m, m, N, J, 1", std::move(numbers)},
+  return {{"quasi_static", "s, 1, m, 1, s, m, m, s, m, m, m, N, J, J, 1", std::move(numbers)},
           {"displacement", "m, 1", std::move(own.displacement)},
           {"motion", "m, 1", last.motion},
           {"motion_before", "m, 1", before.motion},
@@ -269,7 +292,9 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   e.work_j = numbers[at], e.elastic_j = numbers[at + 1], e.viscous_j = numbers[at + 2];
   e.crack_j = numbers[at + 3], e.friction_j = numbers[at + 4], e.crack_work_j = numbers[at + 5],
   e.thermal_j = numbers[at + 6];
-  p.newton.set_friction_matters(numbers[at + 7] != 0);
+  e.damping_j = numbers[at + 7];
+  p.newton.set_friction_matters(numbers[at + 8] != 0);
+  p.drag_load.clear(), p.drag_size = 0;
   const auto& grew = std::get<std::vector<std::int64_t>>(found[5]->values);
   p.engine().set_state({doubles(1), doubles(4), {grew.begin(), grew.end()}});
   p.solved = false;

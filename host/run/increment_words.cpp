@@ -16,6 +16,10 @@ experiments::Increments increments_found(const QuasiStaticStepper& stepper) {
   out.increment_error = stepper.energies().increment_error();
   if (report.unstable)
     out.unstable = experiments::Peak{report.unstable->time_s, report.unstable->strain, report.unstable->stress_pa};
+  if (report.first_drop)
+    out.first_drop =
+        experiments::Peak{report.first_drop->time_s, report.first_drop->strain, report.first_drop->stress_pa};
+  out.drops = report.drops, out.drop_energy_j = stepper.energies().damping_j;
   return out;
 }
 
@@ -27,6 +31,14 @@ std::vector<std::string> increment_warnings(const quasi_static::CourseReport& re
         "wall; {} increments were controlled by the opening of cracks, so that the strain may decrease in them. In a "
         "test that prescribes the strain, the stress drops suddenly at this strain",
         report.unstable->time_s, report.unstable->strain, report.unstable->stress_pa / 1e6, report.by_opening));
+  }
+  if (report.first_drop) {
+    warnings.push_back(fmt::format(
+        "the stress drops suddenly {} times, first after t = {:.6g} s (strain {:.6g}, {:.4g} MPa), because no "
+        "equilibrium "
+        "was near; the particles moved against a drag, with the wall at rest, until they were in equilibrium again. "
+        "Which cracks grow in a drop may depend on the drag; method = \"explicit\" in [solver] includes inertia",
+        report.drops, report.first_drop->time_s, report.first_drop->strain, report.first_drop->stress_pa / 1e6));
   }
   if (report.loose > 0) {
     warnings.push_back(fmt::format(

@@ -109,7 +109,7 @@ class DeviceIncrements {
  public:
   virtual ~DeviceIncrements() = default;
   /// Prepares an increment, whose trial has been written; `growing_area`: of the points that grew in the last one [m²].
-  virtual void begin(const IncrementLaws& laws, double growing_area) = 0;
+  virtual void begin(const IncrementLaws& laws, double growing_area, double drag) = 0;
   virtual IncrementSums evaluate(const WallMotions& wall) = 0;
   /// Assembles the tangent at the last evaluation, or its symmetric part, with `held` of the intact stiffness added to
   /// the diagonal; particles with less than `loose` of their intact stiffness get this part of it.

@@ -19,6 +19,8 @@ constexpr double units_of_test = 1e6;
 constexpr double units_before_first = 1e4, units_of_ramp = 1e3;
 /// In a test whose load grows, the first increment is this fraction of the test.
 constexpr double first_increment = 2e-4;
+/// Largest number of passes of Newton's method if each one takes many iterations: a shorter increment is then faster.
+constexpr int passes_with_iterations = 12;
 
 /// Returns a sentence about the effects of a changing temperature.
 std::string temperature_words(const TemperatureHistory& history, const Scene& scene) {
@@ -113,8 +115,10 @@ quasi_static::CourseOptions course_options(const TransientExperiment& test, cons
   if (!test.grows) begin = std::min(begin, 0.02 * plan.ramp / plan.dt);
   out.first = is_sudden(test) ? 1 : std::max<std::int64_t>(1, std::llround(begin));
   // large systems are solved by iterations, and every digit of the solution costs the same time
-  if (6 * prepared.specimen.size() > out.solver.direct_below)
+  if (6 * prepared.specimen.size() > out.solver.direct_below) {
     out.solver.residual = std::min(1e-6, 1e-3 * out.tolerance);
+    out.solver.passes = passes_with_iterations;
+  }
   return out;
 }
 

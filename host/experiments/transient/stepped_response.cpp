@@ -118,6 +118,13 @@ void add_increments(const experiments::Increments& found, nlohmann::ordered_json
                            {"strain", found.sudden_break->strain},
                            {"stress_pa", found.sudden_break->stress_pa}};
   }
+  if (found.first_drop) {
+    out["sudden_drops"] = {{"number", found.drops},
+                           {"energy_j", found.drop_energy_j},
+                           {"first_time_s", found.first_drop->time_s},
+                           {"first_strain", found.first_drop->strain},
+                           {"first_stress_pa", found.first_drop->stress_pa}};
+  }
   if (!found.unstable) return;
   out["unstable"] = {{"time_s", found.unstable->time_s},
                      {"strain", found.unstable->strain},

@@ -27,6 +27,12 @@ struct Increments {
   std::optional<Peak> sudden_break = {};
   double temperature_at_break_c = 0;  ///< of `sudden_break` [°C]
   std::optional<Peak> unstable = {};  ///< the state after which the test was controlled by opening
+  /// The state before the first sudden drop of the stress, number of drops, and the energy lost in them [J].
+  /// @{
+  std::optional<Peak> first_drop = {};
+  std::int64_t drops = 0;
+  double drop_energy_j = 0;
+  /// @}
 };
 
 }  // namespace macadam::experiments

@@ -6,8 +6,10 @@
 
 namespace macadam::kernels {
 
-/// Sums the loads of each body. `partial` receives two sums per block: of the residual, and of all loads.
-__global__ void __launch_bounds__(increment_threads) increment_body_loads(IncrementView d, double* partial) {
+/// Sums the loads of each body, and adds its drag. `partial` receives two sums per block: of the residual, and of all
+/// loads of contacts.
+__global__ void __launch_bounds__(increment_threads)
+    increment_body_loads(IncrementView d, double drag, double* partial) {
   const unsigned body = warp_number();
   const SixLanes lanes;
   double sums[2] = {0, 0};
@@ -23,6 +25,7 @@ __global__ void __launch_bounds__(increment_threads) increment_body_loads(Increm
     load = lanes.sum(load), size = lanes.sum(size);
     if (threadIdx.x % 32 < 6) {
       const std::size_t at = 6 * static_cast<std::size_t>(body) + lanes.row;
+      if (drag > 0) load += drag * d.intact[at] * d.trial[at];
       d.residual[at] = load;
       const double weight = 1 / d.intact[at];
       sums[0] = load * load * weight, sums[1] = size * size * weight;

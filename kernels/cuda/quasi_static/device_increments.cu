@@ -29,9 +29,9 @@ class Increments : public DeviceIncrements {
     team_.wait_for_the_last();
   }
 
-  void begin(const IncrementLaws& laws, double growing_area) override {
+  void begin(const IncrementLaws& laws, double growing_area, double drag) override {
     team_.use(0);
-    growing_area_ = growing_area;
+    growing_area_ = growing_area, drag_ = drag;
     check_cuda(cudaMemcpyAsync(m_.laws, laws.data(), sizeof(laws), cudaMemcpyHostToDevice, team_.stream()), "laws");
     run("prepare contacts", increment_prepare_linear, blocks_of(m_.view.linear_contacts), m_.view);
     run("prepare points", increment_prepare_points, blocks_of(m_.view.points), m_.view);
@@ -45,7 +45,7 @@ class Increments : public DeviceIncrements {
     IncrementView with_openings = d;
     with_openings.partial = m_.openings;
     run("contact points", increment_point_forces, point_blocks(), with_openings, wall_, growing_area_);
-    run("loads", increment_body_loads, warp_blocks(d.bodies), d, d.partial);
+    run("loads", increment_body_loads, warp_blocks(d.bodies), d, drag_, d.partial);
     run("reactions", increment_reactions, wall_count, d, m_.trial_sums);
     run("sums", increment_finish_sums, 1, d.partial, warp_blocks(d.bodies), m_.openings, point_blocks(), m_.trial_sums);
     trial_sums_.copy(m_.trial_sums, 1, 0);
@@ -258,7 +258,7 @@ class Increments : public DeviceIncrements {
   DeviceArray<BrokenPoint> broken_;  ///< made when cracks are first summed
   DeviceArray<unsigned> count_;
   WallArgument wall_{};  ///< of the last evaluation
-  double growing_area_ = 0;
+  double growing_area_ = 0, drag_ = 0;
   bool symmetric_ = true, stale_ = true;
   double first_rate_ = 0;
 };

@@ -13,7 +13,7 @@
 namespace macadam::kernels {
 
 /// Largest number of iterations.
-inline constexpr int most_increment_iterations = 2000;
+inline constexpr int most_increment_iterations = 600;
 
 /// Scalars of the iteration, in device memory.
 struct GradientState {

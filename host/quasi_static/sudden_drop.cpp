@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sudden_drop.cpp  Follows a specimen that loses its stability, with the wall at rest, to its next equilibrium. A drag
+// keeps each increment short enough for Newton's method.
+#include <algorithm>
+#include <cmath>
+
+#include "host/quasi_static/increments.hpp"
+
+namespace macadam::quasi_static {
+namespace {
+
+constexpr std::size_t loaded_wall = wall_index(wall_z_hi);
+/// Drag of the first increment of a drop, and its bounds, see WallIncrement::drag.
+constexpr double first_drag = 1e-3, least_drag = 1e-5, largest_drag = 100;
+/// The drag becomes this many times larger if an increment of a drop has no solution. It becomes smaller by the same
+/// factor after fast convergence, but in the first increments after it has become larger only if convergence is very
+/// fast.
+constexpr double drag_ratio = 4;
+constexpr int fast_passes = 4, very_fast_passes = 1, increments_with_larger_drag = 4;
+/// A drop is reported if the stress changes by this part of the largest stress.
+constexpr double noticeable = 0.01;
+/// An equilibrium is looked for again when the drag has become this part of its largest size since the last attempt.
+constexpr double calmer = 0.1;
+/// Duration of an increment in which only springs and cracks react [s].
+constexpr double suddenly = 1e-30;
+/// Largest number of increments of a drop.
+constexpr int most_of_drop = 2000;
+
+}  // namespace
+
+void Increments::drop(std::int64_t steps, const IncrementReport& failed) {
+  const CourseReport::Unstable before{network_.time(), network_.wall_displacement()[loaded_wall].z / options_.height,
+                                      past_.back().value};
+  WallIncrement next = increment_of(steps);
+  next.wall[loaded_wall].z = drive_at(step_ + steps) - network_.wall_displacement()[loaded_wall].z;
+  next.drag = first_drag;
+  int keep = 0;        // number of increments in which the drag does not become smaller
+  double largest = 0;  // size of the drag since the last attempt to find an equilibrium
+  for (int k = 0; k < most_of_drop; ++k) {
+    IncrementReport found = solve(next);
+    if (!found.converged) {
+      network_.reject();
+      ++report_.rejected;
+      next.drag *= drag_ratio, keep = increments_with_larger_drag;
+      if (next.drag > largest_drag) break;
+      continue;
+    }
+    network_.accept();
+    ++report_.increments;
+    report_.loose = std::max(report_.loose, found.loose);
+    if (found.passes <= (keep > 0 ? very_fast_passes : fast_passes))
+      next.drag = std::max(least_drag, next.drag / drag_ratio);
+    keep = std::max(0, keep - 1);
+    next.wall = {}, next.warming = 0, next.dt = suddenly;
+    if (next.reduced_dt) next.reduced_dt->fill(suddenly);
+    const double size = network_.drag_size();
+    largest = std::max(largest, size);
+    if (size > calmer * largest) continue;
+    largest = size;
+    WallIncrement last = next;
+    last.drag = 0;
+    found = solve(last);
+    if (!found.converged) {
+      network_.reject();
+      continue;
+    }
+    const double value = observed_value();
+    network_.accept();
+    step_ += steps;
+    ++report_.increments;
+    if (std::abs(value - before.stress_pa) > noticeable * largest_) {
+      ++report_.drops;
+      if (!report_.first_drop) report_.first_drop = before;
+    }
+    past_ = {{static_cast<double>(step_), value}};
+    length_ = static_cast<double>(steps);
+    return;
+  }
+  fail(failed);
+}
+
+}  // namespace macadam::quasi_static
