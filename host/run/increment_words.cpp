@@ -34,10 +34,10 @@ std::vector<std::string> increment_warnings(const quasi_static::CourseReport& re
   }
   if (report.first_drop) {
     warnings.push_back(fmt::format(
-        "the stress drops suddenly {} times, first after t = {:.6g} s (strain {:.6g}, {:.4g} MPa), because no "
+        "sudden drops of the stress: {}, the first after t = {:.6g} s (strain {:.6g}, {:.4g} MPa), because no "
+        "equilibrium was near; the particles moved against a drag, with the wall at rest, until they were in "
         "equilibrium "
-        "was near; the particles moved against a drag, with the wall at rest, until they were in equilibrium again. "
-        "Which cracks grow in a drop may depend on the drag; method = \"explicit\" in [solver] includes inertia",
+        "again. Which cracks grow in a drop may depend on the drag; method = \"explicit\" in [solver] includes inertia",
         report.drops, report.first_drop->time_s, report.first_drop->strain, report.first_drop->stress_pa / 1e6));
   }
   if (report.loose > 0) {
