@@ -36,8 +36,8 @@ std::vector<std::string> increment_warnings(const quasi_static::CourseReport& re
     warnings.push_back(fmt::format(
         "sudden drops of the stress: {}, the first after t = {:.6g} s (strain {:.6g}, {:.4g} MPa), because no "
         "equilibrium was near; the particles moved against a drag, with the wall at rest, until they were in "
-        "equilibrium "
-        "again. Which cracks grow in a drop may depend on the drag; method = \"explicit\" in [solver] includes inertia",
+        "equilibrium again. Which cracks grow in a drop may depend on the drag; method = \"explicit\" in [solver] "
+        "includes inertia",
         report.drops, report.first_drop->time_s, report.first_drop->strain, report.first_drop->stress_pa / 1e6));
   }
   if (report.loose > 0) {
