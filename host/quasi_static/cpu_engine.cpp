@@ -152,8 +152,8 @@ class CpuEngine : public Engine {
       for (std::size_t k = 0; k < 3; ++k) now += diagonal_number(6 * i + k), intact += intact_[6 * i + k];
       const bool is_loose = now < loose_part * intact;
       for (std::size_t k = 0; k < 6; ++k)
-        matrix_.add_to_diagonal(6 * i + k,
-                                (is_loose ? std::max(loose_part, drag_) : held_part + drag_) * intact_[6 * i + k]);
+        matrix_.add_to_diagonal(
+            6 * i + k, (is_loose ? std::max(loose_part, held_part + drag_) : held_part + drag_) * intact_[6 * i + k]);
       return std::int64_t{is_loose};
     };
     loose = sum_in_parallel<std::int64_t>(particles_, hold, particles_at_once);

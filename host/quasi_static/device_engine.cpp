@@ -71,7 +71,7 @@ class DeviceEngine : public Engine {
 
   bool wants_symmetric() const override { return !direct_; }
   LinearReport prepare(bool symmetric, std::int64_t& loose) override {
-    const kernels::AssembledSums sums = device_->assemble(symmetric, held_part + drag_, std::max(loose_part, drag_));
+    const kernels::AssembledSums sums = device_->assemble(symmetric, held_part + drag_, loose_part);
     loose = sums.loose;
     wall_stiffness_ = sums.wall_stiffness;
     LinearReport out;

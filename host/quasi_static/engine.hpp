@@ -39,7 +39,7 @@ class Engine {
 
   /// Prepares an increment from the accepted state. `dt`: its duration for the law of each pair type [s]; `guess`: the
   /// motion at which the trial begins [6·particles]; `drag`: WallIncrement::drag.
-  virtual void begin(const LawTimes& dt, const Vector& guess, double drag = 0) = 0;
+  virtual void begin(const LawTimes& dt, const Vector& guess, double drag) = 0;
   /// Evaluates all contacts at the trial, with these displacements of the walls and this increase of the temperature
   /// [K] in the increment.
   virtual TrialSums evaluate(const Walls& wall, double warming) = 0;

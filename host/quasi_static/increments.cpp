@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/quasi_static/contact_increments.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::quasi_static {
@@ -42,7 +43,9 @@ constexpr double too_short_before_drop = 1.0 / 20;
 Increments::Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                        CourseOptions options)
     : options_(std::move(options)),
-      may_drop_(options_.grows && !options_.by_force && 6 * specimen.size() > options_.solver.direct_below),
+      may_drop_(
+          options_.grows && !options_.by_force && 6 * specimen.size() > options_.solver.direct_below &&
+          std::ranges::any_of(pair_laws(network, laws), [](const PairLaw& law) { return law.cracked.has_value(); })),
       network_(specimen, network, laws, options_.solver),
       length_(static_cast<double>(options_.first)),
       past_{{0, 0}} {}
@@ -157,7 +160,7 @@ void Increments::advance() {
         length_ = 0.5 * static_cast<double>(steps);
         continue;
       }
-      if (may_drop_) return drop(steps, found);
+      if (may_drop_) return drop(steps);
       if (!options_.grows || options_.by_force || network_.last_opening() <= 0) fail(found);
       by_opening_ = true;
       furthest_ = moved;

@@ -50,10 +50,11 @@ struct CourseReport {
   /// The state before the first sudden drop of the stress: no equilibrium was found nearby, so the specimen moved
   /// against a drag, with the wall at rest, until it was in equilibrium again.
   std::optional<Unstable> first_drop = {};
-  std::int64_t drops = 0;
+  std::int64_t drops = 0;  ///< number of sudden drops
 };
 
-/// No equilibrium was found, although increments became very short. Holds the last equilibrium.
+/// No equilibrium was found, although increments became very short, or at the end of a sudden drop. Holds the last
+/// equilibrium.
 class NoEquilibrium : public RunError {
  public:
   NoEquilibrium(const std::string& message, const CourseReport::Unstable& last) : RunError(message), last(last) {}
@@ -99,7 +100,7 @@ class Increments {
   void advance_by_opening(std::int64_t stop);
   /// Takes an increment of `steps` steps, after which no equilibrium is near, and moves the specimen against a drag
   /// until it is in equilibrium again.
-  void drop(std::int64_t steps, const IncrementReport& found);
+  void drop(std::int64_t steps);
   /// Solves an increment and counts its passes.
   IncrementReport solve(const WallIncrement& next);
   [[noreturn]] void fail(const IncrementReport& found) const;

@@ -8,13 +8,13 @@
 #include "host/quasi_static/rigid_boxes.hpp"
 #include "host/quasi_static/tangent_solver.hpp"
 #include "kernels/base/parallel.hpp"
+#include "kernels/quasi_static/increment_system.hpp"
 
 namespace macadam::quasi_static {
 namespace {
 
 constexpr std::size_t degrees_at_once = 6144;  ///< degrees of freedom per piece of parallel work
 constexpr double particles_per_box = 60;
-constexpr int most_iterations = 600;
 /// The preconditioner is made again when a solution takes this many times the iterations of the first one with it.
 constexpr double more_iterations = 1.3;
 constexpr std::size_t restart = 50;  ///< vectors of GMRES
@@ -101,7 +101,7 @@ class IterativeSolver : public TangentSolver {
     double rz = product(r_, z_);
     const double goal = tolerance * tolerance * rz;
     if (!(rz > 0)) return out.solved = rz == 0, out;
-    while (out.iterations < most_iterations) {
+    while (out.iterations < kernels::most_increment_iterations) {
       ++out.iterations;
       matrix_->multiply(p_, q_);
       const double curvature = product(p_, q_);
@@ -133,7 +133,7 @@ class IterativeSolver : public TangentSolver {
     if (goal == 0) return out.solved = true, out;
     std::vector<Vector> basis(restart + 1);
     Eigen::MatrixXd h(restart + 1, restart);
-    while (out.iterations < most_iterations) {
+    while (out.iterations < kernels::most_increment_iterations) {
       matrix_->multiply(x, q_);
       r_ = right;
       add_multiple(-1, q_, r_);

@@ -121,6 +121,7 @@ struct QuasiStatic::Parts {
       reaction[wall_index(contact.b)] += Vec3d{load[0], load[1], load[2]};
     }
     show(wall, reaction);
+    drag_load.clear(), drag_size = 0;
   }
 
   /// Adds the work of the drag by the trapezoidal rule, and keeps the drag at the end of the increment.
@@ -241,6 +242,8 @@ ContactState QuasiStatic::contacts() const {
 }
 
 std::vector<StateArray> QuasiStatic::state() const {
+  if (!parts_->drag_load.empty())
+    throw RunError("state: found a specimen that moves against a drag, expected one in equilibrium");
   const Parts& p = *parts_;
   const MotionGuess::Past &last = p.motions.last(), &before = p.motions.before();
   std::vector<double> numbers{p.time,      p.scale,       p.last_opening, p.motions.continues_change() ? 1.0 : 0.0,

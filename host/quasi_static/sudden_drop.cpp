@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sudden_drop.cpp  Follows a specimen that loses its stability, with the wall at rest, to its next equilibrium. A drag
 // keeps each increment short enough for Newton's method.
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 
 #include "host/quasi_static/increments.hpp"
 
@@ -17,8 +18,6 @@ constexpr double first_drag = 1e-3, least_drag = 1e-5, largest_drag = 100;
 /// fast.
 constexpr double drag_ratio = 4;
 constexpr int fast_passes = 4, very_fast_passes = 1, increments_with_larger_drag = 4;
-/// A drop is reported if the stress changes by this part of the largest stress.
-constexpr double noticeable = 0.01;
 /// An equilibrium is looked for again when the drag has become this part of its largest size since the last attempt.
 constexpr double calmer = 0.1;
 /// Duration of an increment in which only springs and cracks react [s].
@@ -28,7 +27,7 @@ constexpr int most_of_drop = 2000;
 
 }  // namespace
 
-void Increments::drop(std::int64_t steps, const IncrementReport& failed) {
+void Increments::drop(std::int64_t steps) {
   const CourseReport::Unstable before{network_.time(), network_.wall_displacement()[loaded_wall].z / options_.height,
                                       past_.back().value};
   WallIncrement next = increment_of(steps);
@@ -62,21 +61,22 @@ void Increments::drop(std::int64_t steps, const IncrementReport& failed) {
     found = solve(last);
     if (!found.converged) {
       network_.reject();
+      ++report_.rejected;
       continue;
     }
-    const double value = observed_value();
-    network_.accept();
-    step_ += steps;
-    ++report_.increments;
-    if (std::abs(value - before.stress_pa) > noticeable * largest_) {
-      ++report_.drops;
-      if (!report_.first_drop) report_.first_drop = before;
-    }
-    past_ = {{static_cast<double>(step_), value}};
-    length_ = static_cast<double>(steps);
+    accept(steps, found, false);
+    ++report_.drops;
+    if (!report_.first_drop) report_.first_drop = before;
+    past_ = {past_.back()};
+    usual_ = length_ = static_cast<double>(steps);
     return;
   }
-  fail(failed);
+  throw NoEquilibrium(
+      fmt::format("quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} ({:.4g} MPa), where the "
+                  "specimen moves suddenly, although its particles moved against a drag; method = \"explicit\" in "
+                  "[solver] can follow",
+                  before.time_s, before.strain, before.stress_pa / 1e6),
+      before);
 }
 
 }  // namespace macadam::quasi_static

@@ -23,7 +23,9 @@ experiments::Increments increments_found(const QuasiStaticStepper& stepper) {
   return out;
 }
 
-std::vector<std::string> increment_warnings(const quasi_static::CourseReport& report) {
+std::vector<std::string> increment_warnings(const QuasiStaticStepper& stepper) {
+  const quasi_static::CourseReport& report = stepper.report();
+  const double lost_j = stepper.energies().damping_j;
   std::vector<std::string> warnings;
   if (report.unstable) {
     warnings.push_back(fmt::format(
@@ -35,10 +37,11 @@ std::vector<std::string> increment_warnings(const quasi_static::CourseReport& re
   if (report.first_drop) {
     warnings.push_back(fmt::format(
         "sudden drops of the stress: {}, the first after t = {:.6g} s (strain {:.6g}, {:.4g} MPa), because no "
-        "equilibrium was near; the particles moved against a drag, with the wall at rest, until they were in "
-        "equilibrium again. Which cracks grow in a drop may depend on the drag; method = \"explicit\" in [solver] "
+        "equilibrium was near; the particles moved against a drag until they were in equilibrium again, which took "
+        "{:.3g} J. Which cracks grow in a drop may depend on the drag; method = \"explicit\" in [solver] "
         "includes inertia",
-        report.drops, report.first_drop->time_s, report.first_drop->strain, report.first_drop->stress_pa / 1e6));
+        report.drops, report.first_drop->time_s, report.first_drop->strain, report.first_drop->stress_pa / 1e6,
+        lost_j));
   }
   if (report.loose > 0) {
     warnings.push_back(fmt::format(

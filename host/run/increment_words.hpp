@@ -14,6 +14,6 @@ namespace macadam {
 experiments::Increments increments_found(const QuasiStaticStepper& stepper);
 
 /// Returns a warning if the wall had to be controlled by the opening of cracks, and one if particles had separated.
-std::vector<std::string> increment_warnings(const quasi_static::CourseReport& report);
+std::vector<std::string> increment_warnings(const QuasiStaticStepper& stepper);
 
 }  // namespace macadam

@@ -127,7 +127,7 @@ class QuasiStatic {
   /// them. Empty on the CPU.
   std::optional<experiments::CrackSurvey> survey_cracks() const;
 
-  /// Everything that accept() changes, as for Stepper::state().
+  /// Everything that accept() changes, as for Stepper::state(). \throws RunError after an increment with a drag.
   std::vector<StateArray> state() const;
   /// Restores a state. If that is not possible, changes nothing. \throws RunError naming the array that does not fit.
   void set_state(const std::vector<StateArray>& arrays);

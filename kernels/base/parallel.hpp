@@ -9,13 +9,13 @@
 
 namespace macadam {
 
-/// Calls f(k) for k < n on all threads (on the calling thread if `threads` is false), in any order. An exception must
-/// not leave an OpenMP thread. So all calls are made first, and exceptions are stored. Then the exception of the lowest
-/// k is thrown again.
+/// Calls f(k) for k < n on all threads, in any order; on the calling thread if n = 1 or `threads` is false. Exceptions
+/// must not leave an OpenMP thread. So all calls are made first, and exceptions are stored. Then the exception of the
+/// lowest k is thrown again.
 template <class F>
 void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
   std::vector<std::exception_ptr> thrown(n);
-#pragma omp parallel for schedule(dynamic, 1) if (threads)
+#pragma omp parallel for schedule(dynamic, 1) if (threads && n > 1)
   for (std::size_t k = 0; k < n; ++k) {
     try {
       f(k);

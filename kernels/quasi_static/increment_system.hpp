@@ -103,16 +103,21 @@ struct CrackTotals {
 /// Vectors of the device that the host may read or write.
 enum class IncrementVector : std::uint8_t { residual, top, correction, by_wall, displacement, trial };
 
+/// Largest number of iterations for a linear system, on CPU and GPU.
+inline constexpr int most_increment_iterations = 600;
+
 /// The operations of Newton's method on a device, in double precision. All sums have a fixed order, so the same device
 /// computes the same bits in every run. The operations are those of host/quasi_static/engine.hpp.
 class DeviceIncrements {
  public:
   virtual ~DeviceIncrements() = default;
-  /// Prepares an increment, whose trial has been written; `growing_area`: of the points that grew in the last one [m²].
+  /// Prepares an increment, whose trial has been written; `growing_area`: of the points that grew in the last one [m²];
+  /// `drag`: resistance to the trial's motion, divided by the intact stiffness.
   virtual void begin(const IncrementLaws& laws, double growing_area, double drag) = 0;
   virtual IncrementSums evaluate(const WallMotions& wall) = 0;
   /// Assembles the tangent at the last evaluation, or its symmetric part, with `held` of the intact stiffness added to
-  /// the diagonal; particles with less than `loose` of their intact stiffness get this part of it.
+  /// the diagonal (the drag included); particles with less than `loose` of their intact stiffness get at least this
+  /// part.
   virtual AssembledSums assemble(bool symmetric, double held, double loose) = 0;
   /// Returns the diagonal numbers of the tangent [6·bodies].
   virtual std::vector<double> diagonal() const = 0;

@@ -67,5 +67,21 @@ TEST(PeakFit, IsEmptyForACornerAndForACurveThatEndsEarly) {
   EXPECT_FALSE(fit_peak(samples, {}));
 }
 
+TEST(PeakOfIncrements, IsTheVertexOfAParabola) {
+  // 1 MPa at a strain of 1e-3, 1.25 % below it at the neighbours
+  const auto at = [](double strain) { return StressSample{strain, 1e6 - 5e12 * (strain - 1e-3) * (strain - 1e-3)}; };
+  const std::vector<StressSample> samples{at(0.93e-3), at(0.98e-3), at(1.03e-3), at(1.08e-3)};
+  const auto found = interpolate_peak(samples);
+  ASSERT_TRUE(found);
+  // rounding of differences of 1e6 by some 1e-10, divided by falls of 1e3
+  EXPECT_NEAR(found->stress_pa, 1e6, 1e-5);
+  EXPECT_NEAR(found->strain, 1e-3, 1e-13);
+}
+
+TEST(PeakOfIncrements, IsNotFittedBeforeASuddenDrop) {
+  const std::vector<StressSample> samples{{0.9e-3, 0.99e6}, {1e-3, 1e6}, {1.001e-3, 0.2e6}};
+  EXPECT_FALSE(interpolate_peak(samples));
+}
+
 }  // namespace
 }  // namespace macadam::test

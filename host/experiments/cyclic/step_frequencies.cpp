@@ -211,7 +211,7 @@ void CyclicSteps::step(std::size_t i, LineWriter* writer, SampledRuns& sampled_r
   at_.seconds.push_back(before + seconds_since(start));
   if (is_quasi_static()) {
     at_.increments.push_back(increments_found(*increments_));
-    for (const std::string& warning : increment_warnings(increments_->report()))
+    for (const std::string& warning : increment_warnings(*increments_))
       warn(fmt::format("{} Hz: {}", p.loading.frequency, warning), result);
   }
 }

@@ -49,6 +49,9 @@ std::optional<experiments::FittedPeak> fit_around(std::span<const StressSample> 
   return out;
 }
 
+/// A parabola whose vertex is above the largest stress by more than this part of it is not used.
+constexpr double most_above = 5e-3;
+
 }  // namespace
 
 std::optional<experiments::FittedPeak> fit_peak(std::span<const StressSample> samples, const experiments::Peak& peak) {
@@ -71,8 +74,10 @@ std::optional<experiments::FittedPeak> interpolate_peak(std::span<const StressSa
   const double fall = (top - 1)->stress_pa - top->stress_pa, next = (top + 1)->stress_pa - top->stress_pa;
   const double bend = (next / after - fall / before) / (after - before), slope = fall / before - bend * before;
   if (!(before * after < 0) || !(sign * bend < 0)) return {};
-  const double at = -0.5 * slope / bend;
-  return experiments::FittedPeak{top->strain + at, top->stress_pa + 0.5 * slope * at, 0};
+  const double at = -0.5 * slope / bend, above = 0.5 * slope * at;
+  // the curve is no parabola if the stress drops suddenly after its largest value
+  if (sign * above > most_above * std::abs(top->stress_pa)) return {};
+  return experiments::FittedPeak{top->strain + at, top->stress_pa + above, 0};
 }
 
 }  // namespace macadam

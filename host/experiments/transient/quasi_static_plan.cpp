@@ -117,7 +117,7 @@ quasi_static::CourseOptions course_options(const TransientExperiment& test, cons
   // large systems are solved by iterations, and every digit of the solution costs the same time
   if (6 * prepared.specimen.size() > out.solver.direct_below) {
     out.solver.residual = std::min(1e-6, 1e-3 * out.tolerance);
-    out.solver.passes = passes_with_iterations;
+    if (out.grows && !out.by_force) out.solver.passes = passes_with_iterations;
   }
   return out;
 }

@@ -145,7 +145,10 @@ std::string SteppedLoad::head(const LoadWords& words) const {
 }
 
 SteppedColumns SteppedLoad::columns() const {
-  return {test_.by_stress,    cracks_.active(),          cracks_.sums(), at_.plan.damping_kind != Damping::none,
+  // a drag dissipates energy in large specimens whose stress drops suddenly
+  const bool drag = is_quasi_static() && cracks_.sums() && test_.grows &&
+                    6 * prepared_.specimen.size() > QuasiStaticOptions{}.direct_below;
+  return {test_.by_stress,    cracks_.active(),          cracks_.sums(), drag || at_.plan.damping_kind != Damping::none,
           sides_.has_value(), !test_.temperature.empty()};
 }
 
@@ -238,7 +241,7 @@ void SteppedLoad::judge(const SteppedResponse& found, std::vector<std::string>& 
         sudden_break_->time_s, test_.temperature.at(sudden_break_->time_s), sudden_break_->stress_pa / 1e6));
   }
   if (quasi_static_) {
-    for (std::string& warning : increment_warnings(quasi_static_->report())) warnings.push_back(std::move(warning));
+    for (std::string& warning : increment_warnings(*quasi_static_)) warnings.push_back(std::move(warning));
   }
   if (quasi_static_ && !at_.unstepped) return;
   if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));

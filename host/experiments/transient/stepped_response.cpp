@@ -87,7 +87,9 @@ std::string energy_words(const SteppedResponse& found) {
           ? fmt::format(" and {:.4g} J against thermal expansion", e.thermal_j)
           : "",
       e.crack_j, e.friction_j, e.viscous_j, e.elastic_j, e.kinetic_j,
-      found.damping_kind == Damping::none ? "" : fmt::format(", damping {:.4g}", e.damping_j),
+      found.damping_kind != Damping::none ? fmt::format(", damping {:.4g}", e.damping_j)
+      : e.damping_j != 0                  ? fmt::format(", drag in sudden drops {:.4g}", e.damping_j)
+                                          : "",
       error ? fmt::format("the balance has an error of {:.1e} of the work", *error)
             : "the error of the balance is unknown, because the run has damping or an unknown energy");
 }

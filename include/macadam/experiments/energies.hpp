@@ -12,7 +12,7 @@ struct Energies {
   double crack_j = 0;     ///< dissipated by damage, and stored in open cracks
   double friction_j = 0;  ///< dissipated by friction in cracks
   double kinetic_j = 0;   ///< change of the energy of motion of the particles, density scaling included
-  double damping_j = 0;   ///< dissipated by the damping of the time steps
+  double damping_j = 0;   ///< dissipated by the damping of time steps, or by the drag in sudden drops
   double thermal_j = 0;   ///< work of the contacts' forces against thermal expansion
 
   /// Returns the work that no other energy accounts for [J]. Without an error it is zero.

@@ -102,7 +102,7 @@ __global__ void __launch_bounds__(increment_threads)
   d.top[at] = mine;
   double* out = &d.blocks[36 * static_cast<std::size_t>(d.entry_begin[body]) + 6 * axis];
 #pragma unroll
-  for (int r = 0; r < 6; ++r) out[r] = r == axis ? own[r] + (is_loose ? loose : held) * intact : own[r];
+  for (int r = 0; r < 6; ++r) out[r] = r == axis ? own[r] + (is_loose ? fmax(loose, held) : held) * intact : own[r];
 }
 
 /// Computes the derivative of the top wall's reaction along z with respect to its displacement, by one block.

@@ -12,9 +12,6 @@
 
 namespace macadam::kernels {
 
-/// Largest number of iterations.
-inline constexpr int most_increment_iterations = 600;
-
 /// Scalars of the iteration, in device memory.
 struct GradientState {
   double rz[2];  ///< rᵀz
