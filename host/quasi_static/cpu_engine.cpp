@@ -54,14 +54,14 @@ class CpuEngine : public Engine {
         particles_(specimen.size()),
         contacts_(network, laws),
         matrix_(network, specimen.size()),
-        solver_(6 * specimen.size() <= options.direct_below ? make_direct_solver() : make_iterative_solver(specimen)),
+        solver_(options.solves_directly(specimen.size()) ? make_direct_solver() : make_iterative_solver(specimen)),
         expansion_(options.expansion),
         displacement_(6 * specimen.size()),
         trial_(6 * specimen.size()) {
     for (std::size_t number = 0; number < network.contacts.size(); ++number) {
       if (network.contacts[number].b < 0) at_walls_.push_back(static_cast<std::uint32_t>(number));
     }
-    contacts_.begin(all_laws(1e-30));
+    contacts_.begin(all_laws(instant));
     contacts_.evaluate(std::vector<Six>(network.contacts.size(), Six{}));
     matrix_.assemble(contacts_, true);
     Vector diagonal(6 * particles_);

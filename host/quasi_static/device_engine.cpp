@@ -42,12 +42,12 @@ class DeviceEngine : public Engine {
       for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) crackable_area_ += network.point_area[j];
     }
     // Without motion the tangent is the intact, instantaneous stiffness
-    begin(all_laws(1e-30), Vector(6 * specimen.size()), 0);
+    begin(all_laws(instant), Vector(6 * specimen.size()), 0);
     device_->evaluate({});
     wall_stiffness_ = device_->assemble(true, 0, 0).wall_stiffness;
     intact_ = intact_stiffness(to_particles(device_->diagonal()), specimen);
     device_->set_intact(to_bodies(intact_));
-    if (6 * specimen.size() > options.direct_below) return;
+    if (!options.solves_directly(specimen.size())) return;
     direct_ = make_direct_solver();
     matrix_.emplace(network, specimen.size());
   }

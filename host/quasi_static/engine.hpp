@@ -17,7 +17,7 @@ using Walls = std::array<Vec3d, wall_count>;  ///< by wall_index()
 /// Sums at a trial, which is a motion of particles and walls in the increment.
 struct TrialSums {
   double size = 0;     ///< of the loads that are out of balance: root of Σ load²/intact stiffness
-  double scale = 0;    ///< the same of the loads of all contacts
+  double scale = 0;    ///< of the loads of all contacts: the same root, with the sum of their magnitudes as the load
   Walls reaction{};    ///< external forces that hold the walls [N]
   double opening = 0;  ///< mean increase of the openings of the points that grew in the last increment, by area [m]
 };
@@ -98,6 +98,9 @@ class Engine {
 /// tangent [6·particles]. Entries that are much smaller than others of the same kind are enlarged.
 Vector intact_stiffness(const Vector& diagonal, const Specimen& specimen);
 
+/// Duration of an increment in which only springs and cracks react, because dashpots have no time to move [s].
+inline constexpr double instant = 1e-30;
+
 /// Returns the same duration for all laws.
 inline LawTimes all_laws(double dt) {
   LawTimes out;
@@ -116,8 +119,7 @@ inline constexpr double loose_part = 1e-4;
 std::unique_ptr<Engine> make_cpu_engine(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                                         const QuasiStaticOptions& options);
 /// Makes an engine on a CUDA device. \throws InputError as QuasiStatic, for several devices, and for contacts that
-/// expand; RunError if the device
-/// has too little memory.
+/// expand; RunError if the device has too little memory.
 std::unique_ptr<Engine> make_device_engine(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const QuasiStaticOptions& options);
 

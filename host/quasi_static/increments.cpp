@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// increments.cpp  Takes increments of a length for which the estimated error is within the tolerance. Where no
+// increments.cpp  Takes increments of a length for which the estimated error is within the tolerance. If no
 // equilibrium exists at a larger displacement of the wall, the test is controlled by the opening of cracks, or the
 // stress drops suddenly (sudden_drop.cpp).
 #include "host/quasi_static/increments.hpp"
@@ -44,7 +44,7 @@ Increments::Increments(const Specimen& specimen, const ContactNetwork& network, 
                        CourseOptions options)
     : options_(std::move(options)),
       may_drop_(
-          options_.grows && !options_.by_force && 6 * specimen.size() > options_.solver.direct_below &&
+          options_.grows && !options_.by_force && !options_.solver.solves_directly(specimen.size()) &&
           std::ranges::any_of(pair_laws(network, laws), [](const PairLaw& law) { return law.cracked.has_value(); })),
       network_(specimen, network, laws, options_.solver),
       length_(static_cast<double>(options_.first)),

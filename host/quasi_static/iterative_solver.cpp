@@ -9,6 +9,7 @@
 #include "host/quasi_static/tangent_solver.hpp"
 #include "kernels/base/parallel.hpp"
 #include "kernels/quasi_static/increment_system.hpp"
+#include "kernels/quasi_static/particle_inverse.hpp"
 
 namespace macadam::quasi_static {
 namespace {
@@ -67,14 +68,10 @@ class IterativeSolver : public TangentSolver {
     inverse_.resize(k.particles());
     for_pieces(6 * k.particles(), degrees_at_once, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from / 6; i < to / 6; ++i) {
-        // Scaled to a diagonal of one; a block that is not positive definite is replaced by its diagonal
-        const Block block = 0.5 * (k.diagonal(i) + k.diagonal(i).transpose());
-        const Eigen::Matrix<double, 6, 1> scale = block.diagonal().array().abs().max(1e-300).rsqrt();
-        const Eigen::Matrix<double, 6, 6> unit = scale.asDiagonal() * block * scale.asDiagonal();
-        const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factors(unit);
-        Eigen::Matrix<double, 6, 6> inverse = Eigen::Matrix<double, 6, 6>::Identity();
-        if (factors.info() == Eigen::Success && factors.rcond() > 1e-9) inverse = factors.solve(inverse).eval();
-        inverse_[i] = scale.asDiagonal() * inverse * scale.asDiagonal();
+        double block[36];
+        Eigen::Map<Block>(block, 6, 6) = k.diagonal(i);
+        kernels::invert_particle_block(block);
+        inverse_[i] = Eigen::Map<const Block>(block, 6, 6);
       }
     });
     if (k.is_symmetric()) boxes_.factor(k);

@@ -8,7 +8,7 @@ namespace macadam::quasi_static {
 
 /// The motion of the walls in an increment, and the sums at its end. The engine has the motion of the particles.
 struct Trial {
-  Vector motion;  ///< at first the guess, after accept() that of the increment [6·particles]
+  Vector motion;  ///< the guess of the motion; after accept() the motion of the increment [6·particles]
   Walls wall{};   ///< displacement in the increment [m]
   TrialSums sums;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host/quasi_static/engine.hpp"
 #include "host/quasi_static/increments.hpp"
 
 namespace macadam::quasi_static {
@@ -18,10 +19,9 @@ constexpr double first_drag = 1e-3, least_drag = 1e-5, largest_drag = 100;
 /// fast.
 constexpr double drag_ratio = 4;
 constexpr int fast_passes = 4, very_fast_passes = 1, increments_with_larger_drag = 4;
-/// An equilibrium is looked for again when the drag has become this part of its largest size since the last attempt.
+/// The program looks for an equilibrium again when the drag has fallen to this part of its largest size since the last
+/// attempt.
 constexpr double calmer = 0.1;
-/// Duration of an increment in which only springs and cracks react [s].
-constexpr double suddenly = 1e-30;
 /// Largest number of increments of a drop.
 constexpr int most_of_drop = 2000;
 
@@ -50,8 +50,8 @@ void Increments::drop(std::int64_t steps) {
     if (found.passes <= (keep > 0 ? very_fast_passes : fast_passes))
       next.drag = std::max(least_drag, next.drag / drag_ratio);
     keep = std::max(0, keep - 1);
-    next.wall = {}, next.warming = 0, next.dt = suddenly;
-    if (next.reduced_dt) next.reduced_dt->fill(suddenly);
+    next.wall = {}, next.warming = 0, next.dt = instant;
+    if (next.reduced_dt) next.reduced_dt->fill(instant);
     const double size = network_.drag_size();
     largest = std::max(largest, size);
     if (size > calmer * largest) continue;

@@ -25,6 +25,8 @@ struct QuasiStaticOptions {
   int passes = 25;
   /// Systems with at most this number of unknowns are solved by factors of their matrix, larger ones by iterations.
   std::size_t direct_below = 6000;
+  /// Returns whether the systems of a specimen with this number of particles are solved by factors.
+  bool solves_directly(std::size_t particles) const { return 6 * particles <= direct_below; }
   /// The processor that computes: the CPU, or one CUDA device.
   Backend backend = Backend::cpu;
   /// The CUDA device; empty: the first one.

@@ -11,8 +11,8 @@ namespace macadam::kernels {
 /// A block whose smallest pivot is below this number, after scaling to a diagonal of one, is replaced by its diagonal.
 inline constexpr double least_pivot = 1e-9;
 
-/// Replaces a block [6][6] by the inverse of its symmetric part. The inverse of a block that is not positive definite
-/// is that of its diagonal.
+/// Replaces a block [6][6] by the inverse of its symmetric part. If the block is not positive
+/// definite, it is replaced by the inverse of its diagonal.
 MACADAM_HD void invert_particle_block(double (&a)[36]) {
   double scale[6], low[36] = {};  // a, scaled, is low·lowᵀ
   for (int i = 0; i < 6; ++i) {

@@ -272,15 +272,21 @@ TEST(QuasiStaticSpecimen, EstimatesTheErrorOfItsIncrements) {
   }
 }
 
+/// Returns a strength test of brittle_t8() at 1e-3 1/s, to a strain of 1e-9 times its last stop.
+quasi_static::CourseOptions pulled_brittle(const QuasiStaticOptions& solver, std::vector<std::int64_t> stops) {
+  quasi_static::CourseOptions out;
+  out.drive = std::make_shared<drives::ConstantRate>(height, 1e-9, 1e-3);
+  out.height = height, out.area = area, out.grows = true;
+  out.stops = std::move(stops);
+  out.solver = solver;
+  return out;
+}
+
 // After a fall of stress for which no equilibrium exists at a larger displacement of the wall, the opening of cracks
 // controls the test, and the displacement decreases.
 TEST_P(QuasiStaticOn, FollowsSnapBack) {
   const TestScene scene = brittle_t8();
-  quasi_static::CourseOptions options;
-  options.drive = std::make_shared<drives::ConstantRate>(height, 1e-9, 1e-3);
-  options.height = height, options.area = area, options.grows = true;
-  options.stops = {1'000'000};
-  options.solver = on(GetParam());
+  const quasi_static::CourseOptions options = pulled_brittle(on(GetParam()), {1'000'000});
   quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
   double peak = 0, furthest = 0, least = 1, last = 1;
   while (increments.report().by_opening < 200 && (last > 0.14e6 || peak < 0.14e6)) {
@@ -302,11 +308,7 @@ TEST_P(QuasiStaticOn, FollowsSnapBack) {
 // The balance of energies contains the work of the drag.
 TEST_P(QuasiStaticOn, DropsSuddenly) {
   const TestScene scene = brittle_t8();
-  quasi_static::CourseOptions options;
-  options.drive = std::make_shared<drives::ConstantRate>(height, 1e-9, 1e-3);
-  options.height = height, options.area = area, options.grows = true;
-  options.stops = {315'000, 320'000};
-  options.solver = on(GetParam());
+  quasi_static::CourseOptions options = pulled_brittle(on(GetParam()), {315'000, 320'000});
   options.solver.direct_below = 0;
   quasi_static::Increments increments(scene.specimen, scene.network, scene.laws, options);
   double strain = 0, peak = 0;

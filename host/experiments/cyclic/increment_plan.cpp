@@ -118,7 +118,7 @@ std::unique_ptr<QuasiStaticStepper> make_cycle_increments(const Scene& scene, co
   const std::int64_t stride = frequency.loading.steps_per_period / plan.samples_per_cycle;
   for (std::int64_t k = 1; k <= samples; ++k) options.stops.push_back(k * stride);
   options.first = frequency.start == Start::steady ? stride : stride / first_fraction;
-  if (6 * prepared.specimen.size() > options.solver.direct_below)
+  if (!options.solver.solves_directly(prepared.specimen.size()))
     options.solver.residual = std::min(1e-6, 1e-3 * tolerance);
   auto out = std::make_unique<QuasiStaticStepper>(prepared.specimen, prepared.network, scene.laws,
                                                   moving_top(frequency.loading), std::move(options));

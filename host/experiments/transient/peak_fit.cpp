@@ -75,7 +75,7 @@ std::optional<experiments::FittedPeak> interpolate_peak(std::span<const StressSa
   const double bend = (next / after - fall / before) / (after - before), slope = fall / before - bend * before;
   if (!(before * after < 0) || !(sign * bend < 0)) return {};
   const double at = -0.5 * slope / bend, above = 0.5 * slope * at;
-  // the curve is no parabola if the stress drops suddenly after its largest value
+  // a parabola does not describe a stress that drops suddenly after its largest value
   if (sign * above > most_above * std::abs(top->stress_pa)) return {};
   return experiments::FittedPeak{top->strain + at, top->stress_pa + above, 0};
 }

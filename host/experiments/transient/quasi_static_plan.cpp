@@ -77,7 +77,7 @@ LoadPlan make_quasi_static_plan(const TransientExperiment& test, const Scene& sc
   decide(
       fmt::format("increments are chosen so that the estimated error of each one is below {:g} of the largest {}; {}",
                   scene.solver.tolerance.value_or(1e-3), test.by_stress ? "strain" : "stress",
-                  6 * prepared.specimen.size() <= QuasiStaticOptions{}.direct_below
+                  QuasiStaticOptions{}.solves_directly(prepared.specimen.size())
                       ? "the linear systems of the increments are solved by factorisation"
                       : "the linear systems of the increments are solved by iterations"));
   return plan;
@@ -115,7 +115,7 @@ quasi_static::CourseOptions course_options(const TransientExperiment& test, cons
   if (!test.grows) begin = std::min(begin, 0.02 * plan.ramp / plan.dt);
   out.first = is_sudden(test) ? 1 : std::max<std::int64_t>(1, std::llround(begin));
   // large systems are solved by iterations, and every digit of the solution costs the same time
-  if (6 * prepared.specimen.size() > out.solver.direct_below) {
+  if (!out.solver.solves_directly(prepared.specimen.size())) {
     out.solver.residual = std::min(1e-6, 1e-3 * out.tolerance);
     if (out.grows && !out.by_force) out.solver.passes = passes_with_iterations;
   }

@@ -146,8 +146,8 @@ std::string SteppedLoad::head(const LoadWords& words) const {
 
 SteppedColumns SteppedLoad::columns() const {
   // a drag dissipates energy in large specimens whose stress drops suddenly
-  const bool drag = is_quasi_static() && cracks_.sums() && test_.grows &&
-                    6 * prepared_.specimen.size() > QuasiStaticOptions{}.direct_below;
+  const bool drag = is_quasi_static() && cracks_.sums() && test_.grows && !test_.by_stress &&
+                    !QuasiStaticOptions{}.solves_directly(prepared_.specimen.size());
   return {test_.by_stress,    cracks_.active(),          cracks_.sums(), drag || at_.plan.damping_kind != Damping::none,
           sides_.has_value(), !test_.temperature.empty()};
 }

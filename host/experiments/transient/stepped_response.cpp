@@ -142,7 +142,7 @@ std::string increment_words(const SteppedResponse& found) {
       modulus_words(found.confined), i.increments, i.systems, found.seconds,
       found.cracks ? fmt::format("largest sum of the estimated errors of the increments, relative to the largest {}",
                                  found.kind == experiments::Creep::kind ? "strain" : "stress")
-                   : "difference from the exact solution in time, or an estimate if there is no such solution");
+                   : "difference from the exact solution in time; an estimate if that solution is not known");
 }
 
 }  // namespace

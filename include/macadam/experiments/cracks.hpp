@@ -37,7 +37,7 @@ struct CrackSums {
   std::array<double, pair_types> cracked_area_m2{};  ///< area of the cracked points, by PairType [m²]
 };
 
-/// What a device reports of the cracks of all contact points at one time. The states of the points stay on the device.
+/// The cracks of all contact points at one time, as a device counts them. The states of the points stay on the device.
 struct CrackSurvey {
   std::vector<CrackEvent> broken;                  ///< all broken points, by number; without a time
   std::array<std::int64_t, pair_types> cracked{};  ///< number of points that have begun to crack, by PairType
