@@ -33,8 +33,8 @@ constexpr double impossibly_short = 1.0 / 100;
 constexpr double forgotten = 0.8;
 /// In an increment controlled by opening, the stress may change by at most this part of the largest stress.
 constexpr double stress_change = 0.03;
-/// A drop begins after this many halvings of an increment, or if it is shorter than this part of a usual one, because
-/// iterations need long to find no solution.
+/// Where the stress may drop, an increment counts as impossible after this many halvings, or if it is shorter than this
+/// part of a usual one, because iterations need long to find no solution.
 constexpr int halvings_before_drop = 2;
 constexpr double too_short_before_drop = 1.0 / 20;
 

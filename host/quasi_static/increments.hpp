@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,7 @@ struct CourseOptions {
   TemperatureHistory temperature;   ///< of the specimen; empty: constant. The laws are given at their references
   std::array<laws::Shift, pair_types> shifts{};  ///< of the laws; used only with a temperature history
   QuasiStaticOptions solver;
+  std::function<bool()> stop = {};  ///< asked during sudden drops, which can take minutes; true ends them, see Stopped
 };
 
 /// What happened in a test.
@@ -47,10 +49,10 @@ struct CourseReport {
   };
   std::optional<Unstable> unstable = {};
   std::int64_t by_opening = 0;  ///< number of increments that were controlled by the opening of cracks
-  /// The state before the first sudden drop of the stress: no equilibrium was found nearby, so the specimen moved
-  /// against a drag, with the wall at rest, until it was in equilibrium again.
+  /// The state before the first sudden drop of the stress that counts in `drops`: no equilibrium was found nearby, so
+  /// the specimen moved against a drag, with the wall at rest, until it was in equilibrium again.
   std::optional<Unstable> first_drop = {};
-  std::int64_t drops = 0;  ///< number of sudden drops
+  std::int64_t drops = 0;  ///< number of sudden drops by more than 1 % of the largest stress
 };
 
 /// No equilibrium was found, although increments became very short, or at the end of a sudden drop. Holds the last
@@ -61,13 +63,16 @@ class NoEquilibrium : public RunError {
   CourseReport::Unstable last;
 };
 
+/// CourseOptions::stop was true in a sudden drop. The state is again that before the drop.
+struct Stopped {};
+
 class Increments {
  public:
   Increments(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, CourseOptions options);
 
   /// Starts from a state of motion, as QuasiStatic::start().
   void start(const StartState& state);
-  /// Takes one increment, which ends at the next stop or earlier. \throws NoEquilibrium
+  /// Takes one increment, which ends at the next stop or earlier. \throws NoEquilibrium, Stopped
   void advance();
   std::int64_t step() const { return step_; }
   const QuasiStatic& network() const { return network_; }
@@ -101,6 +106,8 @@ class Increments {
   /// Takes an increment of `steps` steps, after which no equilibrium is near, and moves the specimen against a drag
   /// until it is in equilibrium again.
   void drop(std::int64_t steps);
+  /// Moves the specimen against a drag as drop() does. Returns whether an equilibrium was found.
+  bool follow_drop(std::int64_t steps);
   /// Solves an increment and counts its passes.
   IncrementReport solve(const WallIncrement& next);
   [[noreturn]] void fail(const IncrementReport& found) const;

@@ -18,7 +18,7 @@ constexpr std::size_t degrees_at_once = 6144;  ///< degrees of freedom per piece
 constexpr double particles_per_box = 60;
 /// The preconditioner is made again when a solution takes this many times the iterations of the first one with it.
 constexpr double more_iterations = 1.3;
-constexpr std::size_t restart = 50;  ///< vectors of GMRES
+constexpr std::size_t restart = kernels::gmres_vectors;
 
 double product(const Vector& a, const Vector& b) {
   return sum_in_parallel<double>(a.size(), [&](std::size_t i) { return a[i] * b[i]; });
@@ -74,7 +74,7 @@ class IterativeSolver : public TangentSolver {
         inverse_[i] = Eigen::Map<const Block>(block, 6, 6);
       }
     });
-    if (k.is_symmetric()) boxes_.factor(k);
+    boxes_.factor(k);
     stale_ = false;
     first_rate_ = 0;
   }
@@ -130,12 +130,15 @@ class IterativeSolver : public TangentSolver {
     if (goal == 0) return out.solved = true, out;
     std::vector<Vector> basis(restart + 1);
     Eigen::MatrixXd h(restart + 1, restart);
+    double before = 0;  // residual of the last start
     while (out.iterations < kernels::most_increment_iterations) {
       matrix_->multiply(x, q_);
       r_ = right;
       add_multiple(-1, q_, r_);
       const double size = std::sqrt(product(r_, r_));
       if (size <= goal) return out.solved = true, out;
+      if (kernels::is_too_slow(before, size, goal, kernels::most_increment_iterations - out.iterations)) return out;
+      before = size;
       divide(r_, size, basis[0]);
       h.setZero();
       Eigen::VectorXd left = Eigen::VectorXd::Zero(restart + 1), answer;

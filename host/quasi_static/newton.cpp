@@ -13,6 +13,10 @@ namespace {
 /// Systems that are solved by iterations have the symmetric part of the tangent. If a correction leaves more than this
 /// part of the residual, friction makes the rest of the tangent matter.
 constexpr double slow = 0.3;
+/// Passes with iterations are expensive: if this number of them does not reduce the residual to this part, a shorter
+/// increment is tried.
+constexpr int slow_passes = 3;
+constexpr double slow_gain = 0.5;
 
 }  // namespace
 
@@ -77,6 +81,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
     trial.sums.scale = std::max(trial.sums.scale, least_scale_);
   }
   int stuck = 0;
+  double earlier = INFINITY;  // merit at the last check of its gain
   // The condition for the wall is as accurate as the residual, relative to its own scale
   const auto merit = [&] {
     const double size = std::max(scale, trial.sums.scale);
@@ -87,6 +92,10 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
     out.residual = now;
     if (now <= options_.residual) return out.converged = true, out;
     if (out.passes >= options_.passes || !std::isfinite(now) || stuck >= 4) return out;
+    if (engine_->wants_symmetric() && out.passes % slow_passes == 0) {
+      if (now > slow_gain * earlier) return out;
+      earlier = now;
+    }
     ++out.passes;
     const double tolerance = tolerance_of(now);
     // The first correction of an increment is far from the solution in any case

@@ -266,6 +266,7 @@ std::vector<StateArray> QuasiStatic::state() const {
 }
 
 void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
+  parts_->drag_load.clear(), parts_->drag_size = 0;
   const std::vector<StateArray> own = state();
   const auto find = [&](const StateArray& want) -> const StateArray& {
     for (const StateArray& array : arrays) {
@@ -297,7 +298,6 @@ void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
   e.thermal_j = numbers[at + 6];
   e.damping_j = numbers[at + 7];
   p.newton.set_friction_matters(numbers[at + 8] != 0);
-  p.drag_load.clear(), p.drag_size = 0;
   const auto& grew = std::get<std::vector<std::int64_t>>(found[5]->values);
   p.engine().set_state({doubles(1), doubles(4), {grew.begin(), grew.end()}});
   p.solved = false;

@@ -42,11 +42,12 @@ QuasiStaticStepper::QuasiStaticStepper(const Specimen& specimen, const ContactNe
 }
 
 void QuasiStaticStepper::advance(std::int64_t steps) {
-  asked_ += steps;
-  while (increments_.step() < asked_) {
+  const std::int64_t asked = asked_ + steps;
+  while (increments_.step() < asked) {
     increments_.advance();
     if (after_each_) after_each_(observed(increments_.step()));
   }
+  asked_ = asked;
 }
 
 Observation QuasiStaticStepper::observed(std::int64_t step) const {

@@ -12,6 +12,8 @@ namespace macadam::quasi_static {
 namespace {
 
 constexpr std::size_t boxes_at_once = 16;  ///< in a piece of parallel work
+/// Least pivot, relative to the diagonal before elimination.
+constexpr double least_pivot = 1e-9;
 
 }  // namespace
 
@@ -55,7 +57,7 @@ Block RigidBoxes::motion(std::size_t particle) const {
   return out;
 }
 
-bool RigidBoxes::factor(const TangentMatrix& matrix) {
+void RigidBoxes::factor(const TangentMatrix& matrix) {
   std::vector<std::map<std::int32_t, Block>> rows(boxes());
   for_each_in_parallel(boxes(), [&](std::size_t box) {
     for (std::size_t m = begin_[box]; m < begin_[box + 1]; ++m) {
@@ -70,7 +72,6 @@ bool RigidBoxes::factor(const TangentMatrix& matrix) {
     }
   });
   std::vector<Eigen::Triplet<double>> entries;
-  double largest = 0;
   for (std::size_t box = 0; box < boxes(); ++box) {
     for (const auto& [other, block] : rows[box]) {
       const bool same = other == static_cast<std::int32_t>(box);
@@ -78,23 +79,21 @@ bool RigidBoxes::factor(const TangentMatrix& matrix) {
         for (int c = same ? r : 0; c < 6; ++c)
           entries.emplace_back(6 * other + c, static_cast<int>(6 * box) + r, block(r, c));
       }
-      if (same) largest = std::max(largest, block.diagonal().head<3>().maxCoeff());
     }
   }
   const auto n = static_cast<Eigen::Index>(6 * boxes());
   Eigen::SparseMatrix<double> lower(n, n);
   lower.setFromTriplets(entries.begin(), entries.end());
-  auto& into = factored_ ? (second_ ? factors_ : next_) : factors_;
-  if (!factored_) factors_.analyzePattern(lower), next_.analyzePattern(lower);  // it stays the same
-  into.factorize(lower);
-  if (into.info() != Eigen::Success) return false;
-  if (factored_) second_ = !second_;
-  factored_ = true;
-  return true;
+  const Eigen::VectorXd least = least_pivot * lower.diagonal().cwiseAbs();
+  if (factors_.rows() == 0) factors_.analyzePattern(lower);  // it stays the same
+  factors_.factorize(lower);
+  pivots_.resize(0);
+  if (factors_.info() != Eigen::Success) return;  // a pivot is exactly zero
+  pivots_ = factors_.vectorD().cwiseAbs().cwiseMax(factors_.permutationP() * least);
 }
 
 void RigidBoxes::add_solution(const Vector& x, Vector& out) const {
-  if (!factored_) return;
+  if (pivots_.size() == 0) return;
   Eigen::VectorXd right(static_cast<Eigen::Index>(6 * boxes()));
   const auto at = [](auto* numbers) { return Vec3d{numbers[0], numbers[1], numbers[2]}; };
   for_pieces(boxes(), boxes_at_once, [&](std::size_t from, std::size_t to) {
@@ -109,7 +108,11 @@ void RigidBoxes::add_solution(const Vector& x, Vector& out) const {
       right.segment<6>(static_cast<Eigen::Index>(6 * box)) << force.x, force.y, force.z, moment.x, moment.y, moment.z;
     }
   });
-  const Eigen::VectorXd found = current().solve(right);
+  Eigen::VectorXd found = factors_.permutationP() * right;
+  factors_.matrixL().solveInPlace(found);
+  found = found.cwiseQuotient(pivots_);
+  factors_.matrixU().solveInPlace(found);
+  found = (factors_.permutationPinv() * found).eval();
   for_pieces(boxes(), boxes_at_once, [&](std::size_t from, std::size_t to) {
     for (std::size_t box = from; box < to; ++box) {
       const double* rigid = found.data() + 6 * box;

@@ -16,10 +16,10 @@ class RigidBoxes {
   /// `per_box`: mean number of particles per box.
   RigidBoxes(const Specimen& specimen, double per_box);
 
-  /// Factors RᵀKR, where R are the rigid motions. Returns false, and keeps the previous factors, if it is not positive
-  /// definite.
-  bool factor(const TangentMatrix& matrix);
-  /// Adds R·(RᵀKR)⁻¹·Rᵀ·x to `out`.
+  /// Factors the symmetric part of RᵀKR, where R are the rigid motions, as L·D·Lᵀ. |D| takes the place of D, so that
+  /// the factors are those of a positive definite matrix also where cracks make K lose its stability.
+  void factor(const TangentMatrix& matrix);
+  /// Adds R·(L·|D|·Lᵀ)⁻¹·Rᵀ·x to `out`.
   void add_solution(const Vector& x, Vector& out) const;
   std::size_t boxes() const { return begin_.size() - 1; }
 
@@ -31,9 +31,8 @@ class RigidBoxes {
   std::vector<std::uint32_t> members_;  ///< particles, box by box
   std::vector<std::size_t> begin_;
   std::vector<Vec3d> lever_;  ///< from the centre of the box to the particle [m]
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_, next_;
-  bool factored_ = false, second_ = false;
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>& current() const { return second_ ? next_ : factors_; }
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
+  Eigen::VectorXd pivots_;  ///< |D|; empty: no factors
 };
 
 }  // namespace macadam::quasi_static

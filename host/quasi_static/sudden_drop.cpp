@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/quasi_static/engine.hpp"
 #include "host/quasi_static/increments.hpp"
@@ -15,40 +16,64 @@ constexpr std::size_t loaded_wall = wall_index(wall_z_hi);
 /// Drag of the first increment of a drop, and its bounds, see WallIncrement::drag.
 constexpr double first_drag = 1e-3, least_drag = 1e-5, largest_drag = 100;
 /// The drag becomes this many times larger if an increment of a drop has no solution. It becomes smaller by the same
-/// factor after fast convergence, but in the first increments after it has become larger only if convergence is very
-/// fast.
+/// factor after fast convergence, but not in the first increments after it has become larger: first four, then twice
+/// as many each time.
 constexpr double drag_ratio = 4;
-constexpr int fast_passes = 4, very_fast_passes = 1, increments_with_larger_drag = 4;
+constexpr int fast_passes = 4, first_patience = 4, largest_patience = 32;
 /// The program looks for an equilibrium again when the drag has fallen to this part of its largest size since the last
 /// attempt.
 constexpr double calmer = 0.1;
 /// Largest number of increments of a drop.
 constexpr int most_of_drop = 2000;
+/// A drop by less than this part of the largest stress is not reported: another equilibrium was near.
+constexpr double reported_drop = 0.01;
 
 }  // namespace
 
 void Increments::drop(std::int64_t steps) {
   const CourseReport::Unstable before{network_.time(), network_.wall_displacement()[loaded_wall].z / options_.height,
                                       past_.back().value};
+  if (!follow_drop(steps)) {
+    throw NoEquilibrium(
+        fmt::format("quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} ({:.4g} MPa), where "
+                    "the specimen moves suddenly, although its particles moved against a drag; method = \"explicit\" "
+                    "in [solver] can follow",
+                    before.time_s, before.strain, before.stress_pa / 1e6),
+        before);
+  }
+  if (std::abs(before.stress_pa - past_.back().value) > reported_drop * largest_) {
+    ++report_.drops;
+    if (!report_.first_drop) report_.first_drop = before;
+  }
+  past_ = {past_.back()};
+  usual_ = length_ = static_cast<double>(steps);
+}
+
+bool Increments::follow_drop(std::int64_t steps) {
+  const std::vector<StateArray> saved = options_.stop ? state() : std::vector<StateArray>{};
   WallIncrement next = increment_of(steps);
   next.wall[loaded_wall].z = drive_at(step_ + steps) - network_.wall_displacement()[loaded_wall].z;
   next.drag = first_drag;
-  int keep = 0;        // number of increments in which the drag does not become smaller
-  double largest = 0;  // size of the drag since the last attempt to find an equilibrium
+  int keep = 0, patience = first_patience;  // numbers of increments in which the drag does not become smaller
+  double largest = 0;                       // size of the drag since the last attempt to find an equilibrium
   for (int k = 0; k < most_of_drop; ++k) {
+    if (options_.stop && options_.stop()) {
+      set_state(saved);
+      throw Stopped{};
+    }
     IncrementReport found = solve(next);
     if (!found.converged) {
       network_.reject();
       ++report_.rejected;
-      next.drag *= drag_ratio, keep = increments_with_larger_drag;
-      if (next.drag > largest_drag) break;
+      next.drag *= drag_ratio, keep = patience;
+      patience = std::min(2 * patience, largest_patience);
+      if (next.drag > largest_drag) return false;
       continue;
     }
     network_.accept();
     ++report_.increments;
     report_.loose = std::max(report_.loose, found.loose);
-    if (found.passes <= (keep > 0 ? very_fast_passes : fast_passes))
-      next.drag = std::max(least_drag, next.drag / drag_ratio);
+    if (keep == 0 && found.passes <= fast_passes) next.drag = std::max(least_drag, next.drag / drag_ratio);
     keep = std::max(0, keep - 1);
     next.wall = {}, next.warming = 0, next.dt = instant;
     if (next.reduced_dt) next.reduced_dt->fill(instant);
@@ -59,24 +84,14 @@ void Increments::drop(std::int64_t steps) {
     WallIncrement last = next;
     last.drag = 0;
     found = solve(last);
-    if (!found.converged) {
-      network_.reject();
-      ++report_.rejected;
-      continue;
+    if (found.converged) {
+      accept(steps, found, false);
+      return true;
     }
-    accept(steps, found, false);
-    ++report_.drops;
-    if (!report_.first_drop) report_.first_drop = before;
-    past_ = {past_.back()};
-    usual_ = length_ = static_cast<double>(steps);
-    return;
+    network_.reject();
+    ++report_.rejected;
   }
-  throw NoEquilibrium(
-      fmt::format("quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} ({:.4g} MPa), where the "
-                  "specimen moves suddenly, although its particles moved against a drag; method = \"explicit\" in "
-                  "[solver] can follow",
-                  before.time_s, before.strain, before.stress_pa / 1e6),
-      before);
+  return false;
 }
 
 }  // namespace macadam::quasi_static

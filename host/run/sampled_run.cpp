@@ -48,9 +48,7 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
       is_reported = true;
       course.report_remaining(static_cast<double>(end - now) / speed(now));
     }
-    // this takes a noticeable time only when a checkpoint is written
-    const InPhase writing(result_.phases, &PhaseSeconds::writing);
-    checkpoints_.look(course.content, stepper, course.name);
+    this->look(stepper, course);
   };
   bool ended = false;
   const auto take = [&](std::int64_t k, const Sample& sample) {
@@ -116,6 +114,12 @@ void SampledRuns::run(Stepper& stepper, const Course& course, ContactForm form, 
   }
   const InPhase writing(result_.phases, &PhaseSeconds::writing);
   fields_.end();
+}
+
+void SampledRuns::look(const Stepper& stepper, const Course& course) {
+  // this takes a noticeable time only when a checkpoint is written
+  const InPhase writing(result_.phases, &PhaseSeconds::writing);
+  checkpoints_.look(course.content, stepper, course.name);
 }
 
 }  // namespace macadam

@@ -65,6 +65,9 @@ class SampledRuns {
   /// RunError.
   void run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry);
 
+  /// Checks at the stepper's current step whether a checkpoint is due or the run must stop. \throws InterruptedError
+  void look(const Stepper& stepper, const Course& course);
+
   /// Returns whether the checkpoint in the folder, if there is one, belongs to this run.
   bool own_checkpoint() const { return checkpoints_.own(); }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -105,6 +106,13 @@ enum class IncrementVector : std::uint8_t { residual, top, correction, by_wall, 
 
 /// Largest number of iterations for a linear system, on CPU and GPU.
 inline constexpr int most_increment_iterations = 600;
+/// Largest number of vectors of a basis, before GMRES starts again.
+inline constexpr int gmres_vectors = 50;
+/// Whether GMRES would need more than `left` iterations to reduce the residual to `goal`, if each start from now on
+/// reduced it by the same factor as the last one. `before`: the residual at the last start; 0: there was none.
+inline bool is_too_slow(double before, double now, double goal, int left) {
+  return before > 0 && gmres_vectors * std::log(now / goal) > left * std::log(before / now);
+}
 
 /// The operations of Newton's method on a device, in double precision. All sums have a fixed order, so the same device
 /// computes the same bits in every run. The operations are those of host/quasi_static/engine.hpp.

@@ -92,6 +92,7 @@ void SteppedLoad::set_in_motion() {
 void SteppedLoad::make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state, Backend backend) {
   quasi_static::CourseOptions options = course_options(test_, at_.plan, scene_, prepared_);
   options.solver.backend = backend;
+  options.stop = watcher_.stop;
   if (backend == Backend::cuda) options.solver.devices = scene_.solver.devices;
   auto made = std::make_unique<QuasiStaticStepper>(prepared_.specimen, prepared_.network, scene_.laws, boundary,
                                                    std::move(options));
@@ -204,7 +205,12 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
     owns_checkpoint_ = sampled_runs.own_checkpoint();
   };
   try {
-    sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+    try {
+      sampled_runs.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+    } catch (const quasi_static::Stopped&) {
+      sampled_runs.look(*stepper_, course);
+      throw RunError("interrupted in a sudden drop");  // look() throws, unless the wish to stop is taken back
+    }
   } catch (const quasi_static::NoEquilibrium& error) {
     // a specimen that cracks because its temperature changes ends its test by breaking
     if (test_.temperature.empty() || !cracks_.active()) {

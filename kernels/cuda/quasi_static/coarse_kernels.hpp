@@ -3,8 +3,8 @@
 /// motions R of boxes, and its inverse by elimination in tiles of 32 × 32 numbers.
 ///
 /// The elimination replaces the matrix by its inverse. Step k inverts tile (k, k) to W, multiplies the tiles of row k
-/// by W, subtracts (column k)·(new row k) from all other tiles, and multiplies column k by −W. A positive definite
-/// matrix has positive pivots only.
+/// by W, subtracts (column k)·(new row k) from all other tiles, and multiplies column k by −W. The magnitude of a pivot
+/// takes its place, which gives the inverse of a positive definite matrix also where cracks make K lose its stability.
 #pragma once
 
 #include "kernels/cuda/quasi_static/gradient_kernels.hpp"
@@ -57,27 +57,28 @@ __global__ void __launch_bounds__(increment_threads)
   }
 }
 
-/// Fills the diagonal up to the end of the last tile with ones. Adds a part of the diagonal to it, so that motions of
-/// the whole specimen that no wall resists leave the matrix far enough from singular.
-__global__ void increment_fill_diagonal(double* matrix, unsigned size, unsigned stride) {
-  constexpr double added = 1e-9;
+/// Fills the diagonal up to the end of the last tile with ones, and stores the least pivots: a part of the diagonal,
+/// which motions of the whole specimen need that no wall resists.
+__global__ void increment_fill_diagonal(double* matrix, unsigned size, unsigned stride, double* least_pivots) {
+  constexpr double least_part = 1e-9;
   const unsigned i = thread_number();
   if (i >= stride) return;
   double& number = matrix[static_cast<std::size_t>(i) * (stride + 1)];
-  number = i < size ? (1 + added) * number : 1;
+  if (i >= size) number = 1;
+  least_pivots[i] = least_part * fabs(number);
 }
 
-/// Inverts tile (k, k) to `inverse`, by one block. Sets `failed` if a pivot is not positive.
-__global__ void __launch_bounds__(tile_numbers)
-    increment_invert_tile(const double* matrix, unsigned stride, unsigned k, double* inverse, int* failed) {
+/// Inverts tile (k, k) to `inverse`, by one block.
+__global__ void __launch_bounds__(tile_numbers) increment_invert_tile(const double* matrix, unsigned stride, unsigned k,
+                                                                      const double* least_pivots, double* inverse) {
   __shared__ double a[tile][tile + 1];
   const unsigned row = threadIdx.x / tile, column = threadIdx.x % tile;
   a[row][column] = matrix[static_cast<std::size_t>(k * tile + row) * stride + k * tile + column];
   __syncthreads();
   for (unsigned p = 0; p < tile; ++p) {
-    const double pivot = a[p][p], own = a[row][column], in_row = a[p][column], in_column = a[row][p];
+    const double pivot = fmax(fabs(a[p][p]), least_pivots[k * tile + p]);
+    const double own = a[row][column], in_row = a[p][column], in_column = a[row][p];
     __syncthreads();
-    if (threadIdx.x == 0 && !(pivot > 0)) *failed = 1;
     const double over = 1 / pivot;
     a[row][column] = row == p ? (column == p ? over : in_row * over)
                               : (column == p ? -in_column * over : own - in_column * over * in_row);

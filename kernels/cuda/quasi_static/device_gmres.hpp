@@ -10,11 +10,47 @@
 
 namespace macadam::kernels {
 
-/// Subtracts sum·x from y, where `sum` is a number on the device.
+/// Number of products of two vectors that a thread block sums at once, and the length of a row of such sums.
+inline constexpr int products_at_once = 8, products_in_row = 56;
+static_assert(products_in_row >= gmres_vectors && products_in_row % products_at_once == 0);
+
+/// Computes the products of y with `count` vectors of n numbers each. Block (x, y) computes products_at_once of them
+/// for its part of the vectors, in row x of `partial`.
 __global__ void __launch_bounds__(increment_threads)
-    increment_subtract(unsigned n, const double* sum, const double* x, double* y) {
-  const unsigned i = thread_number();
-  if (i < n) y[i] -= *sum * x[i];
+    increment_basis_products(unsigned n, int count, const double* basis, const double* y, double* partial) {
+  const int first = products_at_once * static_cast<int>(blockIdx.y);
+  double sum[products_at_once] = {};
+  for (unsigned i = thread_number(); i < n; i += gridDim.x * increment_threads) {
+    const double v = y[i];
+#pragma unroll
+    for (int k = 0; k < products_at_once; ++k) {
+      if (first + k < count) sum[k] += v * basis[static_cast<std::size_t>(first + k) * n + i];
+    }
+  }
+  sum_block<products_at_once>(sum, &partial[static_cast<std::size_t>(blockIdx.x) * products_in_row + first]);
+}
+/// Sums column blockIdx.x of `rows` rows of products.
+__global__ void __launch_bounds__(increment_threads)
+    increment_sum_products(const double* partial, unsigned rows, double* out) {
+  double sum[1] = {};
+  for (unsigned r = threadIdx.x; r < rows; r += increment_threads)
+    sum[0] += partial[static_cast<std::size_t>(r) * products_in_row + blockIdx.x];
+  sum_block<1>(sum, &out[blockIdx.x]);
+}
+/// Subtracts from y its parts along `count` vectors, given its products with them. `squares` receives the sum of y² of
+/// each block.
+__global__ void __launch_bounds__(increment_threads)
+    increment_subtract_basis(unsigned n, int count, const double* products, const double* basis, double* y,
+                             double* squares) {
+  double sum[1] = {};
+  for (unsigned i = thread_number(); i < n; i += gridDim.x * increment_threads) {
+    double v = y[i];
+#pragma unroll 8
+    for (int j = 0; j < count; ++j) v -= products[j] * basis[static_cast<std::size_t>(j) * n + i];
+    y[i] = v;
+    sum[0] += v * v;
+  }
+  sum_block<1>(sum, &squares[blockIdx.x]);
 }
 
 class DeviceGmres {
@@ -24,9 +60,10 @@ class DeviceGmres {
         m_(memory),
         gradients_(gradients),
         degrees_(6 * memory.view.bodies),
-        basis_(std::size_t{degrees_} * (restart + 1)),
-        column_(restart + 1),
-        columns_(team, restart + 1) {}
+        basis_(std::size_t{degrees_} * (gmres_vectors + 1)),
+        partial_(std::size_t{product_blocks} * products_in_row),
+        column_(column_numbers),
+        columns_(team, column_numbers) {}
 
   /// Solves K·x = r, where `r` is in gradients.r. x is then in gradients.x.
   IncrementSolution solve(double tolerance) {
@@ -37,12 +74,15 @@ class DeviceGmres {
     check_cuda(cudaMemsetAsync(g.x, 0, sizeof(double) * degrees_, team_.stream()), "solution");
     const double goal = tolerance * size_of(right.data());
     out.solved = goal == 0;
+    double before = 0;  // residual of the last start
     while (!out.solved && out.iterations < most_increment_iterations && std::isfinite(goal)) {
       multiply(g.x, g.q);
       combine(1, right.data(), -1, g.q, basis(0));
       const double size = size_of(basis(0));
       out.solved = size <= goal;
       if (out.solved || !std::isfinite(size)) break;
+      if (is_too_slow(before, size, goal, most_increment_iterations - out.iterations)) break;
+      before = size;
       combine(1 / size, basis(0), 0, basis(0), basis(0));
       const int used = extend_basis(size, goal, out.iterations);
       // back substitution, and the sum of the basis
@@ -60,29 +100,29 @@ class DeviceGmres {
   }
 
  private:
-  static constexpr int restart = 50;
+  /// A column of the small matrix on the device: two rows of products, and the square of what remains.
+  static constexpr std::size_t second_products = products_in_row, square = 2 * products_in_row,
+                               column_numbers = square + 1;
 
   /// Extends the basis by Arnoldi's method until the residual is below `goal`. Returns the number of vectors; h_ is
   /// then triangular, and answer_ its right-hand side.
   int extend_basis(double size, double goal, int& iterations) {
     const GradientView& g = m_.gradients;
-    double cosine[restart], sine[restart];
+    double cosine[gmres_vectors], sine[gmres_vectors];
     answer_[0] = size;
-    for (int k = 0; k < restart; ++k) {
+    for (int k = 0; k < gmres_vectors; ++k) {
       ++iterations;
       gradients_.apply(basis(k), g.p);
       multiply(g.p, basis(k + 1));
-      for (int j = 0; j <= k; ++j) {
-        dot(basis(k + 1), basis(j), column_.data() + j);
-        gradients_.run("subtract", increment_subtract, blocks_of(degrees_), degrees_, column_.data() + j, basis(j),
-                       basis(k + 1));
-      }
-      dot(basis(k + 1), basis(k + 1), column_.data() + k + 1);
-      columns_.copy(column_.data(), static_cast<std::size_t>(k) + 2, 0);
+      // Once more, because rounding errors of large parts along the basis remain (Giraud et al., "twice is enough")
+      subtract_basis(k + 1, column_.data());
+      subtract_basis(k + 1, column_.data() + second_products);
+      gradients_.run("sum", increment_sum<1>, 1u, m_.gradients.products, product_blocks, column_.data() + square);
+      columns_.copy(column_.data(), column_numbers, 0);
       const double* found = columns_.wait(0);
       double* h = h_[k];
-      std::copy(found, found + k + 1, h);
-      const double remains = std::sqrt(found[k + 1]);
+      for (int j = 0; j <= k; ++j) h[j] = found[j] + found[second_products + static_cast<std::size_t>(j)];
+      const double remains = std::sqrt(found[square]);
       for (int j = 0; j < k; ++j) {
         const double upper = cosine[j] * h[j] + sine[j] * h[j + 1];
         h[j + 1] = cosine[j] * h[j + 1] - sine[j] * h[j];
@@ -93,10 +133,10 @@ class DeviceGmres {
       h[k] = length;
       answer_[k + 1] = -sine[k] * answer_[k];
       answer_[k] *= cosine[k];
-      if (std::abs(answer_[k + 1]) <= goal || !(remains > 0) || k + 1 == restart) return k + 1;
+      if (std::abs(answer_[k + 1]) <= goal || !(remains > 0) || k + 1 == gmres_vectors) return k + 1;
       combine(1 / remains, basis(k + 1), 0, basis(k + 1), basis(k + 1));
     }
-    return restart;
+    return gmres_vectors;
   }
 
   double* basis(int k) const { return basis_.data() + std::size_t{degrees_} * static_cast<std::size_t>(k); }
@@ -108,6 +148,18 @@ class DeviceGmres {
   }
   void combine(double a, const double* x, double b, const double* y, double* out) const {
     gradients_.run("vectors", increment_combine, blocks_of(degrees_), degrees_, a, x, b, y, out);
+  }
+  /// Enqueues the removal of the parts of vector `count` of the basis along the vectors before it. `products`: the
+  /// products with them, on the device.
+  void subtract_basis(int count, double* products) const {
+    const dim3 blocks(product_blocks, static_cast<unsigned>((count + products_at_once - 1) / products_at_once));
+    increment_basis_products<<<blocks, increment_threads, 0, team_.stream()>>>(degrees_, count, basis_.data(),
+                                                                               basis(count), partial_.data());
+    check_launch("products", team_.stream());
+    gradients_.run("sums", increment_sum_products, static_cast<unsigned>(count), partial_.data(), product_blocks,
+                   products);
+    gradients_.run("subtract", increment_subtract_basis, product_blocks, degrees_, count, products, basis_.data(),
+                   basis(count), m_.gradients.products);
   }
   /// Enqueues the product of two vectors, into a number on the device.
   void dot(const double* x, const double* y, double* out) const {
@@ -124,9 +176,9 @@ class DeviceGmres {
   IncrementMemory& m_;
   DeviceGradients& gradients_;
   unsigned degrees_;
-  DeviceArray<double> basis_, column_;
+  DeviceArray<double> basis_, partial_, column_;
   PinnedCopies<double> columns_;
-  double h_[restart][restart + 1] = {}, answer_[restart + 1] = {};
+  double h_[gmres_vectors][gmres_vectors + 1] = {}, answer_[gmres_vectors + 1] = {};
 };
 
 }  // namespace macadam::kernels

@@ -10,39 +10,30 @@ namespace macadam::kernels {
 
 class DeviceGradients {
  public:
-  DeviceGradients(const DeviceTeam& team, IncrementMemory& memory)
-      : team_(team), m_(memory), states_(team), flags_(team) {}
+  DeviceGradients(const DeviceTeam& team, IncrementMemory& memory) : team_(team), m_(memory), states_(team) {}
   DeviceGradients(const DeviceGradients&) = delete;
   ~DeviceGradients() {
     if (batch_) cudaGraphExecDestroy(batch_);
   }
 
-  /// Inverts the blocks of the particles and, if `coarse`, the matrix of the rigid motions of boxes. A matrix that is
-  /// not positive definite is not taken.
+  /// Inverts the blocks of the particles and, if `coarse`, the matrix of the rigid motions of boxes.
   void precondition(bool coarse) {
     const IncrementView& d = m_.view;
     run("particle blocks", increment_invert_blocks, blocks_of(d.bodies), d, m_.inverse());
     if (!coarse) return;
     const unsigned stride = m_.gradients.coarse_stride, size = 6 * d.boxes;
-    double* const a = m_.next_coarse;
+    double* const a = m_.coarse;
     check_cuda(cudaMemsetAsync(a, 0, sizeof(double) * std::size_t{stride} * stride, team_.stream()), "coarse matrix");
-    check_cuda(cudaMemsetAsync(m_.failed, 0, sizeof(int), team_.stream()), "coarse matrix");
     run("coarse matrix", increment_coarse_matrix, warp_blocks(m_.pairs), d, m_.pairs, a, stride);
-    run("coarse diagonal", increment_fill_diagonal, blocks_of(stride), a, size, stride);
+    run("coarse diagonal", increment_fill_diagonal, blocks_of(stride), a, size, stride, m_.least_pivots);
     for (unsigned k = 0; k < m_.tiles; ++k) {
-      launch("coarse tile", increment_invert_tile, 1, tile_numbers, 0, team_.stream(), a, stride, k, m_.pivot_tile,
-             m_.failed);
+      launch("coarse tile", increment_invert_tile, 1, tile_numbers, 0, team_.stream(), a, stride, k, m_.least_pivots,
+             m_.pivot_tile);
       run("coarse panels", increment_panels, m_.tiles, a, stride, k, m_.pivot_tile, m_.row_tiles, m_.column_tiles);
       increment_eliminate<<<dim3(m_.tiles, m_.tiles), increment_threads, 0, team_.stream()>>>(
           a, stride, k, m_.pivot_tile, m_.row_tiles, m_.column_tiles);
       check_launch("coarse elimination", team_.stream());
     }
-    flags_.copy(m_.failed, 1, 0);
-    if (*flags_.wait(0)) return;
-    // The graph reads the first of the two arrays
-    check_cuda(cudaMemcpyAsync(m_.coarse, a, sizeof(double) * std::size_t{stride} * stride, cudaMemcpyDeviceToDevice,
-                               team_.stream()),
-               "coarse matrix");
   }
 
   /// Solves K·x = r, where `r` is in gradients.r; x is then in gradients.x.
@@ -98,7 +89,6 @@ class DeviceGradients {
   const DeviceTeam& team_;
   IncrementMemory& m_;
   PinnedCopies<GradientState> states_;
-  PinnedCopies<int> flags_;
   cudaGraphExec_t batch_ = nullptr;
 };
 

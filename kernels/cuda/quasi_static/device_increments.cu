@@ -77,9 +77,8 @@ class Increments : public DeviceIncrements {
 
   void precondition() override {
     team_.use(0);
-    const bool coarse = symmetric_ && stale_;
-    gradients_.precondition(coarse);
-    if (coarse) stale_ = false, first_rate_ = 0;
+    gradients_.precondition(stale_);
+    if (stale_) stale_ = false, first_rate_ = 0;
   }
 
   IncrementSolution solve(bool by_wall, double tolerance) override {
@@ -91,14 +90,14 @@ class Increments : public DeviceIncrements {
     IncrementSolution out;
     if (symmetric_) {
       out = gradients_.solve(tolerance);
-      // A tolerance and its number of iterations are compared by the mean gain per iteration
-      const double rate = out.iterations / -std::log(std::min(tolerance, 0.5));
-      if (first_rate_ == 0) first_rate_ = rate;
-      stale_ = rate > more_iterations * first_rate_ || !out.solved;
     } else {
       if (!gmres_) gmres_.emplace(team_, m_, gradients_);
       out = gmres_->solve(tolerance);
     }
+    // A tolerance and its number of iterations are compared by the mean gain per iteration
+    const double rate = out.iterations / -std::log(std::min(tolerance, 0.5));
+    if (first_rate_ == 0) first_rate_ = rate;
+    stale_ = rate > more_iterations * first_rate_ || !out.solved;
     combine(1, g.x, 0, g.x, solution(by_wall));
     return out;
   }

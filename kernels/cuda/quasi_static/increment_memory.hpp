@@ -27,8 +27,7 @@ class IncrementMemory {
   double *openings, *sums;                ///< sums of thread blocks; results of sums
   IncrementSums* trial_sums;
   unsigned long long* loose;
-  double *coarse, *next_coarse, *pivot_tile, *row_tiles, *column_tiles;
-  int* failed;
+  double *coarse, *least_pivots, *pivot_tile, *row_tiles, *column_tiles;
   unsigned tiles, pairs;
   std::size_t entries;
 
@@ -75,11 +74,10 @@ class IncrementMemory {
     g.inverse = inverse_;
     g.coarse_stride = tiles * tile, g.coarse_blocks = warp_blocks(size);
     coarse = numbers(std::size_t{g.coarse_stride} * g.coarse_stride);
-    next_coarse = numbers(std::size_t{g.coarse_stride} * g.coarse_stride);
+    least_pivots = numbers(g.coarse_stride);
     g.coarse = coarse;
     pivot_tile = numbers(tile_numbers), row_tiles = numbers(std::size_t{tiles} * tile_numbers);
     column_tiles = numbers(std::size_t{tiles} * tile_numbers);
-    failed = store_.zeros<int>(1);
     g.box_loads = numbers(size), g.box_moves = numbers(size);
     g.products = numbers(product_blocks), g.fine = numbers(s.boxes()), g.coarse_sums = numbers(g.coarse_blocks);
     g.state = store_.zeros<GradientState>(1);
