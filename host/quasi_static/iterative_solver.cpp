@@ -3,6 +3,7 @@
 // have a fixed order, so that the bits do not depend on the number of threads.
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/quasi_static/rigid_boxes.hpp"
@@ -57,8 +58,9 @@ class IterativeSolver : public TangentSolver {
     LinearReport out = matrix_->is_symmetric() ? conjugate_gradients(right, x, tolerance) : gmres(right, x, tolerance);
     // A tolerance and its number of iterations are compared by the mean gain per iteration
     const double rate = out.iterations / -std::log(std::min(tolerance, 0.5));
-    if (first_rate_ == 0) first_rate_ = rate;
-    stale_ = rate > more_iterations * first_rate_ || !out.solved;
+    double& first = first_rate_[matrix_->is_symmetric()];
+    if (first == 0) first = rate;
+    stale_ = rate > more_iterations * first || !out.solved;
     return out;
   }
 
@@ -76,7 +78,7 @@ class IterativeSolver : public TangentSolver {
     });
     boxes_.factor(k);
     stale_ = false;
-    first_rate_ = 0;
+    first_rate_ = {};
   }
 
   void precondition(const Vector& r, Vector& z) const {
@@ -173,7 +175,7 @@ class IterativeSolver : public TangentSolver {
   RigidBoxes boxes_;
   const TangentMatrix* matrix_ = nullptr;
   std::vector<Eigen::Matrix<double, 6, 6>> inverse_;
-  double first_rate_ = 0;
+  std::array<double, 2> first_rate_{};  ///< with the present preconditioner, of GMRES and of conjugate gradients
   bool stale_ = false;
   Vector r_, z_, p_, q_;
 };

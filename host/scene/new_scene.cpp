@@ -217,10 +217,21 @@ std::vector<Part> materials_with_laws(bool densities) {
   return {{"[materials]", {}}, aggregate, mastic};
 }
 
+/// Makes a disc of the box of a specimen.
+void make_disc(Part& specimen) {
+  std::vector<Given>& given = specimen.given;
+  const auto at = std::find_if(given.begin(), given.end(), [](const Given& g) { return g.key == "box"; });
+  *at = {"domain", R"("disc")"};
+  given.insert(at + 1, {{"diameter", R"("60 mm")"}, {"thickness", R"("20 mm")"}});
+  std::erase_if(specimen.not_these, [](const std::string& key) { return key == "domain" || key == "diameter"; });
+  specimen.not_these.push_back("box");
+}
+
 Part loading_of(const std::string& test, bool cracks) {
   Part out{"[loading]", {{"kind", '"' + test + '"'}}};
   const auto give = [&](const char* key, const char* value) { out.given.push_back({key, value}); };
   if (test == "cyclic") give("frequencies", "[2.0, 5.0, 10.0, 20.0]"), give("strain_amplitude", "1e-4");
+  if (test == "indirect_tension") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "sweep") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
@@ -269,7 +280,10 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
                     "a strength",
                     test));
   }
+  if (test == "indirect_tension" && rule == ContactRule::volumetric)
+    throw InputError("--test: found indirect_tension with --rule volumetric, expected --rule series or centres");
   std::vector<Part> parts = specimen_of(kind);
+  if (test == "indirect_tension") make_disc(parts.front());
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
   const bool of_phases = has_laws_of_phases(rule);
   if (of_phases)

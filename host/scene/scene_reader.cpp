@@ -197,6 +197,18 @@ toml::table without_lines(const toml::table& table) {
 }
 
 /// Reads all sections. `densities`: whether the scene must give the densities of its materials.
+/// Gives the domain the strips of an indirect tension test. A domain that cannot have strips is refused later.
+void set_strips(Scene& scene, const Section& root) {
+  const auto* test = std::get_if<experiments::IndirectTension>(&scene.experiment);
+  if (!test) return;
+  const double diameter = scene.specimen.box.size.x;
+  const double width = test->strip_width.value_or(experiments::IndirectTension::usual_strip * diameter);
+  if (!(width <= 0.5 * diameter))
+    root.find("loading")->section().refuse("strip_width", fmt::format("{:g} m", width),
+                                           fmt::format("at most half the diameter, {:g} m", 0.5 * diameter));
+  scene.specimen.box.set_strips(width);
+}
+
 Scene read_root(const ReadingFile& reading, const Section& root, Need densities) {
   Scene out;
   out.file = reading.file;
@@ -236,6 +248,7 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   set_laws_of_phases(out, phases, root);
   choose_method(out.solver, out.experiment, out.laws);
+  set_strips(out, root);
   check_together(out, root);
   apply_temperature(out, root, tables);
   return out;

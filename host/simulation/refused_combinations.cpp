@@ -34,7 +34,20 @@ void require_volumetric(const Scene& scene) {
       scene.file.string(), 0, "kind in [loading]",
       fmt::format("\"{}\" with domain = \"{}\" in [specimen]", kind_of(scene.experiment), scene.specimen.box.name()),
       "a domain with two platens and equal sections between them, such as \"box\", \"cylinder\" or "
-      "\"beam\"; macadam specimen makes specimens of every domain");
+      "\"beam\"; kind = \"indirect_tension\" for \"disc\"; macadam specimen makes specimens of every domain");
+}
+
+/// Refuses what the indirect tension test does not have. \throws InputError
+void require_disc(const Scene& scene) {
+  const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
+    throw InputError(scene.file.string(), 0, std::string(what) + " with kind \"indirect_tension\"", found, expected);
+  };
+  if (std::string(scene.specimen.box.name()) != "disc")
+    refuse("domain in [specimen]", std::string("\"") + scene.specimen.box.name() + "\"", "\"disc\"");
+  if (scene.network.lateral_walls) refuse("lateral_walls in [network]", "true", "false");
+  if (scene.network.rule == ContactRule::volumetric)
+    refuse("rule in [network]", "\"volumetric\"", "\"centres\" or \"series\"");
+  if (scene.output.sensitivities) refuse("sensitivities in [output]", "true", "false");
 }
 
 }  // namespace
@@ -46,7 +59,10 @@ Backend requested_backend(const Scene& scene) {
 }
 
 void require_combination(const Scene& scene) {
-  if (!scene.specimen.box.has_uniform_section()) require_uniform_section(scene);
+  if (std::holds_alternative<experiments::IndirectTension>(scene.experiment))
+    require_disc(scene);
+  else if (!scene.specimen.box.has_uniform_section())
+    require_uniform_section(scene);
   if (scene.network.rule == ContactRule::volumetric) require_volumetric(scene);
   if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
     throw InputError(scene.file.string(), 0, "method",

@@ -341,3 +341,15 @@ SELECT a.radius_m AS coarse, b.radius_m AS fine, a.temperature_c, a.frequency_hz
   100 * (exp(avg(ln(b.e_star_pa / a.e_star_pa))) - 1) AS e, avg(b.phase_deg - a.phase_deg) AS phi
 FROM "mixture-convergence.csv" a JOIN "mixture-convergence.csv" b USING (study, seed, temperature_c, frequency_hz)
 WHERE study = 'radius' AND b.radius_m < a.radius_m GROUP BY a.radius_m, b.radius_m, a.temperature_c, a.frequency_hz;
+
+-- |E*| [%], phi [degrees] and Poisson's ratio of discs in indirect tension minus those of boxes in the uniaxial test, and
+-- the range of |E*| over the seeds of the discs and of the boxes [%].
+CREATE VIEW disc_against_box AS
+SELECT material, strips, frequency_hz, 100 * (avg(d.e_star_pa) / u.e - 1) AS e, avg(d.phase_deg) - u.phi AS phi,
+  avg(d.poisson_ratio) - u.nu AS nu, 100 * (max(d.e_star_pa) - min(d.e_star_pa)) / avg(d.e_star_pa) AS range_of_discs,
+  u.range AS range_of_boxes
+FROM "indirect-tension.csv" d JOIN (
+  SELECT material, frequency_hz, avg(e_star_pa) AS e, avg(phase_deg) AS phi, avg(poisson_ratio) AS nu,
+    100 * (max(e_star_pa) - min(e_star_pa)) / avg(e_star_pa) AS range
+  FROM "indirect-tension.csv" WHERE test = 'uniaxial' GROUP BY material, frequency_hz) u USING (material, frequency_hz)
+WHERE d.test = 'indirect_tension' GROUP BY material, strips, frequency_hz;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host/experiments/cyclic/disc_modulus.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
 #include "host/run/harmonic_options.hpp"
 #include "host/fields/field_output.hpp"
@@ -167,6 +168,8 @@ class PlannedHarmonic : public PlannedExperiment {
       f.residual = s.residual;
       f.iterations = s.iterations;
       f.held_force = s.held_force;
+      if (const auto* test = std::get_if<experiments::IndirectTension>(&scene_.experiment))
+        observe_disc(*test, prepared_.specimen, prepared_.tessellation, s, f);
       judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), result.warnings);
       {
         const InPhase writing(result.phases, &PhaseSeconds::writing);

@@ -15,8 +15,9 @@
 namespace macadam::domains {
 
 /// The cylinder along y inscribed in the bounding box: diameter size.x = size.z, thickness size.y, axis through the
-/// middle of the box. Loads across it act along z. Its walls are the side (the number of the wall −x) and the faces −y
-/// and +y. In the tessellation 360 planes represent the side, as for an upright cylinder (cylinder.hpp).
+/// middle of the box. Loads across it act along z. Its walls are the side (the number of the wall −x), the faces −y and
+/// +y and, in a test, two curved strips at the bottom and at the top (the numbers of the walls −z and +z). In the
+/// tessellation planes of about one degree represent the side, as for an upright cylinder (cylinder.hpp).
 struct Disc : PrismAlongY<Disc> {
   static constexpr const char* name = "disc";
   static constexpr std::array<Dimension, 2> keys{
@@ -24,6 +25,8 @@ struct Disc : PrismAlongY<Disc> {
        {"thickness", "of a disc along y"}}};
   static constexpr unsigned flat_walls = 0b001100;
   static constexpr int sides = 360;
+
+  double strip_width = 0;  ///< width along x of the strips that load the disc [m]; 0: no strips
 
   static Sized<Disc> of(const std::vector<double>& v) { return {{v.at(0), v.at(1), v.at(0)}, {}}; }
   std::vector<double> values(const Vec3d& size) const { return {size.x, size.y}; }
@@ -47,14 +50,32 @@ struct Disc : PrismAlongY<Disc> {
   }
 
   std::vector<SidePlane> side_planes(const Vec3d& size) const {
-    constexpr double turn = 2 * std::numbers::pi;
+    constexpr double half_turn = std::numbers::pi;
     const double r = 0.5 * size.x;
+    const Vec3d centre{r, 0, r};
     std::vector<SidePlane> out;
-    add_arc(out, {r, 0, r}, radius_of_corners(r, turn / sides), 0, turn, sides, 0);
+    if (strip_width == 0) {
+      add_arc(out, centre, radius_of_corners(r, 2 * half_turn / sides), 0, 2 * half_turn, sides, 0);
+      return out;
+    }
+    // All corners have one distance from the axis, so that neighbouring arcs meet in a corner
+    const double half = std::asin(strip_width / size.x);
+    const int in_strip = std::max(2, static_cast<int>(std::lround(half / half_turn * sides)));
+    const int beside = sides / 2 - in_strip;
+    const double step = 2 * half / in_strip, step_beside = (half_turn - 2 * half) / beside;
+    const double area = in_strip * std::sin(step) + beside * std::sin(step_beside);  // of half the polygon, over R²/2
+    const double corner = r * std::sqrt(half_turn / area);
+    add_arc(out, centre, corner, -half, half, in_strip, 5);
+    add_arc(out, centre, corner, half, half_turn - half, beside, 0);
+    add_arc(out, centre, corner, half_turn - half, half_turn + half, in_strip, 4);
+    add_arc(out, centre, corner, half_turn + half, 2 * half_turn - half, beside, 0);
     return out;
   }
 
-  const char* wall_name(int k) const { return k == 2 ? "-y" : k == 3 ? "+y" : "side"; }
+  const char* wall_name(int k) const {
+    constexpr std::array<const char*, 6> names{"side", "side", "-y", "+y", "-z", "+z"};
+    return names[static_cast<std::size_t>(k)];
+  }
 
   Vec3d pulled_inside(const Vec3d& size, const Vec3d& p) const {
     const double r = 0.5 * size.x, rho = std::hypot(p.x - r, p.z - r), most = 0.998 * r;

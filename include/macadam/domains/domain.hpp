@@ -84,6 +84,20 @@ struct Domain {
   bool inside_sides(const Vec3d& p, double inset) const {
     return ask([&](const auto& s) { return s.inside_sides(size, p, inset); });
   }
+  /// Gives the domain two strips of this width [m] at its bottom and top, which are the walls −z and +z. Returns
+  /// whether the shape can have strips.
+  bool set_strips(double width) {
+    return std::visit(
+        [width](auto& s) {
+          if constexpr (requires { s.strip_width; }) {
+            s.strip_width = width;
+            return true;
+          } else {
+            return false;
+          }
+        },
+        shape);
+  }
   /// Returns the planes that represent the sides in the tessellation; none for a box.
   std::vector<domains::SidePlane> side_planes() const {
     return ask([&](const auto& s) { return s.side_planes(size); });

@@ -34,6 +34,13 @@ struct Frequency {
   std::string fault;           ///< the reason if the result cannot be right; otherwise empty
 };
 
+/// Deformations of a disc between two strips that press it, per force [m/N].
+struct DiscCompliance {
+  std::complex<double> horizontal;  ///< increase of the horizontal diameter
+  std::complex<double> vertical;    ///< decrease of the middle half of the vertical diameter
+  std::complex<double> strips;      ///< approach of the strips
+};
+
 /// Result of a solution in the frequency domain.
 struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
@@ -43,6 +50,7 @@ struct HarmonicFrequency : Frequency {
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
   /// Force of the springs that hold free rigid motions, divided by the wall's reaction; nearly 0 in a correct solution.
   double held_force = 0;
+  std::optional<DiscCompliance> disc = {};  ///< of an indirect tension test
 };
 
 }  // namespace experiments

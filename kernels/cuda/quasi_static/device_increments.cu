@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // device_increments.cu  Computes the operations of quasi-static increments on a device: the order of the kernels, and
 // copies to the host.
+#include <array>
 #include <optional>
 
 #include "kernels/cuda/quasi_static/device_gmres.hpp"
@@ -78,7 +79,7 @@ class Increments : public DeviceIncrements {
   void precondition() override {
     team_.use(0);
     gradients_.precondition(stale_);
-    if (stale_) stale_ = false, first_rate_ = 0;
+    if (stale_) stale_ = false, first_rate_ = {};
   }
 
   IncrementSolution solve(bool by_wall, double tolerance) override {
@@ -96,8 +97,9 @@ class Increments : public DeviceIncrements {
     }
     // A tolerance and its number of iterations are compared by the mean gain per iteration
     const double rate = out.iterations / -std::log(std::min(tolerance, 0.5));
-    if (first_rate_ == 0) first_rate_ = rate;
-    stale_ = rate > more_iterations * first_rate_ || !out.solved;
+    double& first = first_rate_[symmetric_];
+    if (first == 0) first = rate;
+    stale_ = rate > more_iterations * first || !out.solved;
     combine(1, g.x, 0, g.x, solution(by_wall));
     return out;
   }
@@ -259,7 +261,7 @@ class Increments : public DeviceIncrements {
   WallArgument wall_{};  ///< of the last evaluation
   double growing_area_ = 0, drag_ = 0;
   bool symmetric_ = true, stale_ = true;
-  double first_rate_ = 0;
+  std::array<double, 2> first_rate_{};  ///< with the present preconditioner, of GMRES and of conjugate gradients
 };
 
 }  // namespace
