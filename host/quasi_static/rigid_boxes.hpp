@@ -16,8 +16,8 @@ class RigidBoxes {
   /// `per_box`: mean number of particles per box.
   RigidBoxes(const Specimen& specimen, double per_box);
 
-  /// Factors the symmetric part of RᵀKR, where R are the rigid motions, as L·D·Lᵀ. |D| takes the place of D, so that
-  /// the factors are those of a positive definite matrix also where cracks make K lose its stability.
+  /// Factors the symmetric part of RᵀKR, where R are the rigid motions, as L·D·Lᵀ, and replaces D by |D|. So L·|D|·Lᵀ
+  /// is positive definite also where cracks make K lose its stability.
   void factor(const TangentMatrix& matrix);
   /// Adds R·(L·|D|·Lᵀ)⁻¹·Rᵀ·x to `out`.
   void add_solution(const Vector& x, Vector& out) const;

@@ -16,8 +16,8 @@ constexpr std::size_t loaded_wall = wall_index(wall_z_hi);
 /// Drag of the first increment of a drop, and its bounds, see WallIncrement::drag.
 constexpr double first_drag = 1e-3, least_drag = 1e-5, largest_drag = 100;
 /// The drag becomes this many times larger if an increment of a drop has no solution. It becomes smaller by the same
-/// factor after fast convergence, but not in the first increments after it has become larger: first four, then twice
-/// as many each time.
+/// factor after fast convergence, but not in the next increments after it has become larger: `first_patience` of them
+/// the first time, then twice the last number, at most `largest_patience`.
 constexpr double drag_ratio = 4;
 constexpr int fast_passes = 4, first_patience = 4, largest_patience = 32;
 /// The program looks for an equilibrium again when the drag has fallen to this part of its largest size since the last

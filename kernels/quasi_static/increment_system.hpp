@@ -109,7 +109,8 @@ inline constexpr int most_increment_iterations = 600;
 /// Largest number of vectors of a basis, before GMRES starts again.
 inline constexpr int gmres_vectors = 50;
 /// Whether GMRES would need more than `left` iterations to reduce the residual to `goal`, if each start from now on
-/// reduced it by the same factor as the last one. `before`: the residual at the last start; 0: there was none.
+/// reduced it by the same factor as the last one. `before`: the residual at the last start; 0 before the second
+/// start.
 inline bool is_too_slow(double before, double now, double goal, int left) {
   return before > 0 && gmres_vectors * std::log(now / goal) > left * std::log(before / now);
 }

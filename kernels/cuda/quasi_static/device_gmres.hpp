@@ -100,7 +100,7 @@ class DeviceGmres {
   }
 
  private:
-  /// A column of the small matrix on the device: two rows of products, and the square of what remains.
+  /// A column of the small matrix on the device: two rows of products, and the square of the remaining vector.
   static constexpr std::size_t second_products = products_in_row, square = 2 * products_in_row,
                                column_numbers = square + 1;
 
