@@ -16,8 +16,8 @@ class RigidBoxes {
   /// `per_box`: mean number of particles per box.
   RigidBoxes(const Specimen& specimen, double per_box);
 
-  /// Factors the symmetric part of RᵀKR, where R are the rigid motions, as L·D·Lᵀ, and replaces D by |D|. So L·|D|·Lᵀ
-  /// is positive definite also where cracks make K lose its stability.
+  /// Factors RᵀKR, of which it takes the upper triangle, where R are the rigid motions, as L·D·Lᵀ, and replaces D by
+  /// |D|. So L·|D|·Lᵀ is positive definite also where cracks make K lose its stability.
   void factor(const TangentMatrix& matrix);
   /// Adds R·(L·|D|·Lᵀ)⁻¹·Rᵀ·x to `out`.
   void add_solution(const Vector& x, Vector& out) const;

@@ -196,19 +196,20 @@ toml::table without_lines(const toml::table& table) {
   return out;
 }
 
-/// Reads all sections. `densities`: whether the scene must give the densities of its materials.
 /// Gives the domain the strips of an indirect tension test. A domain that cannot have strips is refused later.
 void set_strips(Scene& scene, const Section& root) {
   const auto* test = std::get_if<experiments::IndirectTension>(&scene.experiment);
   if (!test) return;
   const double diameter = scene.specimen.box.size.x;
   const double width = test->strip_width.value_or(experiments::IndirectTension::usual_strip * diameter);
-  if (!(width <= 0.5 * diameter))
-    root.find("loading")->section().refuse("strip_width", fmt::format("{:g} m", width),
-                                           fmt::format("at most half the diameter, {:g} m", 0.5 * diameter));
-  scene.specimen.box.set_strips(width);
+  if (!scene.specimen.box.set_strips(width)) return;
+  if (!(width >= 0.01 * diameter && width <= 0.5 * diameter))
+    root.find("loading")->section().refuse(
+        "strip_width", fmt::format("{:g} m", width),
+        fmt::format("0.01 to 0.5 of the diameter, {:g} to {:g} m", 0.01 * diameter, 0.5 * diameter));
 }
 
+/// Reads all sections. `densities`: whether the scene must give the densities of its materials.
 Scene read_root(const ReadingFile& reading, const Section& root, Need densities) {
   Scene out;
   out.file = reading.file;

@@ -26,12 +26,10 @@ double integral(double end, const F& f) {
   return end * sum / (3 * intervals);
 }
 
-[[noreturn]] void require_finer(const char* place, double width) {
+[[noreturn]] void require_finer(const char* place, double distance) {
   throw RunError(
-      fmt::format("indirect_tension: found no particle {} within {:g} m, the width of the strips; expected a finer "
-                  "packing or wider "
-                  "strips",
-                  place, width));
+      fmt::format("indirect_tension: found no particle {} within {:g} m; expected a finer packing or wider strips",
+                  place, distance));
 }
 
 /// Returns the motion along x of one end of the horizontal diameter per unit displacement of the top strip: the mean
@@ -51,7 +49,7 @@ Complex end_of_diameter(const Specimen& specimen, const Tessellation& cells, con
     sum += f.area * (u[0] + u[4] * arm.z - u[5] * arm.y);
     area += f.area;
   }
-  if (!(area > 0)) require_finer("at an end of the horizontal diameter", strip_width);
+  if (!(area > 0)) require_finer("at an end of the horizontal diameter", 0.5 * strip_width);
   return sum / area;
 }
 
@@ -75,7 +73,8 @@ Level level_at(const Specimen& specimen, const HarmonicResult& state, double str
     out.motion += v * state.motion[6 * i + 2];
     volume += v;
   }
-  if (!(volume > 0)) require_finer("on the vertical diameter, a quarter of its length from an end,", strip_width);
+  if (!(volume > 0))
+    require_finer("on the vertical diameter, a quarter of its length from an end,", 0.25 * strip_width);
   return {out.height / volume, out.motion / volume};
 }
 
@@ -114,9 +113,9 @@ void observe_disc(const experiments::IndirectTension& test, const Specimen& spec
   const Level upper = level_at(specimen, state, width, 0.75 * diameter),
               lower = level_at(specimen, state, width, 0.25 * diameter);
   const Complex shorter = upper.motion - lower.motion;
-  out.disc = {wider / force, shorter / force, 1.0 / force};
-  const HondrosCoefficients h =
-      hondros_coefficients(std::asin(width / diameter), (upper.height - lower.height) / diameter);
+  const double length = upper.height - lower.height;
+  out.disc = {wider / force, shorter / force * (0.5 * diameter / length), 1.0 / force};
+  const HondrosCoefficients h = hondros_coefficients(std::asin(width / diameter), length / diameter);
   const Complex ratio =
       test.poisson_ratio ? Complex(*test.poisson_ratio) : (wider * h.c - shorter * h.a) / (shorter * h.b - wider * h.d);
   const Complex modulus = (h.a + h.b * ratio) / (thickness * out.disc->horizontal);
@@ -124,6 +123,7 @@ void observe_disc(const experiments::IndirectTension& test, const Specimen& spec
   out.stiffness = stiffness_of(modulus);
   out.bottom = stiffness_of(of_bottom);
   out.poisson_ratio = ratio;
+  out.parts = {};
 }
 
 }  // namespace macadam

@@ -39,11 +39,19 @@ void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Contact
 }
 
 /// Returns the entries of one frequency in `results` that do not depend on the method.
-Json begun(const Frequency& f, const char* method, double residual, const Scene& scene) {
+template <class F>
+const char* words_of_modulus(const F& f) {
+  if constexpr (requires { f.disc; })
+    if (f.disc) return "indirect_tension";
+  return f.confined ? "confined" : "uniaxial";
+}
+
+template <class F>
+Json begun(const F& f, const char* method, double residual, const Scene& scene) {
   Json out = {{"frequency_hz", f.frequency_hz},
               {"e_star_pa", f.stiffness.e_star_pa},
               {"phase_deg", f.stiffness.phase_deg},
-              {"modulus", f.confined ? "confined" : "uniaxial"},
+              {"modulus", words_of_modulus(f)},
               {"method", method},
               {"residual", residual},
               {"density_scaling", f.density_scaling},

@@ -44,7 +44,7 @@ struct DiscCompliance {
 /// Result of a solution in the frequency domain.
 struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
-  ModulusParts parts;   ///< parts of E*; |E*| and φ follow from the sum of the parts
+  ModulusParts parts;   ///< parts of E*, which is their sum; zero for a disc
   Stiffness bottom;     ///< from the reaction of the bottom wall
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution

@@ -3,8 +3,9 @@
 /// motions R of boxes, and its inverse by elimination in tiles of 32 × 32 numbers.
 ///
 /// The elimination replaces the matrix by its inverse. Step k inverts tile (k, k) to W, multiplies the tiles of row k
-/// by W, subtracts (column k)·(new row k) from all other tiles, and multiplies column k by −W. The magnitude of a pivot
-/// takes its place, which gives the inverse of a positive definite matrix also where cracks make K lose its stability.
+/// by W, subtracts (column k)·(new row k) from all other tiles, and multiplies column k by −W. A negative
+/// pivot is replaced by its magnitude before the elimination goes on. So the result is the inverse of RᵀKR plus a
+/// diagonal without negative numbers; it is positive definite also where cracks make K lose its stability.
 #pragma once
 
 #include "kernels/cuda/quasi_static/gradient_kernels.hpp"
@@ -51,9 +52,10 @@ __global__ void __launch_bounds__(increment_threads)
 #pragma unroll
   for (unsigned r = 0; r < 6; ++r) {
     const double whole = lanes.sum(sum[r]);
-    if (threadIdx.x % 32 >= 6) continue;
+    // of a box with itself, the upper triangle is taken; K may be unsymmetric
+    if (threadIdx.x % 32 >= 6 || (pair.row == pair.column && r > column)) continue;
     matrix[(row + r) * stride + to + column] = whole;
-    if (pair.row != pair.column) matrix[(to + column) * stride + row + r] = whole;
+    matrix[(to + column) * stride + row + r] = whole;
   }
 }
 
