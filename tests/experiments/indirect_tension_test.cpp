@@ -90,7 +90,6 @@ TEST_F(IndirectTension, GivesTheModulusOfAHomogeneousDisc) {
     EXPECT_NEAR(points[0].stiffness.e_star_pa / 2e10, 1, 0.03);
     EXPECT_NEAR(points[0].poisson_ratio->real(), 0, 0.01);
     EXPECT_NEAR(points[0].bottom.e_star_pa / points[0].stiffness.e_star_pa, 1, 1e-9);
-    // the given ratio is used as it is
     if (!ratio.empty()) { EXPECT_EQ(*points[0].poisson_ratio, 0.0); }
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "indirect_tension.csv"));
   }
@@ -131,6 +130,13 @@ TEST_F(IndirectTension, RefusesOtherDomainsAndRules) {
   EXPECT_NE(refusal(text(disc(), kind(), "[network]\nrule = \"series\"\nlateral_walls = true\n")).find("lateral_walls"),
             std::string::npos);
   EXPECT_NE(refusal(text(disc(), kind(), "[network]\nrule = \"volumetric\"\n")).find("volumetric"), std::string::npos);
+
+  // a calibration would compare the modulus of a column
+  const Scene scene = read(text(disc(), kind()));
+  ModulusData data;
+  data.points = {{1, 1e9, 0, 0, 0, 0}};
+  EXPECT_NE(test::message_of([&] { calibrate(scene, data, {}); }).find("expected \"cyclic\" or \"sweep\""),
+            std::string::npos);
 }
 
 }  // namespace

@@ -60,8 +60,7 @@ struct Level {
 };
 
 /// Returns the mean over the volumes of the particles in a square whose middle is on the loaded diameter at this height
-/// [m]. The square has half the strip's width: with the whole width the mean of the motion is 2 % smaller than on the
-/// diameter.
+/// [m]. The square has half the strip's width, because the motion decreases on both sides of the diameter.
 Level level_at(const Specimen& specimen, const HarmonicResult& state, double strip_width, double height) {
   Level out;
   double volume = 0;
@@ -102,7 +101,7 @@ void observe_disc(const experiments::IndirectTension& test, const Specimen& spec
                   const HarmonicResult& state, HarmonicFrequency& out) {
   const Domain& disc = specimen.box;
   const double diameter = disc.size.x, thickness = disc.size.y;
-  const double width = test.strip_width.value_or(experiments::IndirectTension::usual_strip * diameter);
+  const double width = std::get<domains::Disc>(disc.shape).strip_width;
   // the modulus of a column with the height and the middle section of the disc is force·height/(section·displacement)
   const auto reaction = [&](const Stiffness& s) {
     return std::polar(s.e_star_pa, s.phase_deg * std::numbers::pi / 180) * disc.section_area() / disc.gauge_length();

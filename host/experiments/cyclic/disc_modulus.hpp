@@ -22,9 +22,9 @@ struct HondrosCoefficients {
 /// diameter. For narrow strips a is 4/π − 1 and b is 1.
 HondrosCoefficients hondros_coefficients(double half_angle, double middle_part);
 
-/// Replaces the moduli of a result by those of the disc, and sets its Poisson's ratio and its compliances. `cells`: the
-/// tessellation of the specimen, whose domain is a disc with strips. \throws RunError if no particle lies at a place
-/// where the deformation is measured.
+/// Replaces the moduli in `out` by those of the disc, and sets the Poisson's ratio and the compliances of the disc.
+/// `cells`: the tessellation of the specimen, whose domain is a disc with strips. \throws RunError if no particle lies
+/// at a place where the deformation is measured.
 void observe_disc(const experiments::IndirectTension& test, const Specimen& specimen, const Tessellation& cells,
                   const HarmonicResult& state, experiments::HarmonicFrequency& out);
 

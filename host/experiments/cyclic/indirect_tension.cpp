@@ -18,7 +18,7 @@ using experiments::SweepResult;
 
 namespace {
 
-void write_table(const std::filesystem::path& file, const SweepResult& found) {
+void write_table(const std::filesystem::path& out, const SweepResult& found) {
   std::string text =
       "# disc between two strips; deformations per force\n"
       "temperature_c,frequency_hz,e_star_pa,phase_deg,poisson_ratio,poisson_phase_deg,horizontal_m_per_n,"
@@ -30,27 +30,8 @@ void write_table(const std::filesystem::path& file, const SweepResult& found) {
       text += fmt::format(",{},{}", std::abs(z), std::arg(z) * 180 / std::numbers::pi);
     text += fmt::format(",{:.2e}\n", f.residual);
   }
-  write_whole(file, text);
+  write_whole(out / "indirect_tension.csv", text);
 }
-
-/// Solves the steady states and writes the table whenever the summary is saved.
-class PlannedIndirectTension : public PlannedExperiment {
- public:
-  explicit PlannedIndirectTension(std::unique_ptr<PlannedExperiment> states) : states_(std::move(states)) {}
-
-  void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
-    states_->solve(
-        out,
-        [&](const std::string& status) {
-          write_table(out / "indirect_tension.csv", std::get<SweepResult>(result.found));
-          save(status);
-        },
-        result);
-  }
-
- private:
-  std::unique_ptr<PlannedExperiment> states_;
-};
 
 }  // namespace
 
@@ -64,9 +45,7 @@ std::unique_ptr<PlannedExperiment> ExperimentOf<IndirectTension>::plan(
     const IndirectTension&, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
     std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): same signature as stepped experiments
     RunResult& result) {
-  result.found.emplace<SweepResult>();
-  const auto points = [](RunResult & run) -> auto& { return std::get<SweepResult>(run.found).points; };
-  return std::make_unique<PlannedIndirectTension>(plan_harmonic(scene, prepared, watcher, result, points));
+  return plan_sweep(scene, prepared, watcher, result, write_table);
 }
 
 }  // namespace macadam

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -30,5 +31,12 @@ using ListOfStates = std::vector<experiments::HarmonicFrequency>& (*)(RunResult&
 /// to a list in the result. \throws as the constructor of Harmonic does.
 std::unique_ptr<PlannedExperiment> plan_harmonic(const Scene& scene, const Preparation& prepared,
                                                  const Watcher& watcher, RunResult& result, ListOfStates states);
+
+/// Writes the results of a sweep to a table in the folder of a run.
+using TableOfSweep = std::function<void(const std::filesystem::path& out, const experiments::SweepResult& found)>;
+
+/// Plans the same run as plan_harmonic(). Its result is a SweepResult; `write` is called whenever the summary is saved.
+std::unique_ptr<PlannedExperiment> plan_sweep(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                              RunResult& result, TableOfSweep write);
 
 }  // namespace macadam

@@ -39,19 +39,11 @@ void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Contact
 }
 
 /// Returns the entries of one frequency in `results` that do not depend on the method.
-template <class F>
-const char* words_of_modulus(const F& f) {
-  if constexpr (requires { f.disc; })
-    if (f.disc) return "indirect_tension";
-  return f.confined ? "confined" : "uniaxial";
-}
-
-template <class F>
-Json begun(const F& f, const char* method, double residual, const Scene& scene) {
+Json begun(const Frequency& f, const char* method, double residual, const Scene& scene) {
   Json out = {{"frequency_hz", f.frequency_hz},
               {"e_star_pa", f.stiffness.e_star_pa},
               {"phase_deg", f.stiffness.phase_deg},
-              {"modulus", words_of_modulus(f)},
+              {"modulus", f.confined ? "confined" : "uniaxial"},
               {"method", method},
               {"residual", residual},
               {"density_scaling", f.density_scaling},
@@ -105,6 +97,7 @@ Json stepped_json(const SteppedFrequency& f, const Scene& scene) {
 
 Json frequency_json(const HarmonicFrequency& f, const Scene& scene) {
   Json out = begun(f, "harmonic", f.residual, scene);
+  if (f.disc) out["modulus"] = "indirect_tension";
   out["e_star_bottom_pa"] = f.bottom.e_star_pa;
   out["phase_bottom_deg"] = f.bottom.phase_deg;
   add_poisson_ratio(f, out);

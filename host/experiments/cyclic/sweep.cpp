@@ -47,28 +47,35 @@ void write_sweep(const std::filesystem::path& file, const Scene& scene, const Sw
   write_whole(file, text);
 }
 
-/// Solves the steady states and writes sweep.csv whenever the summary is saved.
+/// Solves the steady states and writes a table of them whenever the summary is saved.
 class PlannedSweep : public PlannedExperiment {
  public:
-  PlannedSweep(const Scene& scene, std::unique_ptr<PlannedExperiment> states)
-      : scene_(scene), states_(std::move(states)) {}
+  PlannedSweep(TableOfSweep write, std::unique_ptr<PlannedExperiment> states)
+      : write_(std::move(write)), states_(std::move(states)) {}
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     states_->solve(
         out,
         [&](const std::string& status) {
-          write_sweep(out / "sweep.csv", scene_, std::get<SweepResult>(result.found));
+          write_(out, std::get<SweepResult>(result.found));
           save(status);
         },
         result);
   }
 
  private:
-  const Scene& scene_;
+  TableOfSweep write_;
   std::unique_ptr<PlannedExperiment> states_;
 };
 
 }  // namespace
+
+std::unique_ptr<PlannedExperiment> plan_sweep(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                              RunResult& result, TableOfSweep write) {
+  result.found.emplace<SweepResult>();
+  const auto points = [](RunResult & run) -> auto& { return std::get<SweepResult>(run.found).points; };
+  return std::make_unique<PlannedSweep>(std::move(write), plan_harmonic(scene, prepared, watcher, result, points));
+}
 
 template <>
 std::vector<std::string> ExperimentOf<Sweep>::files(const Sweep&, const Scene&) {
@@ -80,9 +87,10 @@ std::unique_ptr<PlannedExperiment> ExperimentOf<Sweep>::plan(
     const Sweep&, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
     std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): same signature as stepped experiments
     RunResult& result) {
-  result.found.emplace<SweepResult>();
-  const auto points = [](RunResult & run) -> auto& { return std::get<SweepResult>(run.found).points; };
-  return std::make_unique<PlannedSweep>(scene, plan_harmonic(scene, prepared, watcher, result, points));
+  return plan_sweep(scene, prepared, watcher, result,
+                    [&scene](const std::filesystem::path& out, const SweepResult& found) {
+                      write_sweep(out / "sweep.csv", scene, found);
+                    });
 }
 
 template <>
