@@ -88,7 +88,9 @@ def _test(f: Folder) -> str:
         warm = sorted({r["temperature_c"] for r in f.by_frequency if r.get("temperature_c") is not None})
         span = look.hertz(of[0]) if len(of) == 1 else f"{len(of)} frequencies from {look.hertz(of[0])} to {look.hertz(of[-1])}"
         at = f", at {', '.join(f'{t:g}' for t in warm)} °C" if warm else ""
-        return f"|E*| and the phase angle were computed in uniaxial cyclic loading at {span}{at}."
+        disc = any(r.get("modulus") == "indirect_tension" for r in f.by_frequency)
+        loading = "cyclic indirect tension, with the closed form of Hondros," if disc else "uniaxial cyclic loading"
+        return f"|E*| and the phase angle were computed in {loading} at {span}{at}."
     if f.in_time and f.in_time.get("points"):
         points = f.in_time["points"]
         return (f"The test is of the kind {f.in_time['kind']}, with {len(points)} points from {look.seconds(points[0]['time_s'])} "
