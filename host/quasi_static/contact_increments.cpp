@@ -125,10 +125,12 @@ ContactIncrements::ContactIncrements(const ContactNetwork& network, const LawTab
   opening_rate_.assign(n, Six{});
 }
 
-void ContactIncrements::begin(const LawTimes& dt) {
+void ContactIncrements::begin(const LawTimes& dt, double drag) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (dt[pair] != increment_[pair].dt) increment_[pair] = laws_[pair].increment(dt[pair]);
+    increment_[pair].drag = drag;
   }
+  if (drag > 0) drag_.resize(3 * grew_.size());
   growing_area_ = area_of(grew_);
   for_each_of(network_.contacts.size(), [&](std::size_t c) { prepare(c); });
 }
@@ -228,6 +230,7 @@ ContactEnergies ContactIncrements::accept(const std::vector<Six>& u) {
         return sum;
       });
   grew_ = grows_;
+  if (sums.drag == 0) drag_.clear();
   return sums;
 }
 
@@ -243,6 +246,10 @@ ContactEnergies ContactIncrements::accept_contact(std::size_t number, const Six&
   for (std::uint32_t j = c.point_begin; j < c.point_end; ++j, state += 3 * l.words) {
     kernels::accept_point(l, c.length, network_.point_s[j], network_.point_t[j], network_.point_area[j], grows_[j],
                           u.data(), numbers_of(state, l), out);
+    if (drag_.empty()) continue;
+    kernels::accept_drag(
+        l, c.length, network_.point_s[j], network_.point_t[j], network_.point_area[j], u.data(),
+        [&](int k) -> double& { return drag_[3 * j + static_cast<std::size_t>(k)]; }, out);
   }
   return out;
 }
@@ -279,12 +286,13 @@ void ContactIncrements::set_states(std::vector<double> states, std::vector<char>
   states_ = std::move(states);
   grew_ = std::move(grew);
   grows_ = grew_;
+  drag_.clear();
 }
 
 std::int64_t ContactIncrements::bytes() const {
-  return static_cast<std::int64_t>((states_.size() + base_.size()) * sizeof(double) +
-                                   force_.size() * (sizeof(Six) + sizeof(SixBySix)) + 2 * grew_.size() +
-                                   opening_rate_.size() * (sizeof(Six) + sizeof(double)));
+  return static_cast<std::int64_t>(
+      (states_.size() + base_.size()) * sizeof(double) + force_.size() * (sizeof(Six) + sizeof(SixBySix)) +
+      2 * grew_.size() + drag_.size() * sizeof(double) + opening_rate_.size() * (sizeof(Six) + sizeof(double)));
 }
 
 }  // namespace macadam::quasi_static

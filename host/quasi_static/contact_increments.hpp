@@ -43,8 +43,9 @@ class ContactIncrements {
  public:
   ContactIncrements(const ContactNetwork& network, const LawTable& laws);
 
-  /// Prepares an increment from the accepted state. `dt`: its duration for the law of each pair type [s].
-  void begin(const LawTimes& dt);
+  /// Prepares an increment from the accepted state. `dt`: its duration for the law of each pair type [s]; `drag`:
+  /// WallIncrement::drag.
+  void begin(const LawTimes& dt, double drag = 0);
   /// Computes forces and stiffnesses for the relative displacements `u` of each contact in the increment.
   void evaluate(const std::vector<Six>& u);
   const Six& force(std::size_t c) const { return force_[c]; }
@@ -97,6 +98,8 @@ class ContactIncrements {
   std::vector<std::size_t> base_begin_;  ///< of each contact in base_
   std::vector<Six> force_;
   std::vector<SixBySix> stiffness_;
+  /// Stresses of the drag on each point at the end of the accepted increment, three numbers; empty: none [Pa].
+  std::vector<double> drag_;
   std::vector<char> grew_, grows_;  ///< per point: grew in the last accepted increment; grows in the evaluation
   double growing_area_ = 0;         ///< of the points with grew_
   double crackable_area_ = 0;

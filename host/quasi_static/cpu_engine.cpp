@@ -71,9 +71,8 @@ class CpuEngine : public Engine {
   }
 
   void begin(const LawTimes& dt, const Vector& guess, double drag) override {
-    contacts_.begin(dt);
+    contacts_.begin(dt, drag);
     trial_ = guess;
-    drag_ = drag;
   }
 
   TrialSums evaluate(const Walls& wall, double warming) override {
@@ -97,7 +96,7 @@ class CpuEngine : public Engine {
       }
       for (std::size_t k = 0; k < 6; ++k) {
         const std::size_t degree = 6 * i + k;
-        residual_[degree] = sum[k] + drag_ * intact_[degree] * trial_[degree], sizes[degree] = size[k];
+        residual_[degree] = sum[k], sizes[degree] = size[k];
       }
     });
     TrialSums out;
@@ -152,8 +151,7 @@ class CpuEngine : public Engine {
       for (std::size_t k = 0; k < 3; ++k) now += diagonal_number(6 * i + k), intact += intact_[6 * i + k];
       const bool is_loose = now < loose_part * intact;
       for (std::size_t k = 0; k < 6; ++k)
-        matrix_.add_to_diagonal(
-            6 * i + k, (is_loose ? std::max(loose_part, held_part + drag_) : held_part + drag_) * intact_[6 * i + k]);
+        matrix_.add_to_diagonal(6 * i + k, (is_loose ? loose_part : held_part) * intact_[6 * i + k]);
       return std::int64_t{is_loose};
     };
     loose = sum_in_parallel<std::int64_t>(particles_, hold, particles_at_once);
@@ -204,7 +202,6 @@ class CpuEngine : public Engine {
   }
   double growing_part() override { return contacts_.growing_part(); }
 
-  const Vector& intact() const override { return intact_; }
   Vector motion() const override { return trial_; }
   EngineState state() const override { return {displacement_, contacts_.states(), contacts_.grew()}; }
   void set_state(EngineState state) override {
@@ -247,7 +244,6 @@ class CpuEngine : public Engine {
   std::vector<double> expansion_;        ///< as QuasiStaticOptions::expansion
   std::vector<std::uint32_t> at_walls_;  ///< the contacts at walls, in the network's order
   Vector intact_;                        ///< diagonal of the intact, instantaneous stiffness
-  double drag_ = 0;                      ///< of the increment, WallIncrement::drag
   double wall_stiffness_ = 0;            ///< derivative of the top wall's reaction with respect to its displacement
   Vector displacement_, trial_, kept_, residual_, correction_, by_wall_;
   std::vector<Six> relative_;  ///< relative displacements of the contacts at the last evaluation

@@ -45,8 +45,7 @@ class DeviceEngine : public Engine {
     begin(all_laws(instant), Vector(6 * specimen.size()), 0);
     device_->evaluate({});
     wall_stiffness_ = device_->assemble(true, 0, 0).wall_stiffness;
-    intact_ = intact_stiffness(to_particles(device_->diagonal()), specimen);
-    device_->set_intact(to_bodies(intact_));
+    device_->set_intact(to_bodies(intact_stiffness(to_particles(device_->diagonal()), specimen)));
     if (!options.solves_directly(specimen.size())) return;
     direct_ = make_direct_solver();
     matrix_.emplace(network, specimen.size());
@@ -55,10 +54,10 @@ class DeviceEngine : public Engine {
   void begin(const LawTimes& dt, const Vector& guess, double drag) override {
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       if (dt[pair] != increment_[pair].dt) increment_[pair] = laws_[pair].increment(dt[pair]);
+      increment_[pair].drag = drag;
     }
     device_->write(IncrementVector::trial, to_bodies(guess));
-    drag_ = drag;
-    device_->begin(increment_, growing_area_, drag);
+    device_->begin(increment_, growing_area_, drag > 0);
   }
   TrialSums evaluate(const Walls& wall, double /*warming*/) override {
     const kernels::IncrementSums found = device_->evaluate(wall);
@@ -71,7 +70,7 @@ class DeviceEngine : public Engine {
 
   bool wants_symmetric() const override { return !direct_; }
   LinearReport prepare(bool symmetric, std::int64_t& loose) override {
-    const kernels::AssembledSums sums = device_->assemble(symmetric, held_part + drag_, loose_part);
+    const kernels::AssembledSums sums = device_->assemble(symmetric, held_part, loose_part);
     loose = sums.loose;
     wall_stiffness_ = sums.wall_stiffness;
     LinearReport out;
@@ -114,7 +113,6 @@ class DeviceEngine : public Engine {
   }
   double growing_part() override { return crackable_area_ > 0 ? device_->growing_area() / crackable_area_ : 0; }
 
-  const Vector& intact() const override { return intact_; }
   Vector motion() const override { return to_particles(device_->read(IncrementVector::trial)); }
   EngineState state() const override {
     const kernels::IncrementStates found = device_->states();
@@ -203,8 +201,7 @@ class DeviceEngine : public Engine {
   std::vector<std::size_t> state_begin_;  ///< as ContactIncrements::state_begin()
   std::unique_ptr<kernels::DeviceIncrements> device_;
   kernels::IncrementLaws increment_{};
-  Vector intact_;  ///< as Engine::intact()
-  double growing_area_ = 0, crackable_area_ = 0, wall_stiffness_ = 0, drag_ = 0;
+  double growing_area_ = 0, crackable_area_ = 0, wall_stiffness_ = 0;
   bool has_cracks_ = false;
   std::unique_ptr<TangentSolver> direct_;  ///< small systems only
   std::optional<TangentMatrix> matrix_;

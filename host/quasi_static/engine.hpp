@@ -74,8 +74,6 @@ class Engine {
   /// Returns the part of the area of points with a crack law that grows at the last evaluation.
   virtual double growing_part() = 0;
 
-  /// Returns the diagonal of the intact, instantaneous stiffness [6·particles].
-  virtual const Vector& intact() const = 0;
   /// Returns the motion of the last evaluation, also after accept() [6·particles].
   virtual Vector motion() const = 0;
   virtual EngineState state() const = 0;

@@ -66,8 +66,7 @@ struct QuasiStatic::Parts {
   MotionGuess motions;
   QuasiStaticEnergies energies;
   double last_opening = 0;
-  quasi_static::Vector drag_load;  ///< the drag at the end of the accepted increment [6·particles]; empty: none
-  double drag_size = 0;            ///< of `drag_load`, relative to `scale`
+  double drag = 0;  ///< as QuasiStatic::drag()
   // The solution, until it is accepted
   Trial trial;
   WallIncrement increment;
@@ -121,25 +120,7 @@ struct QuasiStatic::Parts {
       reaction[wall_index(contact.b)] += Vec3d{load[0], load[1], load[2]};
     }
     show(wall, reaction);
-    drag_load.clear(), drag_size = 0;
-  }
-
-  /// Adds the work of the drag by the trapezoidal rule, and keeps the drag at the end of the increment.
-  void drag() {
-    drag_size = 0;
-    if (increment.drag == 0 && drag_load.empty()) return;
-    const quasi_static::Vector& intact = engine().intact();
-    drag_load.resize(intact.size());
-    energies.damping_j += 0.5 * sum_in_parallel<double>(intact.size(), [&](std::size_t i) {
-                            const double now = increment.drag * intact[i] * trial.motion[i];
-                            return (now + drag_load[i]) * trial.motion[i];
-                          });
-    const double size = sum_in_parallel<double>(intact.size(), [&](std::size_t i) {
-      drag_load[i] = increment.drag * intact[i] * trial.motion[i];
-      return drag_load[i] * drag_load[i] / intact[i];
-    });
-    drag_size = scale > 0 ? std::sqrt(size) / scale : 0;
-    if (increment.drag == 0) drag_load.clear();
+    drag = 0;
   }
 
   void accept() {
@@ -156,10 +137,11 @@ struct QuasiStatic::Parts {
     energies.crack_j = sums.crack;
     energies.friction_j = sums.friction;
     energies.crack_work_j += sums.crack_work;
+    energies.damping_j += sums.damping;
+    drag = sums.drag;
     last_opening = sums.growing > 0 ? sums.opened / sums.growing : 0;
     trial.motion = engine().motion();
     scale = std::max(scale, trial.sums.scale);
-    drag();
     motions.accept(increment, trial, last_opening);
     time += increment.dt;
     solved = false;
@@ -183,7 +165,7 @@ const std::array<Vec3d, wall_count>& QuasiStatic::wall_force() const { return pa
 const std::array<Vec3d, wall_count>& QuasiStatic::wall_displacement() const { return parts_->shown_wall; }
 double QuasiStatic::growing_area() const { return parts_->engine().growing_part(); }
 double QuasiStatic::last_opening() const { return parts_->last_opening; }
-double QuasiStatic::drag_size() const { return parts_->drag_size; }
+double QuasiStatic::drag() const { return parts_->drag; }
 double QuasiStatic::time() const { return parts_->time; }
 const QuasiStaticEnergies& QuasiStatic::energies() const { return parts_->energies; }
 std::vector<laws::PointCrack> QuasiStatic::point_cracks() const { return parts_->engine().point_cracks(); }
@@ -242,7 +224,7 @@ ContactState QuasiStatic::contacts() const {
 }
 
 std::vector<StateArray> QuasiStatic::state() const {
-  if (!parts_->drag_load.empty())
+  if (parts_->drag > 0)
     throw RunError("state: found a specimen that moves against a drag, expected one in equilibrium");
   const Parts& p = *parts_;
   const MotionGuess::Past &last = p.motions.last(), &before = p.motions.before();
@@ -266,7 +248,7 @@ std::vector<StateArray> QuasiStatic::state() const {
 }
 
 void QuasiStatic::set_state(const std::vector<StateArray>& arrays) {
-  parts_->drag_load.clear(), parts_->drag_size = 0;
+  parts_->drag = 0;
   const std::vector<StateArray> own = state();
   const auto find = [&](const StateArray& want) -> const StateArray& {
     for (const StateArray& array : arrays) {

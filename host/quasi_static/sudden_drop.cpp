@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sudden_drop.cpp  Follows a specimen that loses its stability, with the wall at rest, to its next equilibrium. A drag
-// keeps each increment short enough for Newton's method.
+// on cracks keeps each increment short enough for Newton's method.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::size_t loaded_wall = wall_index(wall_z_hi);
 /// Drag of the first increment of a drop, and its bounds, see WallIncrement::drag.
-constexpr double first_drag = 1e-3, least_drag = 1e-5, largest_drag = 100;
+constexpr double first_drag = 0.02, least_drag = 1e-4, largest_drag = 100;
 /// The drag becomes this many times larger if an increment of a drop has no solution. It becomes smaller by the same
 /// factor after fast convergence, but not in the next increments after it has become larger: `first_patience` of them
 /// the first time, then twice the last number, at most `largest_patience`.
 constexpr double drag_ratio = 4;
 constexpr int fast_passes = 4, first_patience = 4, largest_patience = 32;
-/// The program looks for an equilibrium again when the drag has fallen to this part of its largest size since the last
-/// attempt.
-constexpr double calmer = 0.1;
+/// The program looks for an equilibrium again when QuasiStatic::drag() has fallen to this part of its largest value
+/// since the last attempt.
+constexpr double calmer = 0.01;
 /// Largest number of increments of a drop.
 constexpr int most_of_drop = 2000;
 /// A drop by less than this part of the largest stress is not reported: another equilibrium was near.
@@ -36,7 +36,7 @@ void Increments::drop(std::int64_t steps) {
   if (!follow_drop(steps)) {
     throw NoEquilibrium(
         fmt::format("quasi-static: found no equilibrium after t = {:.6g} s at a strain of {:.6g} ({:.4g} MPa), where "
-                    "the specimen moves suddenly, although its particles moved against a drag; method = \"explicit\" "
+                    "the specimen moves suddenly, although its cracks moved against a drag; method = \"explicit\" "
                     "in [solver] can follow",
                     before.time_s, before.strain, before.stress_pa / 1e6),
         before);
@@ -55,7 +55,7 @@ bool Increments::follow_drop(std::int64_t steps) {
   next.wall[loaded_wall].z = drive_at(step_ + steps) - network_.wall_displacement()[loaded_wall].z;
   next.drag = first_drag;
   int keep = 0, patience = first_patience;  // numbers of increments in which the drag does not become smaller
-  double largest = 0;                       // size of the drag since the last attempt to find an equilibrium
+  double largest = 0;                       // value of drag() since the last attempt to find an equilibrium
   for (int k = 0; k < most_of_drop; ++k) {
     if (options_.stop && options_.stop()) {
       set_state(saved);
@@ -77,7 +77,7 @@ bool Increments::follow_drop(std::int64_t steps) {
     keep = std::max(0, keep - 1);
     next.wall = {}, next.warming = 0, next.dt = instant;
     if (next.reduced_dt) next.reduced_dt->fill(instant);
-    const double size = network_.drag_size();
+    const double size = network_.drag();
     largest = std::max(largest, size);
     if (size > calmer * largest) continue;
     largest = size;

@@ -37,7 +37,7 @@ std::vector<std::string> increment_warnings(const QuasiStaticStepper& stepper) {
   if (report.first_drop) {
     warnings.push_back(fmt::format(
         "sudden drops of the stress: {}, the first after t = {:.6g} s (strain {:.6g}, {:.4g} MPa), because no "
-        "equilibrium was near; the particles moved against a drag until they were in equilibrium again, which took "
+        "equilibrium was near; the cracks moved against a drag until the specimen was in equilibrium again, which took "
         "{:.3g} J. Which cracks grow in a drop may depend on the drag; method = \"explicit\" in [solver] "
         "includes inertia",
         report.drops, report.first_drop->time_s, report.first_drop->strain, report.first_drop->stress_pa / 1e6,

@@ -45,8 +45,9 @@ struct WallIncrement {
   /// Mean increase of the openings of those crack points that grew in the last increment, weighted by their areas [m].
   std::optional<double> opening;
   double warming = 0;  ///< increase of the temperature [K]
-  /// Resistance of each particle to its motion in the increment, divided by its intact stiffness. With a large drag
-  /// there is always a solution. It is not an equilibrium: see QuasiStatic::drag_size().
+  /// Resistance of each point with a crack law to its opening and slip in the increment, divided by the stiffness that
+  /// the point would have without a crack. With a large drag there is always a solution. It is not an equilibrium: see
+  /// QuasiStatic::drag().
   double drag = 0;
   /// Duration of the increment for the law of each pair type, at the temperature for which the laws are given [s]:
   /// reduced_time(). Empty: `dt` for all laws.
@@ -113,8 +114,9 @@ class QuasiStatic {
   /// Mean increase of the openings of the crack points that grew in the last accepted increment, weighted by their
   /// areas [m]; 0 if none grew.
   double last_opening() const;
-  /// Size of the drag on the particles in the last accepted increment, relative to the forces of the contacts.
-  double drag_size() const;
+  /// Size of the drag at the end of the last accepted increment: twice the energy that springs with the stiffnesses of
+  /// the points would store under its stresses [J]; 0 in equilibrium.
+  double drag() const;
 
   double time() const;                          ///< of the accepted state [s]
   const QuasiStaticEnergies& energies() const;  ///< of the accepted state

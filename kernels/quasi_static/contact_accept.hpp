@@ -13,10 +13,12 @@ namespace macadam::kernels {
 struct ContactEnergies {
   double elastic = 0, viscous = 0, crack = 0, friction = 0, crack_work = 0;  ///< [J]
   double opened = 0, growing = 0;  ///< of points that grew: sum of area times increase of opening [m³], and area [m²]
+  double damping = 0;              ///< work of the drag [J]
+  double drag = 0;                 ///< at the end: sum of area times stress² of the drag over the stiffness [J]
 
   MACADAM_HD ContactEnergies& operator+=(const ContactEnergies& o) {
     elastic += o.elastic, viscous += o.viscous, crack += o.crack, friction += o.friction, crack_work += o.crack_work;
-    opened += o.opened, growing += o.growing;
+    opened += o.opened, growing += o.growing, damping += o.damping, drag += o.drag;
     return *this;
   }
 };
@@ -130,6 +132,20 @@ MACADAM_HD void accept_point(const IncrementLaw& law, double length, double s, d
   const double slip = hypot(double(state(1, 1)), double(state(2, 1)));
   out.crack += area * crack_numbers(law, state, slip).energy;
   out.friction += area * state(1, 2);
+}
+
+/// Adds the work of the drag on a point in the increment by the trapezoidal rule. `before`: stress of the drag at the
+/// end of the last increment, normal and two shear components, which becomes that of this one [Pa].
+template <class Stress>
+MACADAM_HD void accept_drag(const IncrementLaw& law, double length, double s, double t, double area, const double* u,
+                            Stress&& before, ContactEnergies& out) {
+  const double dx[3] = {u[0] + s * u[1] + t * u[2], u[3] - t * u[5], u[4] + s * u[5]};
+  for (int k = 0; k < 3; ++k) {
+    const double kappa = (k == 0 ? 1 : law.alpha()) * law.stiffness() / length, now = law.drag * kappa * dx[k];
+    out.damping += 0.5 * area * (now + before(k)) * dx[k];
+    out.drag += area * now * now / kappa;
+    before(k) = now;
+  }
 }
 
 }  // namespace macadam::kernels

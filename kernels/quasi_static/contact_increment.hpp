@@ -136,7 +136,12 @@ struct PointTrial {
   }
 };
 
-MACADAM_HD void add_stresses(const PointStart& p, const double* sigma, double opening, PointSums& sums) {
+/// Adds the stresses of a point, and the drag on its motion in the increment.
+MACADAM_HD void add_stresses(const IncrementLaw& law, const PointStart& p, const PointTrial& trial,
+                             const double* of_crack, double opening, PointSums& sums) {
+  const double sigma[3] = {of_crack[0] + law.drag * (trial.normal - p.base[0]),
+                           of_crack[1] + law.drag * (trial.shear[0] - p.base[1]),
+                           of_crack[2] + law.drag * (trial.shear[1] - p.base[2])};
   sums.force[0] += p.area * sigma[0];
   sums.force[1] += p.area * p.s * sigma[0];
   sums.force[2] += p.area * p.t * sigma[0];
@@ -157,7 +162,7 @@ MACADAM_HD bool add_point(const IncrementLaw& law, double kappa, const PointStar
     const auto stress = law.advance.crack(trial.normal, trial.shear, kappa, w);
     sigma[0] = stress.normal, sigma[1] = stress.shear[0], sigma[2] = stress.shear[1];
   }
-  add_stresses(p, sigma, w.opening, sums);
+  add_stresses(law, p, trial, sigma, w.opening, sums);
   return w.largest > p.old.largest;
 }
 
@@ -171,7 +176,7 @@ MACADAM_HD bool add_point(const IncrementLaw& law, double kappa, const PointStar
                          p.old,
                          laws::PointBranch::rests};
   if (!trial.intact) out = laws::CrackTangent::of(law.advance.crack, trial.normal, trial.shear, kappa, p.old);
-  add_stresses(p, out.stress, out.w.opening, sums);
+  add_stresses(law, p, trial, out.stress, out.w.opening, sums);
   if (p.part > 0) {
     const double on_normal[3] = {1, s, t};
     double by[3];
@@ -180,6 +185,7 @@ MACADAM_HD bool add_point(const IncrementLaw& law, double kappa, const PointStar
     for (int k = 0; k < 3; ++k) rate[k] += by[0] * on_normal[k];
     rate[3] += by[1], rate[4] += by[2], rate[5] += s * by[2] - t * by[1];
   }
+  for (int k = 0; k < 3; ++k) out.stiffness[k][k] += law.drag * (k == 0 ? kappa : kappa_s);
   // B·D·B with the rows (1, s, t, 0, 0, 0), (0, 0, 0, 1, 0, −t), (0, 0, 0, 0, 1, s) of B
   double columns[3][6];  // D·B
   for (int k = 0; k < 3; ++k) {

@@ -27,6 +27,7 @@ struct IncrementLaw {
   double dt = 0;                                      ///< [s]
   double spring = 0, dashpot = 0;                     ///< E_m [Pa], C_m [Pa·s]
   double unit_spring[max_units] = {}, unit_dashpot[max_units] = {};
+  double drag = 0;  ///< of points with cracks, WallIncrement::drag
 
   static IncrementLaw of(const Chain& chain, const CrackedChain* cracked, double dt) {
     IncrementLaw out;

@@ -121,12 +121,11 @@ class DeviceIncrements {
  public:
   virtual ~DeviceIncrements() = default;
   /// Prepares an increment, whose trial has been written; `growing_area`: of the points that grew in the last one [m²];
-  /// `drag`: resistance to the trial's motion, divided by the intact stiffness.
-  virtual void begin(const IncrementLaws& laws, double growing_area, double drag) = 0;
+  /// `drags`: whether the laws have a drag.
+  virtual void begin(const IncrementLaws& laws, double growing_area, bool drags) = 0;
   virtual IncrementSums evaluate(const WallMotions& wall) = 0;
   /// Assembles the tangent at the last evaluation, or its symmetric part, with `held` of the intact stiffness added to
-  /// the diagonal (the drag included); particles with less than `loose` of their intact stiffness get at least this
-  /// part.
+  /// the diagonal; particles with less than `loose` of their intact stiffness get this part instead.
   virtual AssembledSums assemble(bool symmetric, double held, double loose) = 0;
   /// Returns the diagonal numbers of the tangent [6·bodies].
   virtual std::vector<double> diagonal() const = 0;

@@ -6,10 +6,9 @@
 
 namespace macadam::kernels {
 
-/// Sums the loads of each body, and adds its drag. `partial` receives two sums per block: of the residual, and of all
+/// Sums the loads of each body. `partial` receives two sums per block: of the residual, and of all
 /// loads of contacts.
-__global__ void __launch_bounds__(increment_threads)
-    increment_body_loads(IncrementView d, double drag, double* partial) {
+__global__ void __launch_bounds__(increment_threads) increment_body_loads(IncrementView d, double* partial) {
   const unsigned body = warp_number();
   const SixLanes lanes;
   double sums[2] = {0, 0};
@@ -25,7 +24,6 @@ __global__ void __launch_bounds__(increment_threads)
     load = lanes.sum(load), size = lanes.sum(size);
     if (threadIdx.x % 32 < 6) {
       const std::size_t at = 6 * static_cast<std::size_t>(body) + lanes.row;
-      if (drag > 0) load += drag * d.intact[at] * d.trial[at];
       d.residual[at] = load;
       const double weight = 1 / d.intact[at];
       sums[0] = load * load * weight, sums[1] = size * size * weight;
@@ -102,7 +100,7 @@ __global__ void __launch_bounds__(increment_threads)
   d.top[at] = mine;
   double* out = &d.blocks[36 * static_cast<std::size_t>(d.entry_begin[body]) + 6 * axis];
 #pragma unroll
-  for (int r = 0; r < 6; ++r) out[r] = r == axis ? own[r] + (is_loose ? fmax(loose, held) : held) * intact : own[r];
+  for (int r = 0; r < 6; ++r) out[r] = r == axis ? own[r] + (is_loose ? loose : held) * intact : own[r];
 }
 
 /// Computes the derivative of the top wall's reaction along z with respect to its displacement, by one block.

@@ -125,9 +125,10 @@ __global__ void __launch_bounds__(increment_threads)
 }
 
 /// Number of sums in ContactEnergies.
-inline constexpr int energy_sums = 7;
+inline constexpr int energy_sums = 9;
 __device__ inline void sum_energies(const ContactEnergies& e, double* out) {
-  const double list[energy_sums] = {e.elastic, e.viscous, e.crack, e.friction, e.crack_work, e.opened, e.growing};
+  const double list[energy_sums] = {e.elastic, e.viscous, e.crack,   e.friction, e.crack_work,
+                                    e.opened,  e.growing, e.damping, e.drag};
   sum_block<energy_sums>(list, out);
 }
 
@@ -146,7 +147,7 @@ __global__ void __launch_bounds__(increment_threads) increment_accept_linear(Inc
   sum_energies(energies, &d.partial[static_cast<std::size_t>(blockIdx.x) * energy_sums]);
 }
 __global__ void __launch_bounds__(increment_threads)
-    increment_accept_points(IncrementView d, WallArgument wall, unsigned first) {
+    increment_accept_points(IncrementView d, WallArgument wall, unsigned first, bool drags) {
   const unsigned j = thread_number();
   ContactEnergies energies;
   if (j < d.points) {
@@ -156,6 +157,11 @@ __global__ void __launch_bounds__(increment_threads)
     accept_point(d.laws[c.pair], c.length, d.point_s[j], d.point_t[j], d.point_area[j], d.grows[j], u,
                  DeviceState{d.point_state + j, d.points, d.point_words}, energies);
     d.grew[j] = d.grows[j];
+    if (drags) {
+      accept_drag(
+          d.laws[c.pair], c.length, d.point_s[j], d.point_t[j], d.point_area[j], u,
+          [&](int k) -> double& { return d.point_drag[static_cast<std::size_t>(k) * d.points + j]; }, energies);
+    }
   }
   sum_energies(energies, &d.partial[static_cast<std::size_t>(first + blockIdx.x) * energy_sums]);
 }

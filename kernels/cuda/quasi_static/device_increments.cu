@@ -30,9 +30,9 @@ class Increments : public DeviceIncrements {
     team_.wait_for_the_last();
   }
 
-  void begin(const IncrementLaws& laws, double growing_area, double drag) override {
+  void begin(const IncrementLaws& laws, double growing_area, bool drags) override {
     team_.use(0);
-    growing_area_ = growing_area, drag_ = drag;
+    growing_area_ = growing_area, drags_ = drags;
     check_cuda(cudaMemcpyAsync(m_.laws, laws.data(), sizeof(laws), cudaMemcpyHostToDevice, team_.stream()), "laws");
     run("prepare contacts", increment_prepare_linear, blocks_of(m_.view.linear_contacts), m_.view);
     run("prepare points", increment_prepare_points, blocks_of(m_.view.points), m_.view);
@@ -46,7 +46,7 @@ class Increments : public DeviceIncrements {
     IncrementView with_openings = d;
     with_openings.partial = m_.openings;
     run("contact points", increment_point_forces, point_blocks(), with_openings, wall_, growing_area_);
-    run("loads", increment_body_loads, warp_blocks(d.bodies), d, drag_, d.partial);
+    run("loads", increment_body_loads, warp_blocks(d.bodies), d, d.partial);
     run("reactions", increment_reactions, wall_count, d, m_.trial_sums);
     run("sums", increment_finish_sums, 1, d.partial, warp_blocks(d.bodies), m_.openings, point_blocks(), m_.trial_sums);
     trial_sums_.copy(m_.trial_sums, 1, 0);
@@ -134,10 +134,11 @@ class Increments : public DeviceIncrements {
     const IncrementView& d = m_.view;
     const unsigned linear = blocks_of(d.linear_contacts), points = blocks_of(d.points);
     run("accept contacts", increment_accept_linear, linear, d, wall_);
-    run("accept points", increment_accept_points, points, d, wall_, linear);
+    run("accept points", increment_accept_points, points, d, wall_, linear, drags_ || dragged_);
+    dragged_ = drags_;
     combine(1, d.displacement, 1, d.trial, d.displacement);
     const double* e = sum<energy_sums>(linear + points);
-    return {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
+    return {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8]};
   }
   double growing_area() override {
     team_.use(0);
@@ -160,6 +161,8 @@ class Increments : public DeviceIncrements {
     const IncrementView& d = m_.view;
     put(s.displacement, d.displacement);
     put(s.linear, d.linear_state), put(s.points, d.point_state);
+    put(std::vector<double>(3 * std::size_t{d.points}), d.point_drag);
+    dragged_ = false;
     if (d.points == 0) return;
     for (std::uint8_t* to : {d.grew, d.grows}) copy_now(to, s.grew.data(), d.points, "states");
   }
@@ -259,7 +262,8 @@ class Increments : public DeviceIncrements {
   DeviceArray<BrokenPoint> broken_;  ///< made when cracks are first summed
   DeviceArray<unsigned> count_;
   WallArgument wall_{};  ///< of the last evaluation
-  double growing_area_ = 0, drag_ = 0;
+  double growing_area_ = 0;
+  bool drags_ = false, dragged_ = false;  ///< whether the increment has a drag, and whether the last one had it
   bool symmetric_ = true, stale_ = true;
   std::array<double, 2> first_rate_{};  ///< with the present preconditioner, of GMRES and of conjugate gradients
 };

@@ -54,6 +54,7 @@ class IncrementMemory {
     v.linear_state = numbers(6 * static_cast<std::size_t>(s.linear_words) * s.linear.size());
     v.point_state = numbers(3 * static_cast<std::size_t>(s.point_words) * points);
     v.linear_base = numbers(6 * s.linear.size()), v.point_base = numbers(3 * points);
+    v.point_drag = numbers(3 * points);
     v.grew = store_.zeros<std::uint8_t>(points), v.grows = store_.zeros<std::uint8_t>(points);
     for (double** vector : {&v.displacement, &v.trial, &v.kept, &v.residual, &v.top, &correction, &by_wall})
       *vector = numbers(degrees);

@@ -34,6 +34,7 @@ struct IncrementView {
 
   double *linear_state, *point_state;  ///< in the order of IncrementStates
   double *linear_base, *point_base;    ///< [component][contact or point]
+  double* point_drag;                  ///< [component][point]: stresses of the drag at the end of the last increment
   std::uint8_t *grew, *grows;          ///< [point]
 
   double *displacement, *trial, *kept, *residual, *top;  ///< [6·bodies]
