@@ -20,6 +20,7 @@ constexpr Unit frequencies[] = {{"Hz", 0}, {"mHz", -3}, {"kHz", 3}};
 constexpr Unit durations[] = {{"s", 0},        {"ms", -3}, {"us", -6},     {"\u00b5s", -6},
                               {"\u03bcs", -6}, {"ns", -9}, {"min", 0, 60}, {"h", 0, 3600}};
 constexpr Unit rates[] = {{"1/s", 0}, {"s^-1", 0}, {"1/ms", 3}};
+constexpr Unit speeds[] = {{"m/s", 0}, {"mm/s", -3}, {"mm/min", -3, 1.0 / 60}};
 constexpr Unit temperatures[] = {{"degC", 0}, {"\u00b0C", 0}, {"C", 0}};
 constexpr Unit differences[] = {{"K", 0}, {"degC", 0}, {"\u00b0C", 0}};
 constexpr Unit expansions[] = {{"1/K", 0}, {"K^-1", 0}, {"1/degC", 0}};
@@ -61,6 +62,7 @@ const Quantity mass{"mass", masses};
 const Quantity frequency{"frequency", frequencies};
 const Quantity duration{"time", durations};
 const Quantity rate{"rate", rates};
+const Quantity speed{"speed", speeds};
 const Quantity temperature{"temperature", temperatures};
 const Quantity temperature_difference{"difference of temperatures", differences};
 const Quantity expansion{"coefficient of expansion", expansions};

@@ -13,7 +13,8 @@ namespace macadam::scene {
 /// A unit that equals `factor`·10^`exponent` SI units.
 struct Unit {
   std::string_view name;
-  int exponent, factor = 1;
+  int exponent;
+  double factor = 1;
 };
 
 /// A physical dimension: its name, and the units in which it may be given, the SI unit first.
@@ -30,6 +31,7 @@ extern const Quantity mass;                    ///< [kg]
 extern const Quantity frequency;               ///< [Hz]
 extern const Quantity duration;                ///< [s]
 extern const Quantity rate;                    ///< [1/s]
+extern const Quantity speed;                   ///< [m/s]
 extern const Quantity temperature;             ///< [°C]
 extern const Quantity temperature_difference;  ///< [K]
 extern const Quantity expansion;               ///< [1/K]

@@ -19,6 +19,11 @@ Key poisson_key(double& target) {
           "Poisson's ratio in the tables for finite-element programs; the specimen does not determine it"};
 }
 
+Key strip_width_key(std::optional<double>& target) {
+  return {"strip_width", Need::optional, into(target, length, positive), "width of the two curved strips",
+          "0.127 of the diameter"};
+}
+
 Key temperature_key(TemperatureHistory& target) {
   constexpr const char* pairs = "a list of pairs [time, temperature], the first one at time 0";
   const auto read = [&target](const Value& value) {

@@ -21,6 +21,9 @@ inline Key kind_key() {
 /// Sets the target to its default and returns the key `poisson_ratio` of `[loading]`.
 Key poisson_key(double& target);
 
+/// Returns the key `strip_width` of `[loading]`.
+Key strip_width_key(std::optional<double>& target);
+
 /// Returns the key `temperature` of `[loading]`: pairs of a time and a temperature.
 Key temperature_key(TemperatureHistory& target);
 

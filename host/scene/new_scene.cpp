@@ -232,6 +232,7 @@ Part loading_of(const std::string& test, bool cracks) {
   const auto give = [&](const char* key, const char* value) { out.given.push_back({key, value}); };
   if (test == "cyclic") give("frequencies", "[2.0, 5.0, 10.0, 20.0]"), give("strain_amplitude", "1e-4");
   if (test == "indirect_tension") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
+  if (test == "indirect_tensile_strength") give("displacement", R"("3 mm")"), give("points", "100");
   if (test == "sweep") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
@@ -274,16 +275,19 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
   if (cracks && has_laws_of_phases(rule))
     throw InputError(
         fmt::format("--cracks: found this option with --rule {}, expected --rule centres", to_string(rule)));
-  if (cracks && test != "monotonic") {
-    throw InputError(
-        fmt::format("--cracks: found this option with --test {}, expected --test monotonic, which measures "
-                    "a strength",
-                    test));
+  const bool of_strength = test == "indirect_tensile_strength";
+  if (cracks && test != "monotonic" && !of_strength) {
+    throw InputError(fmt::format(
+        "--cracks: found this option with --test {}, expected --test monotonic or indirect_tensile_strength, which "
+        "measure a strength",
+        test));
   }
+  if (of_strength && !cracks)
+    throw InputError("--test: found indirect_tensile_strength without --cracks, expected both");
   if (test == "indirect_tension" && rule == ContactRule::volumetric)
     throw InputError("--test: found indirect_tension with --rule volumetric, expected --rule series or centres");
   std::vector<Part> parts = specimen_of(kind);
-  if (test == "indirect_tension") make_disc(parts.front());
+  if (test == "indirect_tension" || of_strength) make_disc(parts.front());
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
   const bool of_phases = has_laws_of_phases(rule);
   if (of_phases)

@@ -196,12 +196,19 @@ toml::table without_lines(const toml::table& table) {
   return out;
 }
 
-/// Gives the domain the strips of an indirect tension test. A domain that cannot have strips is refused later.
+/// Gives the domain the strips of its test. A domain that cannot have strips is refused later.
 void set_strips(Scene& scene, const Section& root) {
-  const auto* test = std::get_if<experiments::IndirectTension>(&scene.experiment);
-  if (!test) return;
   const double diameter = scene.specimen.box.size.x;
-  const double width = test->strip_width.value_or(experiments::IndirectTension::usual_strip * diameter);
+  if (auto* test = std::get_if<experiments::IndirectTensileStrength>(&scene.experiment)) test->diameter = diameter;
+  const std::optional<double> asked = std::visit(
+      [&](const auto& test) -> std::optional<double> {
+        if constexpr (requires { test.strip_width; })
+          return test.strip_width.value_or(experiments::usual_strip * diameter);
+        return {};
+      },
+      scene.experiment);
+  if (!asked) return;
+  const double width = *asked;
   if (!scene.specimen.box.set_strips(width)) return;
   if (!(width >= 0.01 * diameter && width <= 0.5 * diameter))
     root.find("loading")->section().refuse(

@@ -34,13 +34,15 @@ void require_volumetric(const Scene& scene) {
       scene.file.string(), 0, "kind in [loading]",
       fmt::format("\"{}\" with domain = \"{}\" in [specimen]", kind_of(scene.experiment), scene.specimen.box.name()),
       "a domain with two platens and equal sections between them, such as \"box\", \"cylinder\" or "
-      "\"beam\"; kind = \"indirect_tension\" for \"disc\"; macadam specimen makes specimens of every domain");
+      "\"beam\"; kind = \"indirect_tension\" or \"indirect_tensile_strength\" for \"disc\"; macadam specimen makes "
+      "specimens of every domain");
 }
 
-/// Refuses what the indirect tension test does not have. \throws InputError
+/// Refuses what the tests of a disc do not have. \throws InputError
 void require_disc(const Scene& scene) {
   const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
-    throw InputError(scene.file.string(), 0, std::string(what) + " with kind \"indirect_tension\"", found, expected);
+    throw InputError(scene.file.string(), 0, fmt::format("{} with kind \"{}\"", what, kind_of(scene.experiment)), found,
+                     expected);
   };
   if (std::string(scene.specimen.box.name()) != "disc")
     refuse("domain in [specimen]", std::string("\"") + scene.specimen.box.name() + "\"", "\"disc\"");
@@ -48,6 +50,16 @@ void require_disc(const Scene& scene) {
   if (scene.network.rule == ContactRule::volumetric)
     refuse("rule in [network]", "\"volumetric\"", "\"centres\" or \"series\"");
   if (scene.output.sensitivities) refuse("sensitivities in [output]", "true", "false");
+  if (!std::holds_alternative<experiments::IndirectTensileStrength>(scene.experiment)) return;
+  if (!can_crack(facts_of(scene.laws)))
+    refuse("laws in [[contacts]]", "no crack", "a law with a crack between particles");
+  if (scene.solver.method == SolverMethod::harmonic)
+    refuse("method in [solver]", "\"harmonic\"", "\"quasi_static\" or \"explicit\", because cracks are not linear");
+}
+
+bool is_of_disc(const Experiment& experiment) {
+  return std::holds_alternative<experiments::IndirectTension>(experiment) ||
+         std::holds_alternative<experiments::IndirectTensileStrength>(experiment);
 }
 
 }  // namespace
@@ -59,7 +71,7 @@ Backend requested_backend(const Scene& scene) {
 }
 
 void require_combination(const Scene& scene) {
-  if (std::holds_alternative<experiments::IndirectTension>(scene.experiment))
+  if (is_of_disc(scene.experiment))
     require_disc(scene);
   else if (!scene.specimen.box.has_uniform_section())
     require_uniform_section(scene);

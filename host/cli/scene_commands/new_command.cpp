@@ -64,8 +64,8 @@ void check_packing(const NewArguments& arguments) {
   };
   if (asked && !given) refuse("--packing", "nothing", "a file with the spheres, because of --kind packing");
   if (given && !asked) refuse("--packing", "a file without --kind packing", "--kind packing as well");
-  if (asked && arguments.test == "indirect_tension")
-    refuse("--test", "indirect_tension with --kind packing", "another test, or --kind spheres");
+  if (asked && arguments.test.starts_with("indirect_"))
+    refuse("--test", arguments.test + " with --kind packing", "another test, or --kind spheres");
   for (const CLI::Option* option : {arguments.unit_option, arguments.cylinder_option})
     if (!asked && option->count() > 0)
       refuse(option->get_name(), "this option without --kind packing", "no such option");

@@ -19,8 +19,7 @@ IndirectTension ExperimentOf<IndirectTension>::read(const scene::Section& sectio
               {kind_key(),
                {"temperatures", Need::optional, into(out.temperatures, temperature, celsius),
                 "temperatures at which every frequency is tested; they replace temperature in [materials]", "none"},
-               {"strip_width", Need::optional, into(out.strip_width, length, positive),
-                "width of the two curved strips", "0.127 of the diameter"},
+               strip_width_key(out.strip_width),
                {"poisson_ratio", Need::optional, into(out.poisson_ratio, ratio, of_poisson),
                 "Poisson's ratio with which the modulus follows from the horizontal deformation alone",
                 "both follow from the horizontal and the vertical deformation"}});

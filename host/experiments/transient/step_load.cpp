@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/experiments/transient/disc_strength.hpp"
 #include "host/experiments/transient/load_judgement.hpp"
 #include "host/experiments/transient/load_rules.hpp"
 #include "host/experiments/transient/quasi_static_plan.hpp"
@@ -29,6 +30,9 @@ namespace {
 
 /// If a run has more steps than this, the user is warned.
 constexpr std::int64_t many_steps = 100'000'000;
+
+constexpr const char* disc_row_words =
+    "disc between two strips; strain: their approach over the diameter; stress: load over diameter times thickness";
 
 /// Returns the mean density of the specimen's box, including the density scaling [kg/m³].
 double heavy_density(const LoadPlan& plan, const Inertia& inertia, const Box& box) {
@@ -141,16 +145,22 @@ void SteppedLoad::warn_of_many_steps() const {
 std::string SteppedLoad::head(const LoadWords& words) const {
   const std::string ratio =
       words.ratio ? fmt::format("{}: ratio of the strain and stress in its row; ", words.ratio) : "";
-  return fmt::format("# {}, stepped in time; {}{}\n{},{}", modulus_words(scene_.network.lateral_walls), ratio,
-                     errors_.meaning(), csv_head(words), columns().head());
+  return fmt::format("# {}, {}; {}{}\n{},{}",
+                     splits_a_disc() ? disc_row_words : modulus_words(scene_.network.lateral_walls),
+                     is_quasi_static() ? "solved by increments" : "stepped in time", ratio, errors_.meaning(),
+                     csv_head(words), columns().head());
 }
 
 SteppedColumns SteppedLoad::columns() const {
   // a drag dissipates energy in large specimens whose stress drops suddenly
   const bool drag = is_quasi_static() && cracks_.sums() && test_.grows && !test_.by_stress &&
                     !QuasiStaticOptions{}.solves_directly(prepared_.specimen.size());
-  return {test_.by_stress,    cracks_.active(),          cracks_.sums(), drag || at_.plan.damping_kind != Damping::none,
-          sides_.has_value(), !test_.temperature.empty()};
+  SteppedColumns out{test_.by_stress,    cracks_.active(),
+                     cracks_.sums(),     drag || at_.plan.damping_kind != Damping::none,
+                     sides_.has_value(), !test_.temperature.empty()};
+  const Box& box = prepared_.specimen.box;
+  if (splits_a_disc()) out.diameter = gauge_length(box), out.section = section_area(box);
+  return out;
 }
 
 void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, RunResult& result) {
@@ -194,6 +204,11 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
     if (measures_peak()) found.peak = at_.peak;
     if (measures_peak() && cracks_.sums())
       found.fitted = quasi_static_ ? interpolate_peak(at_.stresses) : fit_peak(at_.stresses, at_.peak);
+    if (found.peak && splits_a_disc()) {
+      const experiments::FittedPeak peak =
+          found.fitted.value_or(experiments::FittedPeak{found.peak->strain, found.peak->stress_pa, 0});
+      found.disc = disc_strength(at_.stresses, peak, prepared_.specimen.box);
+    }
     if (rupture_) found.steps = stepper_->observe().step;
     if (quasi_static_) found.increments = increments_found(*quasi_static_);
     if (sudden_break_) {

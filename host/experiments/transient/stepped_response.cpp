@@ -51,10 +51,23 @@ experiments::FittedPeak peak_of(const SteppedResponse& found) {
   return found.fitted.value_or(experiments::FittedPeak{found.peak->strain, found.peak->stress_pa, 0});
 }
 
+/// Returns the lines about the strength of a disc.
+std::string disc_words(const experiments::DiscStrength& disc, bool passed) {
+  std::string out = fmt::format("largest load {:.5g} kN when the strips have approached by {:.4g} mm\n",
+                                disc.load_n / 1e3, disc.displacement_m * 1e3);
+  if (!passed) return out + "the strength was not reached\n";
+  out = fmt::format("indirect tensile strength {:.5g} MPa (EN 12697-23)\n{}fracture energy {:.4g} J/m2\n",
+                    disc.strength_pa / 1e6, out, disc.fracture_energy_j_m2);
+  return out + (disc.ct_index ? fmt::format("CT index {:.4g} (ASTM D8225): |m75| {:.4g} kN/mm, l75 {:.4g} mm\n",
+                                            *disc.ct_index, *disc.slope_n_m / 1e6, *disc.l75_m * 1e3)
+                              : "no CT index, because the load did not fall to 65 % of its largest value\n");
+}
+
 /// Returns the line about the strength. This line is printed first, because the strength is the main result of such a
 /// test.
 std::string strength_words(const SteppedResponse& found) {
   const experiments::FittedPeak peak = peak_of(found);
+  if (found.disc) return disc_words(*found.disc, passed_peak(found));
   std::string out = fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
                                 passed_peak(found) ? "strength" : "largest stress", peak.stress_pa / 1e6, peak.strain,
                                 found.peak->time_s, passed_peak(found) ? "" : "; the strength was not reached");
@@ -107,6 +120,22 @@ void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
   out["work_of_fracture_j"] = passed ? Json(found.points.back().energies.work_j) : Json();
 }
 
+void add_disc(const experiments::DiscStrength& disc, bool passed, nlohmann::ordered_json& out) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  out["peak_load_n"] = disc.load_n;
+  out["displacement_at_peak_m"] = disc.displacement_m;
+  out["indirect_tensile_strength_pa"] = passed ? Json(disc.strength_pa) : Json();
+  out["fracture_energy_j_m2"] = passed ? Json(disc.fracture_energy_j_m2) : Json();
+  out["m75_n_m"] = number(disc.slope_n_m);
+  out["l75_m"] = number(disc.l75_m);
+  out["ct_index"] = number(disc.ct_index);
+}
+
+const char* load_kind_words(const SteppedResponse& found) {
+  return found.disc ? "disc between two strips" : modulus_words(found.confined);
+}
+
 /// Adds how a test was followed by increments.
 void add_increments(const experiments::Increments& found, nlohmann::ordered_json& out) {
   out["increments"] = found.increments;
@@ -139,7 +168,7 @@ std::string increment_words(const SteppedResponse& found) {
   return fmt::format(
       "\n{}; {} increments without inertia, {} linear systems in {:.1f} s\n"
       "error: {}\n",
-      modulus_words(found.confined), i.increments, i.systems, found.seconds,
+      load_kind_words(found), i.increments, i.systems, found.seconds,
       found.cracks ? fmt::format("largest sum of the estimated errors of the increments, relative to the largest {}",
                                  found.kind == experiments::Creep::kind ? "strain" : "stress")
                    : "difference from the exact solution in time; an estimate if that solution is not known");
@@ -155,7 +184,9 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     const LoadWords& words = load_words(found.kind);
     Json out = {{"kind", found.kind},
                 {"sides", found.confined ? "held" : "free"},
-                {"modulus", found.confined ? "confined" : "uniaxial"},
+                {"modulus", found.disc       ? "indirect_tension"
+                            : found.confined ? "confined"
+                                             : "uniaxial"},
                 {"method", found.increments ? "quasi_static" : "explicit"}};
     if (!found.increments)
       out.update({{"density_scaling", found.density_scaling}, {"dt_s", found.dt_s}, {"steps", found.steps}});
@@ -166,6 +197,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     if (words.ratio) out["ramp_s"] = found.ramp_s;
     add_extremes(found.kind, found.points, out);
     if (measures_strength(found)) add_strength(found, out);
+    if (found.disc) add_disc(*found.disc, passed_peak(found), out);
     if (found.cracks && found.cracks->sums) {
       const auto error = energy_error_of(found);
       out["energy_error"] = error ? Json(*error) : Json();
@@ -226,7 +258,7 @@ std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
                    "error: difference from the solution without time steps, or an estimate if there is no such "
                    "solution; kinetic "
                    "energy: at most {:.1e} of the work\n",
-                   modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
+                   load_kind_words(found), found.steps, found.dt_s, found.density_scaling, found.seconds,
                    found.kinetic_share);
 }
 

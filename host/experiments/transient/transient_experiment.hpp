@@ -65,6 +65,7 @@ TransientExperiment load_test(const experiments::Relaxation& spec);
 TransientExperiment load_test(const experiments::Creep& spec);
 TransientExperiment load_test(const experiments::Monotonic& spec);
 TransientExperiment load_test(const experiments::StrainHistory& spec);
+TransientExperiment load_test(const experiments::IndirectTensileStrength& spec);
 /// @}
 /// Returns the description of the scene's experiment, or an empty one if the experiment is not a transient one.
 TransientExperiment load_test_of(const Scene& scene);

@@ -8,6 +8,7 @@
 
 #include "macadam/experiments/creep.hpp"
 #include "macadam/experiments/cyclic.hpp"
+#include "macadam/experiments/indirect_tensile_strength.hpp"
 #include "macadam/experiments/indirect_tension.hpp"
 #include "macadam/experiments/monotonic.hpp"
 #include "macadam/experiments/relaxation.hpp"
@@ -19,7 +20,8 @@ namespace macadam {
 
 /// The experiment that `[loading]` of a scene requests. Its `kind` selects one of these types.
 using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
-                                experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension>;
+                                experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension,
+                                experiments::IndirectTensileStrength>;
 
 /// The result of an experiment. Its type depends on the experiment and on the method that ran; it is monostate before a
 /// run.

@@ -11,14 +11,14 @@
 
 namespace macadam::experiments {
 
+/// Width of the strips over the diameter of the disc, if the scene gives none: 12.7 mm for 100 mm, as in the standards.
+inline constexpr double usual_strip = 0.127;
+
 /// `[loading]` of kind "indirect_tension": steady states at each frequency and each temperature.
 struct IndirectTension {
   static constexpr const char* kind = "indirect_tension";
   static constexpr Stepping stepping = Stepping::never;
   static constexpr std::array files = {"indirect_tension.csv"};  ///< files that a run may write
-  /// Width of the strips over the diameter of the disc, if the scene gives none: 12.7 mm for 100 mm, as in the
-  /// standard.
-  static constexpr double usual_strip = 0.127;
 
   std::vector<double> frequencies;    ///< [Hz], rising
   std::vector<double> temperatures;   ///< [°C]; empty: Materials::temperature

@@ -12,6 +12,7 @@
 #include "macadam/experiments/cracks.hpp"
 #include "macadam/experiments/energies.hpp"
 #include "macadam/experiments/increments.hpp"
+#include "macadam/experiments/indirect_tensile_strength.hpp"
 #include "macadam/experiments/material.hpp"
 #include "macadam/experiments/stepped.hpp"
 
@@ -73,6 +74,8 @@ struct SteppedResponse : Stepped {
   std::optional<Rupture> rupture = {};    ///< the rupture, if it ended the test early
   std::optional<Peak> peak = {};          ///< constant rate only, and only if a law of the scene can break
   std::optional<FittedPeak> fitted = {};  ///< as `peak`, only if a law has a crack and a polynomial fits
+
+  std::optional<DiscStrength> disc = {};  ///< only kind "indirect_tensile_strength"
 
   std::optional<Increments> increments = {};  ///< only method "quasi_static"
 
