@@ -202,7 +202,10 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   // Returns whether a facet becomes a contact, and counts the facets that `gap_max` or `area_min` excludes.
   const auto wanted = [&](const Facet& f) {
     if (is_free(specimen, f)) return false;
-    if (f.b < 0) return f.b <= wall_z_lo ? spec.bottom_top_walls : spec.lateral_walls;
+    if (f.b < 0) {
+      if (f.b > wall_z_lo) return spec.lateral_walls;
+      return spec.bottom_top_walls && specimen.box.carries(static_cast<int>(wall_index(f.b)), f.centroid);
+    }
     const double radii = specimen.radius[f.a] + specimen.radius[f.b];
     const double gap = norm(specimen.centre[f.b] - specimen.centre[f.a]) - radii;
     const FacetLimits& limit = limits[static_cast<std::size_t>(pair_of(specimen, f))];

@@ -8,6 +8,7 @@
 #include "host/fields/field_output.hpp"
 #include "host/network/clusters.hpp"
 #include "host/network/cell_volumes.hpp"
+#include "host/network/loaded_rollers.hpp"
 #include "host/files/particle_files.hpp"
 #include "host/files/result_files.hpp"
 #include "host/files/result_folder.hpp"
@@ -112,11 +113,12 @@ void count_clusters(Preparation& out) {
 }
 
 /// Makes the contacts between particles whose cells exist. `surfaces`: templates of the generated aggregates. \throws
-/// InputError if no path of contacts joins bottom and top wall.
+/// InputError if no path of contacts joins bottom and top wall, RunError if a roller touches no particle.
 void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, const Progress& progress,
                    Preparation& out) {
   if (progress) progress(network_stage, 0);
   out.seconds_network = seconds_of([&] {
+    require_loaded_rollers(out.specimen, out.tessellation);
     out.network = build_network(out.specimen, out.tessellation, scene.network);
     require_laws(scene, out.specimen, out.network);
     if (has_laws_of_phases(scene.network.rule)) apply_rule(scene, surfaces, out);
@@ -168,6 +170,7 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
   Preparation out;
   validate(specimen, specimen.source);
   out.specimen = std::move(specimen);
+  if (const domains::Rollers* rollers = scene.specimen.box.rollers()) out.specimen.box.set_rollers(*rollers);
   make_cells(scene, progress, out);
   make_contacts(scene, {}, progress, out);
   return out;

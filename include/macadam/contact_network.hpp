@@ -52,7 +52,7 @@ struct NetworkSpec : FacetLimits {
   /// Limits of single pair types between particles; a limit given here replaces the limit for all pairs.
   std::array<FacetLimits, particle_pair_types> of_pair;
   Quadrature quadrature = Quadrature::lumped;
-  bool bottom_top_walls = true;             ///< facets on −z and +z are contacts
+  bool bottom_top_walls = true;             ///< facets on −z and +z are contacts; with rollers only those within one
   bool lateral_walls = false;               ///< facets on ±x and ±y are contacts
   ContactRule rule = ContactRule::centres;  ///< build_network() ignores it; prepare() applies it to the contacts
   std::optional<VoidCells> void_cells =

@@ -121,6 +121,39 @@ TEST(Prisms, OnlyPlatensAreContacts) {
   }
 }
 
+// With rollers, the flat side of a half disc and a strip on its crown are the walls −z and +z. The facets within the
+// two lower rollers and within the strip are contacts. The polygon of the tessellation differs from the arc by 1e-5 to
+// 1e-4.
+TEST(Prisms, RollersTouchAHalfDisc) {
+  Domain domain = half_disc;
+  const double width = 0.012, radius = 0.075, thickness = 0.05;
+  ASSERT_TRUE(domain.set_rollers({{0.015, 0.135}, {radius}, width}));
+  EXPECT_FALSE(Domain(disc).set_rollers({}));
+  EXPECT_EQ(half_disc.rollers(), nullptr);
+  Specimen s = random_spheres(domain, 4000, 11);
+  s.radius.assign(s.size(), 0.003);  // with equal radii no sphere is hidden
+  const Tessellation t = tessellate(s);
+  test::expect_invariants(s, t, 1e-10);
+  double flat = 0, crown = 0, within_rollers = 0, bottom = 0, top = 0;
+  for (const Facet& f : t.facets) {
+    if (f.b == wall_z_lo) {
+      flat += f.area;
+      if (std::abs(std::abs(f.centroid.x - radius) - 0.06) <= 0.5 * width) within_rollers += f.area;
+    }
+    if (f.b == wall_z_hi) crown += f.area;
+  }
+  for (const Contact& c : build_network(s, t).contacts) {
+    if (c.b == wall_z_lo) bottom += c.area;
+    if (c.b == wall_z_hi) top += c.area;
+    EXPECT_TRUE(c.b >= 0 || c.b <= wall_z_lo) << c.b;
+  }
+  EXPECT_NEAR(flat / (2 * radius * thickness), 1, 1e-4);
+  EXPECT_NEAR(crown / (2 * std::asin(0.5 * width / radius) * radius * thickness), 1, 1e-4);
+  EXPECT_NEAR(top, crown, 1e-15);  // rounding, in m²
+  EXPECT_NEAR(bottom, within_rollers, 1e-15);
+  EXPECT_NEAR(bottom / (2 * width * thickness), 1, 0.2);  // some 26 facets on each roller
+}
+
 TEST(Prisms, ParticlesOutsideThemAreNamed) {
   Specimen s = random_spheres(half_disc, 5, 2);
   s.centre[3] = {0.001, 0.01, 0.07};  // a corner of the bounding box

@@ -98,6 +98,40 @@ struct Domain {
         },
         shape);
   }
+  /// Gives the domain rollers on its walls −z and +z. Returns whether the shape can have rollers.
+  bool set_rollers(const domains::Rollers& rollers) {
+    return std::visit(
+        [&rollers](auto& s) {
+          if constexpr (requires { s.rollers; }) {
+            s.rollers = rollers;
+            return true;
+          } else {
+            return false;
+          }
+        },
+        shape);
+  }
+  /// Returns the rollers; a null pointer if the domain has none.
+  const domains::Rollers* rollers() const {
+    return ask([](const auto& s) -> const domains::Rollers* {
+      if constexpr (requires { s.rollers; }) {
+        return s.rollers.width > 0 ? &s.rollers : nullptr;
+      } else {
+        return nullptr;
+      }
+    });
+  }
+  /// Returns whether a facet of a wall, by wall_index(), touches this wall. On a wall with rollers only the facets
+  /// whose centroids [m] lie within a roller do so.
+  bool carries(int k, const Vec3d& centroid) const {
+    return ask([&](const auto& s) {
+      if constexpr (requires { s.carries(k, centroid); }) {
+        return s.carries(k, centroid);
+      } else {
+        return true;
+      }
+    });
+  }
   /// Returns the planes that represent the sides in the tessellation; none for a box.
   std::vector<domains::SidePlane> side_planes() const {
     return ask([&](const auto& s) { return s.side_planes(size); });
