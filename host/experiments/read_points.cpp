@@ -13,9 +13,8 @@
 namespace macadam::scene {
 
 Key poisson_key(double& target) {
-  constexpr Rule rule{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
   target = 0.35;
-  return {"poisson_ratio", Need::optional, into(target, ratio, rule),
+  return {"poisson_ratio", Need::optional, into(target, ratio, of_poisson),
           "Poisson's ratio in the tables for finite-element programs; the specimen does not determine it"};
 }
 
@@ -88,6 +87,19 @@ std::vector<double> Points::all(const Section& section, const std::string& key, 
   out.clear();
   for (int i = 0; i < *evenly; ++i) out.push_back(first + (last - first) * i / (*evenly - 1));
   return out;
+}
+
+void read_steady_states(const Section& section, std::vector<double>& frequencies, std::vector<double>& temperatures,
+                        const std::vector<Key>& more) {
+  Points points;
+  std::vector<Key> keys = points.keys("frequencies", frequency);
+  keys.push_back(kind_key());
+  keys.push_back({"temperatures", Need::optional, into(temperatures, temperature, celsius),
+                  "temperatures at which every frequency is tested; they replace temperature in [materials]", "none"});
+  keys.insert(keys.end(), more.begin(), more.end());
+  section.read(keys);
+  frequencies = points.all(section, "frequencies", "Hz", "frequency");
+  require_once(section, "temperatures", temperatures, "degrees C", "temperature");
 }
 
 }  // namespace macadam::scene

@@ -43,4 +43,9 @@ struct Points {
   std::vector<double> all(const Section& section, const std::string& key, const char* unit, const char* what) const;
 };
 
+/// Reads `[loading]` of a test whose steady states are solved at each frequency [Hz] and each temperature [°C]. `more`:
+/// the keys that only this test has. \throws InputError
+void read_steady_states(const Section& section, std::vector<double>& frequencies, std::vector<double>& temperatures,
+                        const std::vector<Key>& more = {});
+
 }  // namespace macadam::scene

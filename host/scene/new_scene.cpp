@@ -217,14 +217,21 @@ std::vector<Part> materials_with_laws(bool densities) {
   return {{"[materials]", {}}, aggregate, mastic};
 }
 
-/// Makes a disc of the box of a specimen.
-void make_disc(Part& specimen) {
+/// Replaces the box of a specimen by another domain with these dimensions.
+void replace_box(Part& specimen, const std::string& domain, const std::vector<Given>& dimensions) {
   std::vector<Given>& given = specimen.given;
   const auto at = std::find_if(given.begin(), given.end(), [](const Given& g) { return g.key == "box"; });
-  *at = {"domain", R"("disc")"};
-  given.insert(at + 1, {{"diameter", R"("60 mm")"}, {"thickness", R"("20 mm")"}});
-  std::erase_if(specimen.not_these, [](const std::string& key) { return key == "domain" || key == "diameter"; });
+  *at = {"domain", '"' + domain + '"'};
+  given.insert(at + 1, dimensions.begin(), dimensions.end());
   specimen.not_these.push_back("box");
+}
+
+/// Gives a specimen the domain of a test that is not made on a box.
+void set_domain(Part& specimen, const std::string& test) {
+  if (test == "indirect_tension" || test == "indirect_tensile_strength")
+    replace_box(specimen, "disc", {{"diameter", R"("60 mm")"}, {"thickness", R"("20 mm")"}});
+  if (test == "bending")
+    replace_box(specimen, "beam", {{"length", R"("120 mm")"}, {"width", R"("20 mm")"}, {"height", R"("20 mm")"}});
 }
 
 Part loading_of(const std::string& test, bool cracks) {
@@ -233,6 +240,7 @@ Part loading_of(const std::string& test, bool cracks) {
   if (test == "cyclic") give("frequencies", "[2.0, 5.0, 10.0, 20.0]"), give("strain_amplitude", "1e-4");
   if (test == "indirect_tension") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "indirect_tensile_strength") give("displacement", R"("3 mm")"), give("points", "100");
+  if (test == "bending") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "sweep") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
@@ -271,23 +279,22 @@ std::vector<std::string> tests_of_new_scenes() {
   return {};
 }
 
-std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, bool cracks) {
+std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, bool with_cracks) {
+  const bool of_strength = test == "indirect_tensile_strength", cracks = with_cracks || of_strength;
   if (cracks && has_laws_of_phases(rule))
-    throw InputError(
-        fmt::format("--cracks: found this option with --rule {}, expected --rule centres", to_string(rule)));
-  const bool of_strength = test == "indirect_tensile_strength";
+    throw InputError(fmt::format("{}: found {} with --rule {}, expected --rule centres",
+                                 of_strength ? "--test" : "--cracks", of_strength ? test : "this option",
+                                 to_string(rule)));
   if (cracks && test != "monotonic" && !of_strength) {
     throw InputError(fmt::format(
         "--cracks: found this option with --test {}, expected --test monotonic or indirect_tensile_strength, which "
         "measure a strength",
         test));
   }
-  if (of_strength && !cracks)
-    throw InputError("--test: found indirect_tensile_strength without --cracks, expected both");
-  if (test == "indirect_tension" && rule == ContactRule::volumetric)
-    throw InputError("--test: found indirect_tension with --rule volumetric, expected --rule series or centres");
+  if ((test == "indirect_tension" || test == "bending") && rule == ContactRule::volumetric)
+    throw InputError("--test: found " + test + " with --rule volumetric, expected --rule series or centres");
   std::vector<Part> parts = specimen_of(kind);
-  if (test == "indirect_tension" || of_strength) make_disc(parts.front());
+  set_domain(parts.front(), test);
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
   const bool of_phases = has_laws_of_phases(rule);
   if (of_phases)
@@ -304,8 +311,9 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
            kind == NewKind::packing ? about_gaps : ""},
           loading_of(test, cracks),
           {"[solver]",
-           cracks ? std::vector<Given>{{"method", R"("explicit")"}, {"density_scaling", "10"}}
-                  : std::vector<Given>{{"method", R"("harmonic")"}},
+           of_strength ? std::vector<Given>{{"method", R"("quasi_static")"}}
+           : cracks    ? std::vector<Given>{{"method", R"("explicit")"}, {"density_scaling", "10"}}
+                       : std::vector<Given>{{"method", R"("harmonic")"}},
            "A line that begins with # is a key that is not set: remove the # and give it a value.",
            true,
            {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",

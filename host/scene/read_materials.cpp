@@ -15,7 +15,6 @@ namespace {
 /// a smaller number was probably meant in g/cm³.
 constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
                         "10 to 30000 kg/m3; a density in another unit is text with the unit"};
-constexpr Rule of_poisson{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
 
 /// Appends the names of the laws that a phase may have, each with an empty value. Only linear laws can be in series
 /// with rock.

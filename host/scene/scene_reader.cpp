@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/bending_rollers.hpp"
 #include "host/scene/known_keys.hpp"
 #include "host/scene/scene_changes.hpp"
 #include "host/scene/sections.hpp"
@@ -257,6 +258,7 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
   set_laws_of_phases(out, phases, root);
   choose_method(out.solver, out.experiment, out.laws);
   set_strips(out, root);
+  set_rollers(out, root);
   check_together(out, root);
   apply_temperature(out, root, tables);
   return out;

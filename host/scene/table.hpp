@@ -29,6 +29,8 @@ struct Rule {
 inline constexpr Rule any{[](double) { return true; }, "a number"};
 inline constexpr Rule positive{[](double v) { return v > 0; }, "a positive number"};
 inline constexpr Rule non_negative{[](double v) { return v >= 0; }, "a number that is not negative"};
+/// For Poisson's ratios.
+inline constexpr Rule of_poisson{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
 
 class Section;
 class Collector;

@@ -38,18 +38,31 @@ void require_volumetric(const Scene& scene) {
       "specimens of every domain");
 }
 
+/// Refuses a setting that the test of the scene does not have. \throws InputError
+[[noreturn]] void refuse_with_kind(const Scene& scene, const char* what, const std::string& found,
+                                   const std::string& expected) {
+  throw InputError(scene.file.string(), 0, fmt::format("{} with kind \"{}\"", what, kind_of(scene.experiment)), found,
+                   expected);
+}
+
+/// Refuses what the tests of a disc and of a bent beam do not have. `domain`: name of the domain that the test needs.
+/// \throws InputError
+void require_domain(const Scene& scene, const std::string& domain) {
+  if (scene.specimen.box.name() != domain)
+    refuse_with_kind(scene, "domain in [specimen]", std::string("\"") + scene.specimen.box.name() + "\"",
+                     '"' + domain + '"');
+  if (scene.network.lateral_walls) refuse_with_kind(scene, "lateral_walls in [network]", "true", "false");
+  if (scene.network.rule == ContactRule::volumetric)
+    refuse_with_kind(scene, "rule in [network]", "\"volumetric\"", "\"centres\" or \"series\"");
+  if (scene.output.sensitivities) refuse_with_kind(scene, "sensitivities in [output]", "true", "false");
+}
+
 /// Refuses what the tests of a disc do not have. \throws InputError
 void require_disc(const Scene& scene) {
+  require_domain(scene, domains::Disc::name);
   const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
-    throw InputError(scene.file.string(), 0, fmt::format("{} with kind \"{}\"", what, kind_of(scene.experiment)), found,
-                     expected);
+    refuse_with_kind(scene, what, found, expected);
   };
-  if (std::string(scene.specimen.box.name()) != "disc")
-    refuse("domain in [specimen]", std::string("\"") + scene.specimen.box.name() + "\"", "\"disc\"");
-  if (scene.network.lateral_walls) refuse("lateral_walls in [network]", "true", "false");
-  if (scene.network.rule == ContactRule::volumetric)
-    refuse("rule in [network]", "\"volumetric\"", "\"centres\" or \"series\"");
-  if (scene.output.sensitivities) refuse("sensitivities in [output]", "true", "false");
   if (!std::holds_alternative<experiments::IndirectTensileStrength>(scene.experiment)) return;
   if (!can_crack(facts_of(scene.laws)))
     refuse("laws in [[contacts]]", "no crack", "a law with a crack between particles");
@@ -71,7 +84,9 @@ Backend requested_backend(const Scene& scene) {
 }
 
 void require_combination(const Scene& scene) {
-  if (is_of_disc(scene.experiment))
+  if (std::holds_alternative<experiments::Bending>(scene.experiment))
+    require_domain(scene, domains::Beam::name);
+  else if (is_of_disc(scene.experiment))
     require_disc(scene);
   else if (!scene.specimen.box.has_uniform_section())
     require_uniform_section(scene);

@@ -221,6 +221,16 @@ def test_the_methods_name_the_indirect_tension_test(tmp_path: Path, no_pictures)
     assert "computed in cyclic indirect tension" in page and "uniaxial" not in page
 
 
+def test_the_methods_name_the_bending_test(tmp_path: Path, no_pictures) -> None:
+    scene = (ROOT / "examples" / "bending" / "scene.toml").read_text(encoding="utf-8")
+    small = scene.replace('"100 mm"', '"60 mm"').replace('"16 mm"', '"12 mm"')
+    (tmp_path / "scene.toml").write_text(small, encoding="utf-8")
+    subprocess.run([PROGRAM, "run", tmp_path / "scene.toml", "--out", tmp_path / "out", "--backend", "cpu"], check=True,
+                   capture_output=True)
+    page = report(tmp_path / "out", tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "computed in cyclic bending" in page and "uniaxial" not in page
+
+
 def test_the_methods_show_the_values_of_set(tmp_path: Path, no_pictures) -> None:
     folder = tmp_path / "changed"
     shutil.copytree(make("harmonic"), folder)

@@ -67,22 +67,23 @@ TEST(DiscStrength, HasNoIndexIfTheLoadHardlyFalls) {
 
 struct IndirectTensileStrength : test::SceneFile {
   static std::string text(const std::string& rest = "", const std::string& crack = cracks()) {
-    return "[specimen]\ndomain = \"disc\"\ndiameter = 0.02\nthickness = 0.006\n"
+    return "[specimen]\ndomain = \"disc\"\ndiameter = 0.016\nthickness = 0.005\n"
            "[specimen.mastic]\nradius = [0.0009, 0.0011]\nporosity = 0.05\n"
            "[materials.aggregate]\ndensity = 2000\n[materials.mastic]\ndensity = 2000\n"
            "[[contacts]]\npair = \"M-M\"\nlaw = \"elastic\"\nE = 5e9\nalpha = 0.3\n" +
            crack +
            "[[contacts]]\npair = \"M-W\"\nlaw = \"elastic\"\nE = 5e9\n"
-           "[loading]\nkind = \"indirect_tensile_strength\"\ndisplacement = \"0.1 mm\"\npoints = 40\n" +
-           rest;
+           "[loading]\nkind = \"indirect_tensile_strength\"\ndisplacement = \"0.104 mm\"\npoints = 26\n" +
+           (rest.empty() ? "[solver]\ntolerance = 1e-2\n" : rest);
   }
   static std::string cracks() {
-    return "crack = {tensile_strength = 2e6, fracture_energy = 20, shear_strength = 4e6, friction = 0.5}\n";
+    return "crack = {tensile_strength = 1e6, fracture_energy = 50, shear_strength = 1.5e6, friction = 0.5}\n";
   }
 };
 
-// A disc of one material fails at about the strength of its contacts, because the stress in its middle is uniform. The
-// sum of the energies is the work of the strips, and both strips bear the same load.
+// The disc is much smaller than the length E·G_f/f_t² of 0.25 m, so its cracks are spread and it bears more than the
+// tensile strength of its contacts. The sum of the energies is the work of the strips, and both strips bear the same
+// load.
 TEST_F(IndirectTensileStrength, SplitsADisc) {
   const Scene scene = read(text());
   const RunResult result = run(scene, folder_ / "out");
@@ -92,10 +93,10 @@ TEST_F(IndirectTensileStrength, SplitsADisc) {
   EXPECT_LT(found.disc->strength_pa, 4e6);
   ASSERT_TRUE(found.increments);
   EXPECT_LT(found.increments->imbalance, 1e-7);
-  const double largest = found.disc->load_n / (0.02 * 0.006);
+  const double largest = found.disc->load_n / (0.016 * 0.005);
   for (const experiments::SteppedPoint& p : found.points)
     EXPECT_NEAR(p.bottom_pa / largest, p.stress_pa / largest, 1e-6);
-  EXPECT_LT(std::abs(found.points.back().stress_pa), 0.8 * largest);
+  EXPECT_LT(std::abs(found.points.back().stress_pa), 0.99 * largest);
 
   const nlohmann::json row = nlohmann::json::parse(std::ifstream(folder_ / "out" / "summary.json"))["results"][0];
   EXPECT_EQ(row["modulus"], "indirect_tension");
@@ -113,7 +114,7 @@ TEST_F(IndirectTensileStrength, RefusesOtherScenes) {
   EXPECT_HAS(refusal(text("", "")), "expected a law with a crack");
   EXPECT_HAS(refusal(text("[solver]\nmethod = \"harmonic\"\n")), "method in [solver]");
   std::string box = text();
-  const std::string domain = "domain = \"disc\"\ndiameter = 0.02\nthickness = 0.006\n";
+  const std::string domain = "domain = \"disc\"\ndiameter = 0.016\nthickness = 0.005\n";
   box.replace(box.find(domain), domain.size(), "box = [0.01, 0.01, 0.01]\n");
   EXPECT_HAS(refusal(box), "expected \"disc\"");
   EXPECT_HAS(refusal(text("rate = \"50 mm\"\n")), "mm/min");

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "host/experiments/cyclic/mean_motion.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -53,28 +53,14 @@ Complex end_of_diameter(const Specimen& specimen, const Tessellation& cells, con
   return sum / area;
 }
 
-/// Height of a place on the loaded diameter, and its motion along z per unit displacement of the top strip.
-struct Level {
-  double height = 0;  ///< [m]
-  Complex motion = 0;
-};
-
-/// Returns the mean over the volumes of the particles in a square whose middle is on the loaded diameter at this height
-/// [m]. The square has half the strip's width, because the motion decreases on both sides of the diameter.
-Level level_at(const Specimen& specimen, const HarmonicResult& state, double strip_width, double height) {
-  Level out;
-  double volume = 0;
-  for (std::size_t i = 0; i < specimen.size(); ++i) {
-    const Vec3d& x = specimen.centre[i];
-    if (std::max(std::abs(x.x - 0.5 * specimen.box.size.x), std::abs(x.z - height)) > 0.25 * strip_width) continue;
-    const double v = specimen.radius[i] * specimen.radius[i] * specimen.radius[i];
-    out.height += v * x.z;
-    out.motion += v * state.motion[6 * i + 2];
-    volume += v;
-  }
-  if (!(volume > 0))
-    require_finer("on the vertical diameter, a quarter of its length from an end,", 0.25 * strip_width);
-  return {out.height / volume, out.motion / volume};
+/// Returns the mean over the particles in a square whose middle is on the loaded diameter at this height [m]. The
+/// square has half the strip's width, because the motion decreases on both sides of the diameter.
+MeanMotion level_at(const Specimen& specimen, const HarmonicResult& state, double strip_width, double height) {
+  const Vec3d& size = specimen.box.size;
+  const Vec3d middle{0.5 * size.x, 0.5 * size.y, height}, half{0.25 * strip_width, size.y, 0.25 * strip_width};
+  const std::optional<MeanMotion> found = mean_motion(specimen, state, middle, half);
+  if (!found) require_finer("on the vertical diameter, a quarter of its length from an end,", 0.25 * strip_width);
+  return *found;
 }
 
 Stiffness stiffness_of(Complex modulus) { return {std::abs(modulus), std::arg(modulus) * 180 / std::numbers::pi}; }
@@ -109,10 +95,10 @@ void observe_disc(const experiments::IndirectTension& test, const Specimen& spec
   const Complex force = reaction(state.top);  // per unit displacement of the top strip
   const Complex wider =
       end_of_diameter(specimen, cells, state, width, false) - end_of_diameter(specimen, cells, state, width, true);
-  const Level upper = level_at(specimen, state, width, 0.75 * diameter),
-              lower = level_at(specimen, state, width, 0.25 * diameter);
-  const Complex shorter = upper.motion - lower.motion;
-  const double length = upper.height - lower.height;
+  const MeanMotion upper = level_at(specimen, state, width, 0.75 * diameter),
+                   lower = level_at(specimen, state, width, 0.25 * diameter);
+  const Complex shorter = upper.along_z - lower.along_z;
+  const double length = upper.position.z - lower.position.z;
   out.disc = {wider / force, shorter / force * (0.5 * diameter / length), 1.0 / force};
   const HondrosCoefficients h = hondros_coefficients(std::asin(width / diameter), length / diameter);
   const Complex ratio =

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host/experiments/cyclic/beam_modulus.hpp"
 #include "host/experiments/cyclic/disc_modulus.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
 #include "host/run/harmonic_options.hpp"
@@ -170,6 +171,8 @@ class PlannedHarmonic : public PlannedExperiment {
       f.held_force = s.held_force;
       if (const auto* test = std::get_if<experiments::IndirectTension>(&scene_.experiment))
         observe_disc(*test, prepared_.specimen, prepared_.tessellation, s, f);
+      if (const auto* test = std::get_if<experiments::Bending>(&scene_.experiment))
+        observe_beam(*test, prepared_.specimen, prepared_.network, isothermal_.laws, s, f);
       judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), result.warnings);
       {
         const InPhase writing(result.phases, &PhaseSeconds::writing);

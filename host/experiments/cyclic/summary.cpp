@@ -98,6 +98,7 @@ Json stepped_json(const SteppedFrequency& f, const Scene& scene) {
 Json frequency_json(const HarmonicFrequency& f, const Scene& scene) {
   Json out = begun(f, "harmonic", f.residual, scene);
   if (f.disc) out["modulus"] = "indirect_tension";
+  if (f.beam) out["modulus"] = "bending";
   out["e_star_bottom_pa"] = f.bottom.e_star_pa;
   out["phase_bottom_deg"] = f.bottom.phase_deg;
   add_poisson_ratio(f, out);

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "macadam/experiments/bending.hpp"
 #include "macadam/experiments/creep.hpp"
 #include "macadam/experiments/cyclic.hpp"
 #include "macadam/experiments/indirect_tensile_strength.hpp"
@@ -21,7 +22,7 @@ namespace macadam {
 /// The experiment that `[loading]` of a scene requests. Its `kind` selects one of these types.
 using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
                                 experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension,
-                                experiments::IndirectTensileStrength>;
+                                experiments::IndirectTensileStrength, experiments::Bending>;
 
 /// The result of an experiment. Its type depends on the experiment and on the method that ran; it is monostate before a
 /// run.

@@ -41,16 +41,23 @@ struct DiscCompliance {
   std::complex<double> strips;      ///< approach of the strips
 };
 
+/// Deformations of a beam between rollers, per force of the upper rollers together [m/N].
+struct BeamCompliance {
+  std::complex<double> midspan;  ///< deflection at midspan relative to the supports, at half of the height
+  std::complex<double> rollers;  ///< approach of the upper and the lower rollers
+};
+
 /// Result of a solution in the frequency domain.
 struct HarmonicFrequency : Frequency {
   double residual = 0;  ///< ‖f − K·u‖/‖f‖
-  ModulusParts parts;   ///< parts of E*, which is their sum; zero for a disc
+  ModulusParts parts;   ///< parts of E*, which is their sum; zero for a disc and for a beam between rollers
   Stiffness bottom;     ///< from the reaction of the bottom wall
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
   /// Force of the springs that hold free rigid motions, divided by the wall's reaction; nearly 0 in a correct solution.
   double held_force = 0;
   std::optional<DiscCompliance> disc = {};  ///< of an indirect tension test
+  std::optional<BeamCompliance> beam = {};  ///< of a bending test
 };
 
 }  // namespace experiments

@@ -17,6 +17,10 @@ _CITE = (
     "Cite Macadam with its version, and for the model the article “Effect of aggregate shape representation and "
     "deformability on the bituminous mixture stiffness properties using 3D DEM modelling”."
 )
+_LOADING = {  # the words for each `modulus` of summary.json that is not uniaxial
+    "indirect_tension": "cyclic indirect tension, with the closed form of Hondros,",
+    "bending": "cyclic bending, with the theory of Timoshenko beams,",
+}
 
 
 def add(page: Page, folders: list[Folder]) -> None:
@@ -88,8 +92,7 @@ def _test(f: Folder) -> str:
         warm = sorted({r["temperature_c"] for r in f.by_frequency if r.get("temperature_c") is not None})
         span = look.hertz(of[0]) if len(of) == 1 else f"{len(of)} frequencies from {look.hertz(of[0])} to {look.hertz(of[-1])}"
         at = f", at {', '.join(f'{t:g}' for t in warm)} °C" if warm else ""
-        disc = any(r.get("modulus") == "indirect_tension" for r in f.by_frequency)
-        loading = "cyclic indirect tension, with the closed form of Hondros," if disc else "uniaxial cyclic loading"
+        loading = _LOADING.get(f.by_frequency[0].get("modulus"), "uniaxial cyclic loading")
         return f"|E*| and the phase angle were computed in {loading} at {span}{at}."
     if f.in_time and f.in_time.get("points"):
         points = f.in_time["points"]
