@@ -46,6 +46,20 @@ Key temperature_key(TemperatureHistory& target) {
           "the temperature does not change"};
 }
 
+std::vector<Key> Approach::keys(const std::string& of_rate, const std::string& of_displacement) {
+  constexpr std::int64_t most_points = 100'000;
+  return {kind_key(),
+          {"rate", Need::optional, into(rate, speed, positive), of_rate, "50 mm/min, as in the standards"},
+          {"displacement", Need::required, into(displacement, length, positive), of_displacement},
+          {"points", Need::optional, into(points, 10, most_points), "rows of the result, evenly spaced"}};
+}
+
+std::vector<double> Approach::times(double at_rate) const {
+  std::vector<double> out;
+  for (int i = 1; i <= points; ++i) out.push_back(displacement / at_rate * i / points);
+  return out;
+}
+
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
                   const char* what) {
   if (entries.empty() && section.has(key)) section.refuse(key, "none", "at least one");

@@ -27,6 +27,18 @@ Key strip_width_key(std::optional<double>& target);
 /// Returns the key `temperature` of `[loading]`: pairs of a time and a temperature.
 Key temperature_key(TemperatureHistory& target);
 
+/// Rate and end of a test in which the two loaded walls approach each other, and the rows of its result.
+struct Approach {
+  std::optional<double> rate;  ///< [m/s]
+  double displacement = 0;     ///< at the end [m]
+  int points = 200;
+
+  /// Returns the keys `kind`, `rate`, `displacement` and `points`. The arguments explain `rate` and `displacement`.
+  std::vector<Key> keys(const std::string& of_rate, const std::string& of_displacement);
+  /// Returns the times of the rows at a rate [s], evenly spaced.
+  std::vector<double> times(double at_rate) const;
+};
+
 /// Checks a list. \throws InputError if the key is given without entries, or has the same entry twice.
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
                   const char* what);

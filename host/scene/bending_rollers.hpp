@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file bending_rollers.hpp  Places the rollers of a bending test on the domain of a scene.
+/// \file bending_rollers.hpp  Places the rollers of the bending tests on the domain of a scene.
 #pragma once
 
 #include "host/scene/table.hpp"
@@ -7,9 +7,9 @@
 
 namespace macadam::scene {
 
-/// Gives the beam of a scene the rollers of its bending test. Does nothing for another test, or for a domain other than
-/// a beam, which is refused later. `root` is the whole scene. \throws InputError if a roller does not fit on the beam,
-/// or if rollers overlap.
+/// Gives the beam or the half disc of a scene the rollers of its bending test, and the semicircular bending test the
+/// radius of the half disc. Does nothing for other tests. A test with the wrong domain gets no rollers; it is refused
+/// later. `root` is the whole scene. \throws InputError if a roller does not fit on the domain, or if rollers overlap.
 void set_rollers(Scene& scene, const Section& root);
 
 }  // namespace macadam::scene

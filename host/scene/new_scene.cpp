@@ -1,95 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_scene.cpp  Defines the values of a new scene, and the comments around them.
+// new_scene.cpp  Defines the values of a new scene.
 #include "host/scene/new_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
-#include "host/scene/known_keys.hpp"
+#include "host/scene/scene_part.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::scene {
 namespace {
-
-constexpr std::size_t width = 118, comment_column = 36;
-
-/// A key and its value.
-struct Given {
-  std::string key, value;
-};
-
-/// A section, and the keys in it that have values.
-struct Part {
-  std::string title;
-  std::vector<Given> given;
-  std::string remark = {};                  ///< comment above the section
-  bool others = true;                       ///< whether the section's keys without values follow as comments
-  std::vector<std::string> not_these = {};  ///< keys that are left out of these comments
-};
-
-/// Breaks a text into lines of at most `width` characters that begin with `before`.
-std::string wrapped(const std::string& text, const std::string& before) {
-  std::string out, line = before;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (line.size() > before.size() && line.size() + 1 + word.size() > width) out += line + '\n', line = before;
-    line += (line.size() > before.size() ? " " : "") + word;
-  }
-  return out + line + '\n';
-}
-
-/// Returns one line of the scene with its comment. The comment is on the same line if both fit into the width,
-/// otherwise it is above the line.
-std::string line_of(const std::string& line, const std::string& comment) {
-  const std::size_t column = std::max(comment_column, line.size() + 2);
-  if (column + 2 + comment.size() > width) return wrapped(comment, "# ") + line + '\n';
-  return fmt::format("{:<{}}# {}\n", line, column, comment);
-}
-
-/// Returns the explanation of a key with its choices and unit. If `with_usual` is true, adds what happens without the
-/// key.
-std::string comment_of(const KnownKey& key, bool with_usual) {
-  std::string text = key.text;
-  if (!key.words.choices.empty()) {
-    text += ": ";
-    for (const std::string& choice : key.words.choices)
-      text += (choice == key.words.choices.front() ? "\"" : ", \"") + choice + '"';
-  }
-  if (key.words.quantity && key.words.quantity != &ratio)
-    text += fmt::format(" [{}]", key.words.quantity->units.front().name);
-  if (with_usual && !key.usual.empty()) text += "; without it: " + key.usual;
-  return text;
-}
-
-/// Returns the text of a section.
-std::string written(const std::vector<KnownKey>& keys, const Part& part) {
-  std::string chosen;
-  for (const Given& given : part.given)
-    if (given.key == "kind" || given.key == "law") chosen = given.value.substr(1, given.value.size() - 2);
-  std::string out = "\n" + (part.remark.empty() ? "" : wrapped(part.remark, "# ")) + part.title + "\n";
-  const auto may = [&](const KnownKey& key) {
-    const bool fits = key.chosen.empty() || std::count(key.chosen.begin(), key.chosen.end(), chosen);
-    return key.section == part.title && fits && !key.words.type.starts_with("section");
-  };
-  for (const Given& given : part.given) {
-    const auto known =
-        std::find_if(keys.begin(), keys.end(), [&](const KnownKey& key) { return may(key) && key.name == given.key; });
-    const std::string line = given.key + " = " + given.value;
-    out += known == keys.end() || !part.others ? line + '\n' : line_of(line, comment_of(*known, false));
-  }
-  if (!part.others) return out;
-  for (const KnownKey& key : keys) {
-    const auto is_given = [&](const Given& given) { return given.key == key.name; };
-    if (!may(key) || std::any_of(part.given.begin(), part.given.end(), is_given) ||
-        std::count(part.not_these.begin(), part.not_these.end(), key.name))
-      continue;
-    const bool fixed = key.usual.empty() && !key.words.usual.empty();
-    out += line_of(fmt::format("# {} = {}", key.name, fixed ? key.words.usual : "..."), comment_of(key, true));
-  }
-  return out;
-}
 
 /// Keys that are not offered beside the box of a generated specimen.
 const std::vector<std::string> not_with_box = {"domain", "diameter", "height", "file", "aggregate_file"};
@@ -232,6 +153,21 @@ void set_domain(Part& specimen, const std::string& test) {
     replace_box(specimen, "disc", {{"diameter", R"("60 mm")"}, {"thickness", R"("20 mm")"}});
   if (test == "bending")
     replace_box(specimen, "beam", {{"length", R"("120 mm")"}, {"width", R"("20 mm")"}, {"height", R"("20 mm")"}});
+  if (test == "semicircular_bending")
+    replace_box(specimen, "half_disc", {{"diameter", R"("60 mm")"}, {"thickness", R"("20 mm")"}});
+}
+
+/// Returns the notch of a half disc, which the test of half discs usually has.
+Part notch_of_half_disc() {
+  return {"[[specimen.notch]]",
+          {{"axis", R"("x")"}, {"at", R"("30 mm")"}, {"z", R"(["0 mm", "6 mm"])"}},
+          "A thin cut from the middle of the flat side towards the crown, a tenth of the diameter long. Without this "
+          "section the half disc has no notch."};
+}
+
+/// Returns whether a test measures a strength and needs cracks.
+bool needs_cracks(const std::string& test) {
+  return test == "indirect_tensile_strength" || test == "semicircular_bending";
 }
 
 Part loading_of(const std::string& test, bool cracks) {
@@ -240,6 +176,7 @@ Part loading_of(const std::string& test, bool cracks) {
   if (test == "cyclic") give("frequencies", "[2.0, 5.0, 10.0, 20.0]"), give("strain_amplitude", "1e-4");
   if (test == "indirect_tension") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "indirect_tensile_strength") give("displacement", R"("3 mm")"), give("points", "100");
+  if (test == "semicircular_bending") give("displacement", R"("0.3 mm")"), give("points", "100");
   if (test == "bending") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "sweep") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
@@ -280,21 +217,22 @@ std::vector<std::string> tests_of_new_scenes() {
 }
 
 std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, bool with_cracks) {
-  const bool of_strength = test == "indirect_tensile_strength", cracks = with_cracks || of_strength;
+  const bool of_strength = needs_cracks(test), cracks = with_cracks || of_strength;
   if (cracks && has_laws_of_phases(rule))
     throw InputError(fmt::format("{}: found {} with --rule {}, expected --rule centres",
                                  of_strength ? "--test" : "--cracks", of_strength ? test : "this option",
                                  to_string(rule)));
   if (cracks && test != "monotonic" && !of_strength) {
     throw InputError(fmt::format(
-        "--cracks: found this option with --test {}, expected --test monotonic or indirect_tensile_strength, which "
-        "measure a strength",
+        "--cracks: found this option with --test {}, expected --test monotonic, indirect_tensile_strength or "
+        "semicircular_bending, which measure a strength",
         test));
   }
   if ((test == "indirect_tension" || test == "bending") && rule == ContactRule::volumetric)
     throw InputError("--test: found " + test + " with --rule volumetric, expected --rule series or centres");
   std::vector<Part> parts = specimen_of(kind);
   set_domain(parts.front(), test);
+  if (test == "semicircular_bending") parts.push_back(notch_of_half_disc());
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
   const bool of_phases = has_laws_of_phases(rule);
   if (of_phases)

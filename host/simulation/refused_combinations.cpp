@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "host/experiments/experiment.hpp"
+#include "host/experiments/transient/half_disc_strength.hpp"
 #include "host/harmonic/law_stiffness.hpp"
 #include "host/run/checkpoints.hpp"
 #include "macadam/error.hpp"
@@ -34,8 +35,8 @@ void require_volumetric(const Scene& scene) {
       scene.file.string(), 0, "kind in [loading]",
       fmt::format("\"{}\" with domain = \"{}\" in [specimen]", kind_of(scene.experiment), scene.specimen.box.name()),
       "a domain with two platens and equal sections between them, such as \"box\", \"cylinder\" or "
-      "\"beam\"; kind = \"indirect_tension\" or \"indirect_tensile_strength\" for \"disc\"; macadam specimen makes "
-      "specimens of every domain");
+      "\"beam\"; kind = \"indirect_tension\" or \"indirect_tensile_strength\" for \"disc\", "
+      "\"semicircular_bending\" for \"half_disc\"; macadam specimen makes specimens of every domain");
 }
 
 /// Refuses a setting that the test of the scene does not have. \throws InputError
@@ -45,8 +46,8 @@ void require_volumetric(const Scene& scene) {
                    expected);
 }
 
-/// Refuses what the tests of a disc and of a bent beam do not have. `domain`: name of the domain that the test needs.
-/// \throws InputError
+/// Refuses what the tests of a disc, of a half disc and of a bent beam do not have. `domain`: name of the domain that
+/// the test needs. \throws InputError
 void require_domain(const Scene& scene, const std::string& domain) {
   if (scene.specimen.box.name() != domain)
     refuse_with_kind(scene, "domain in [specimen]", std::string("\"") + scene.specimen.box.name() + "\"",
@@ -57,17 +58,23 @@ void require_domain(const Scene& scene, const std::string& domain) {
   if (scene.output.sensitivities) refuse_with_kind(scene, "sensitivities in [output]", "true", "false");
 }
 
-/// Refuses what the tests of a disc do not have. \throws InputError
-void require_disc(const Scene& scene) {
-  require_domain(scene, domains::Disc::name);
-  const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
-    refuse_with_kind(scene, what, found, expected);
-  };
-  if (!std::holds_alternative<experiments::IndirectTensileStrength>(scene.experiment)) return;
+/// Refuses a strength test if the scene has no cracks, or if the method cannot follow cracks. \throws InputError
+void require_cracks(const Scene& scene) {
   if (!can_crack(facts_of(scene.laws)))
-    refuse("laws in [[contacts]]", "no crack", "a law with a crack between particles");
+    refuse_with_kind(scene, "laws in [[contacts]]", "no crack", "a law with a crack between particles");
   if (scene.solver.method == SolverMethod::harmonic)
-    refuse("method in [solver]", "\"harmonic\"", "\"quasi_static\" or \"explicit\", because cracks are not linear");
+    refuse_with_kind(scene, "method in [solver]", "\"harmonic\"",
+                     "\"quasi_static\" or \"explicit\", because cracks are not linear");
+}
+
+/// Refuses what the test of a half disc does not have. \throws InputError
+void require_half_disc(const Scene& scene) {
+  require_domain(scene, domains::HalfDisc::name);
+  require_cracks(scene);
+  if (half_disc_notch(scene.specimen.box, scene.network.notches)) return;
+  refuse_with_kind(scene, "[[specimen.notch]]", "a notch of another kind, or several notches",
+                   "no notch, or one notch with axis = \"x\" that begins at z = 0, ends below the crown and passes "
+                   "through the whole thickness");
 }
 
 bool is_of_disc(const Experiment& experiment) {
@@ -86,10 +93,13 @@ Backend requested_backend(const Scene& scene) {
 void require_combination(const Scene& scene) {
   if (std::holds_alternative<experiments::Bending>(scene.experiment))
     require_domain(scene, domains::Beam::name);
+  else if (std::holds_alternative<experiments::SemicircularBending>(scene.experiment))
+    require_half_disc(scene);
   else if (is_of_disc(scene.experiment))
-    require_disc(scene);
+    require_domain(scene, domains::Disc::name);
   else if (!scene.specimen.box.has_uniform_section())
     require_uniform_section(scene);
+  if (std::holds_alternative<experiments::IndirectTensileStrength>(scene.experiment)) require_cracks(scene);
   if (scene.network.rule == ContactRule::volumetric) require_volumetric(scene);
   if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
     throw InputError(scene.file.string(), 0, "method",

@@ -126,6 +126,8 @@ TEST_F(ForeignPackings, OptionsOfPackingsNeedTheKind) {
                        "--test: found indirect_tension with --kind packing"));
   EXPECT_TRUE(contains(macadam("new --kind packing --packing x --test bending " + path("a.toml")).err,
                        "--test: found bending with --kind packing"));
+  EXPECT_TRUE(contains(macadam("new --kind packing --packing x --test semicircular_bending " + path("a.toml")).err,
+                       "--test: found semicircular_bending with --kind packing"));
   EXPECT_TRUE(contains(macadam("new --packing x " + path("a.toml")).err, "expected --kind packing as well"));
   EXPECT_TRUE(
       contains(macadam("new --unit mm " + path("a.toml")).err, "--unit: found this option without --kind packing"));

@@ -12,7 +12,7 @@ namespace macadam {
 
 /// Returns the results of a test whose curve has these samples, in the order of time. `peak`: its largest stress.
 /// Stress and strain are negative, as in experiments::IndirectTensileStrength.
-experiments::DiscStrength disc_strength(std::span<const StressSample> curve, const experiments::FittedPeak& peak,
+experiments::DiscStrength disc_strength(std::span<const StressSample> samples, const experiments::FittedPeak& peak,
                                         const Domain& disc);
 
 }  // namespace macadam

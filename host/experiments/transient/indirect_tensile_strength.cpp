@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // indirect_tensile_strength.cpp  Implements kind "indirect_tensile_strength": two strips approach each other at a
 // constant rate and split a disc.
-#include "host/experiments/transient/transient_experiment.hpp"
-#include "macadam/drives/constant_rate.hpp"
+#include "host/experiments/transient/constant_approach.hpp"
 
 namespace macadam {
 
 using experiments::IndirectTensileStrength;
 
 TransientExperiment load_test(const IndirectTensileStrength& spec) {
-  const double end = spec.times.back(), strain_rate = -spec.rate / spec.diameter;
-  TransientExperiment out;
-  out.kind = spec.kind;
-  out.history = {spec.times, {{0, end}}};
-  out.load = {{"rate_m_s", spec.rate}};
-  out.grows = true;
-  out.strain = strain_rate * end;
-  out.drive = [strain_rate, end](double unit, double dt, double) {
-    return std::make_shared<drives::ConstantRate>(unit * strain_rate, dt, end);
-  };
-  return out;
+  return constant_approach(spec.kind, spec.times, spec.rate, spec.diameter,
+                           "disc between two strips; strain: their approach over the diameter; stress: load over "
+                           "diameter times thickness");
 }
 
 template <>

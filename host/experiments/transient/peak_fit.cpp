@@ -80,4 +80,8 @@ std::optional<experiments::FittedPeak> interpolate_peak(std::span<const StressSa
   return experiments::FittedPeak{top->strain + at, top->stress_pa + above, 0};
 }
 
+experiments::FittedPeak peak_of(const experiments::SteppedResponse& found) {
+  return found.fitted.value_or(experiments::FittedPeak{found.peak->strain, found.peak->stress_pa, 0});
+}
+
 }  // namespace macadam

@@ -25,4 +25,8 @@ std::optional<experiments::FittedPeak> fit_peak(std::span<const StressSample> sa
 /// of its sides.
 std::optional<experiments::FittedPeak> interpolate_peak(std::span<const StressSample> samples);
 
+/// Returns strain and stress of the peak of a test: of the polynomial that was fitted around it, if there is one.
+/// `found.peak` must have a value.
+experiments::FittedPeak peak_of(const experiments::SteppedResponse& found);
+
 }  // namespace macadam

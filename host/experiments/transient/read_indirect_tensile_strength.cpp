@@ -9,21 +9,14 @@ using experiments::IndirectTensileStrength;
 
 template <>
 IndirectTensileStrength ExperimentOf<IndirectTensileStrength>::read(const scene::Section& section) {
-  using namespace scene;
-  constexpr std::int64_t most_points = 100'000;
   IndirectTensileStrength out;
-  std::optional<double> rate;
-  double displacement = 0;
-  int points = 200;
-  section.read({kind_key(),
-                strip_width_key(out.strip_width),
-                {"rate", Need::optional, into(rate, speed, positive), "rate at which the strips approach each other",
-                 "50 mm/min, as in the standards"},
-                {"displacement", Need::required, into(displacement, length, positive),
-                 "approach of the strips at which the test ends"},
-                {"points", Need::optional, into(points, 10, most_points), "rows of the result, evenly spaced"}});
-  out.rate = rate.value_or(out.rate);
-  for (int i = 1; i <= points; ++i) out.times.push_back(displacement / out.rate * i / points);
+  scene::Approach approach;
+  std::vector<scene::Key> keys =
+      approach.keys("rate at which the strips approach each other", "approach of the strips at which the test ends");
+  keys.push_back(scene::strip_width_key(out.strip_width));
+  section.read(keys);
+  out.rate = approach.rate.value_or(out.rate);
+  out.times = approach.times(out.rate);
   return out;
 }
 

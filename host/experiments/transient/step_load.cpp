@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/experiments/transient/disc_strength.hpp"
 #include "host/experiments/transient/load_judgement.hpp"
 #include "host/experiments/transient/load_rules.hpp"
 #include "host/experiments/transient/quasi_static_plan.hpp"
+#include "host/experiments/transient/standard_results.hpp"
 #include "host/experiments/transient/stepped_load.hpp"
 #include "host/run/increment_words.hpp"
 #include "host/files/result_files.hpp"
@@ -30,9 +30,6 @@ namespace {
 
 /// If a run has more steps than this, the user is warned.
 constexpr std::int64_t many_steps = 100'000'000;
-
-constexpr const char* disc_row_words =
-    "disc between two strips; strain: their approach over the diameter; stress: load over diameter times thickness";
 
 /// Returns the mean density of the specimen's box, including the density scaling [kg/m³].
 double heavy_density(const LoadPlan& plan, const Inertia& inertia, const Box& box) {
@@ -145,8 +142,7 @@ void SteppedLoad::warn_of_many_steps() const {
 std::string SteppedLoad::head(const LoadWords& words) const {
   const std::string ratio =
       words.ratio ? fmt::format("{}: ratio of the strain and stress in its row; ", words.ratio) : "";
-  return fmt::format("# {}, {}; {}{}\n{},{}",
-                     splits_a_disc() ? disc_row_words : modulus_words(scene_.network.lateral_walls),
+  return fmt::format("# {}, {}; {}{}\n{},{}", test_.rows ? test_.rows : modulus_words(scene_.network.lateral_walls),
                      is_quasi_static() ? "solved by increments" : "stepped in time", ratio, errors_.meaning(),
                      csv_head(words), columns().head());
 }
@@ -159,7 +155,7 @@ SteppedColumns SteppedLoad::columns() const {
                      cracks_.sums(),     drag || at_.plan.damping_kind != Damping::none,
                      sides_.has_value(), !test_.temperature.empty()};
   const Box& box = prepared_.specimen.box;
-  if (splits_a_disc()) out.diameter = gauge_length(box), out.section = section_area(box);
+  if (test_.rows) out.length = gauge_length(box), out.section = section_area(box);
   return out;
 }
 
@@ -204,11 +200,7 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
     if (measures_peak()) found.peak = at_.peak;
     if (measures_peak() && cracks_.sums())
       found.fitted = quasi_static_ ? interpolate_peak(at_.stresses) : fit_peak(at_.stresses, at_.peak);
-    if (found.peak && splits_a_disc()) {
-      const experiments::FittedPeak peak =
-          found.fitted.value_or(experiments::FittedPeak{found.peak->strain, found.peak->stress_pa, 0});
-      found.disc = disc_strength(at_.stresses, peak, prepared_.specimen.box);
-    }
+    if (found.peak) compute_standard_results(scene_, prepared_.specimen.box, at_.stresses, found);
     if (rupture_) found.steps = stepper_->observe().step;
     if (quasi_static_) found.increments = increments_found(*quasi_static_);
     if (sudden_break_) {

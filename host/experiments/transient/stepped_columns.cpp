@@ -36,7 +36,7 @@ void each_energy(bool damping, bool thermal, F&& f) {
 }  // namespace
 
 std::string SteppedColumns::head() const {
-  std::string out = diameter > 0 ? "displacement_m,load_n," : "";
+  std::string out = length > 0 ? "displacement_m,load_n," : "";
   out += fmt::format("error,{}bottom_pa,kinetic_j", top ? "top_pa," : "");
   if (energies) out += ",cracked_points";
   if (broken) out += ",broken_points";
@@ -48,7 +48,7 @@ std::string SteppedColumns::head() const {
 }
 
 std::string SteppedColumns::line(const SteppedPoint& p) const {
-  std::string out = diameter > 0 ? fmt::format("{},{},", -p.strain * diameter, -p.stress_pa * section) : "";
+  std::string out = length > 0 ? fmt::format("{},{},", -p.strain * length, -p.stress_pa * section) : "";
   out += fmt::format("{:.2e},{}{},{}", p.error, top ? fmt::format("{},", p.top_pa) : "", p.bottom_pa, p.kinetic_j);
   if (energies) out += fmt::format(",{}", p.cracks.cracked);
   if (broken) out += fmt::format(",{}", p.broken_points);

@@ -17,8 +17,8 @@ struct SteppedColumns {
   bool damping = false;      ///< energy that damping takes
   bool sides = false;        ///< Poisson's ratio, if the sides are free
   bool temperature = false;  ///< temperature and, with energies, work against expansion
-  double diameter = 0;       ///< of a disc, whose strips have displacement and load [m]; 0: no disc
-  double section = 0;        ///< diameter times thickness of this disc [m²]
+  double length = 0;         ///< gauge length, if a row has displacement and load [m]; 0: it has not
+  double section = 0;        ///< area of the section, if a row has displacement and load [m²]
 
   /// Return the names of the columns and their values at a point.
   /// @{

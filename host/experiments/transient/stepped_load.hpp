@@ -47,7 +47,6 @@ class SteppedLoad : public PlannedExperiment {
   /// wall at the top.
   void set_in_motion();
   bool is_quasi_static() const { return scene_.solver.method == SolverMethod::quasi_static; }
-  bool splits_a_disc() const { return std::holds_alternative<experiments::IndirectTensileStrength>(scene_.experiment); }
   void make_quasi_static(const Boundary& boundary, const std::vector<StateArray>& state, Backend backend);
 
   std::string head(const LoadWords& words) const;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/experiments/transient/peak_fit.hpp"
+#include "host/experiments/transient/standard_results.hpp"
 #include "host/experiments/transient/stepped_columns.hpp"
 #include "host/experiments/transient/transient_experiment.hpp"
 #include "host/run/cracks.hpp"
@@ -46,28 +48,11 @@ bool passed_peak(const SteppedResponse& found) {
 
 bool measures_strength(const SteppedResponse& found) { return found.peak && !found.points.empty(); }
 
-/// Returns strain and stress of the peak, taken from the polynomial that was fitted around it, if there is one.
-experiments::FittedPeak peak_of(const SteppedResponse& found) {
-  return found.fitted.value_or(experiments::FittedPeak{found.peak->strain, found.peak->stress_pa, 0});
-}
-
-/// Returns the lines about the strength of a disc.
-std::string disc_words(const experiments::DiscStrength& disc, bool passed) {
-  std::string out = fmt::format("largest load {:.5g} kN when the strips have approached by {:.4g} mm\n",
-                                disc.load_n / 1e3, disc.displacement_m * 1e3);
-  if (!passed) return out + "the strength was not reached\n";
-  out = fmt::format("indirect tensile strength {:.5g} MPa (EN 12697-23)\n{}fracture energy {:.4g} J/m2\n",
-                    disc.strength_pa / 1e6, out, disc.fracture_energy_j_m2);
-  return out + (disc.ct_index ? fmt::format("CT index {:.4g} (ASTM D8225): |m75| {:.4g} kN/mm, l75 {:.4g} mm\n",
-                                            *disc.ct_index, *disc.slope_n_m / 1e6, *disc.l75_m * 1e3)
-                              : "no CT index, because the load did not fall to 65 % of its largest value\n");
-}
-
 /// Returns the line about the strength. This line is printed first, because the strength is the main result of such a
 /// test.
 std::string strength_words(const SteppedResponse& found) {
   const experiments::FittedPeak peak = peak_of(found);
-  if (found.disc) return disc_words(*found.disc, passed_peak(found));
+  if (has_standard_results(found)) return standard_results_words(found, passed_peak(found));
   std::string out = fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
                                 passed_peak(found) ? "strength" : "largest stress", peak.stress_pa / 1e6, peak.strain,
                                 found.peak->time_s, passed_peak(found) ? "" : "; the strength was not reached");
@@ -120,20 +105,18 @@ void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
   out["work_of_fracture_j"] = passed ? Json(found.points.back().energies.work_j) : Json();
 }
 
-void add_disc(const experiments::DiscStrength& disc, bool passed, nlohmann::ordered_json& out) {
-  using Json = nlohmann::ordered_json;
-  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
-  out["peak_load_n"] = disc.load_n;
-  out["displacement_at_peak_m"] = disc.displacement_m;
-  out["indirect_tensile_strength_pa"] = passed ? Json(disc.strength_pa) : Json();
-  out["fracture_energy_j_m2"] = passed ? Json(disc.fracture_energy_j_m2) : Json();
-  out["m75_n_m"] = number(disc.slope_n_m);
-  out["l75_m"] = number(disc.l75_m);
-  out["ct_index"] = number(disc.ct_index);
+/// Returns `modulus` in summary.json: how the specimen is loaded.
+const char* modulus_name(const SteppedResponse& found) {
+  if (found.kind == experiments::IndirectTensileStrength::kind) return "indirect_tension";
+  if (found.kind == experiments::SemicircularBending::kind) return experiments::SemicircularBending::kind;
+  return found.confined ? "confined" : "uniaxial";
 }
 
+/// Returns the same in the words of the printed text.
 const char* load_kind_words(const SteppedResponse& found) {
-  return found.disc ? "disc between two strips" : modulus_words(found.confined);
+  if (found.kind == experiments::IndirectTensileStrength::kind) return "disc between two strips";
+  if (found.kind == experiments::SemicircularBending::kind) return "half disc on two rollers";
+  return modulus_words(found.confined);
 }
 
 /// Adds how a test was followed by increments.
@@ -184,9 +167,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     const LoadWords& words = load_words(found.kind);
     Json out = {{"kind", found.kind},
                 {"sides", found.confined ? "held" : "free"},
-                {"modulus", found.disc       ? "indirect_tension"
-                            : found.confined ? "confined"
-                                             : "uniaxial"},
+                {"modulus", modulus_name(found)},
                 {"method", found.increments ? "quasi_static" : "explicit"}};
     if (!found.increments)
       out.update({{"density_scaling", found.density_scaling}, {"dt_s", found.dt_s}, {"steps", found.steps}});
@@ -197,7 +178,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     if (words.ratio) out["ramp_s"] = found.ramp_s;
     add_extremes(found.kind, found.points, out);
     if (measures_strength(found)) add_strength(found, out);
-    if (found.disc) add_disc(*found.disc, passed_peak(found), out);
+    if (has_standard_results(found)) add_standard_results(found, passed_peak(found), out);
     if (found.cracks && found.cracks->sums) {
       const auto error = energy_error_of(found);
       out["energy_error"] = error ? Json(*error) : Json();

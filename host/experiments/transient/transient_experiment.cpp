@@ -26,7 +26,7 @@ using experiments::SpectrumResponse;
 
 namespace {
 
-constexpr std::array<LoadWords, 5> all_words{{
+constexpr std::array<LoadWords, 6> all_words{{
     {"relaxation", "relaxation.csv", "modulus_pa",
      "modulus_pa: modulus after an instantaneous strain; error: relative error of stress and modulus", false,
      "E(t) (MPa)", "stress/strain (MPa)", 1e6},
@@ -36,6 +36,7 @@ constexpr std::array<LoadWords, 5> all_words{{
     {"monotonic", "monotonic.csv", "secant_pa", "error: relative error of stress and modulus", false, "secant (MPa)",
      "secant (MPa)", 1e6},
     {"indirect_tensile_strength", "indirect_tensile_strength.csv", nullptr, "", false, nullptr, nullptr, 1},
+    {"semicircular_bending", "semicircular_bending.csv", nullptr, "", false, nullptr, nullptr, 1},
     {"history", "history.csv", nullptr, "error: relative error of stress", false, nullptr, nullptr, 1},
 }};
 

@@ -55,6 +55,9 @@ struct TransientExperiment {
   /// Returns a time step of at most `largest` [s] that divides the durations of the load. If this function is empty,
   /// the time step divides the ramp.
   std::function<double(double largest)> step = {};
+  /// Meaning of strain and stress in a row, if the specimen is not a column under one stress. Rows then have
+  /// displacement and load too.
+  const char* rows = nullptr;
   /// Checksum of a load that is read from a file of its own; a run is resumed only with the same load.
   std::uint32_t checksum = 0;
 };
@@ -66,6 +69,7 @@ TransientExperiment load_test(const experiments::Creep& spec);
 TransientExperiment load_test(const experiments::Monotonic& spec);
 TransientExperiment load_test(const experiments::StrainHistory& spec);
 TransientExperiment load_test(const experiments::IndirectTensileStrength& spec);
+TransientExperiment load_test(const experiments::SemicircularBending& spec);
 /// @}
 /// Returns the description of the scene's experiment, or an empty one if the experiment is not a transient one.
 TransientExperiment load_test_of(const Scene& scene);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "macadam/experiments/load_results.hpp"
 #include "macadam/experiments/stepped.hpp"
 
 namespace macadam::experiments {
@@ -26,11 +27,8 @@ struct IndirectTensileStrength {
 
 /// What a laboratory reports of this test. The three results after the slope are those of the IDEAL-CT (ASTM D8225);
 /// they are empty if the load did not fall to 65 % of its largest value.
-struct DiscStrength {
-  double load_n = 0;                ///< largest load
-  double displacement_m = 0;        ///< approach of the strips at the largest load
+struct DiscStrength : LoadResults {
   double strength_pa = 0;           ///< indirect tensile strength, 2·load/(π·diameter·thickness)
-  double work_j = 0;                ///< of the load, until it has fallen to 100 N or until the test ends
   double fracture_energy_j_m2 = 0;  ///< work over diameter·thickness
   std::optional<double> slope_n_m;  ///< |m75|: mean slope between 85 and 65 % of the largest load, after it
   std::optional<double> l75_m;      ///< approach at which the load has fallen to 75 % of its largest value

@@ -14,6 +14,7 @@
 #include "macadam/experiments/increments.hpp"
 #include "macadam/experiments/indirect_tensile_strength.hpp"
 #include "macadam/experiments/material.hpp"
+#include "macadam/experiments/semicircular_bending.hpp"
 #include "macadam/experiments/stepped.hpp"
 
 namespace macadam::experiments {
@@ -75,7 +76,8 @@ struct SteppedResponse : Stepped {
   std::optional<Peak> peak = {};          ///< constant rate only, and only if a law of the scene can break
   std::optional<FittedPeak> fitted = {};  ///< as `peak`, only if a law has a crack and a polynomial fits
 
-  std::optional<DiscStrength> disc = {};  ///< only kind "indirect_tensile_strength"
+  std::optional<DiscStrength> disc = {};           ///< only kind "indirect_tensile_strength"
+  std::optional<HalfDiscStrength> half_disc = {};  ///< only kind "semicircular_bending"
 
   std::optional<Increments> increments = {};  ///< only method "quasi_static"
 
