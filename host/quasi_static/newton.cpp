@@ -17,6 +17,9 @@ constexpr double slow = 0.3;
 /// increment is tried.
 constexpr int slow_passes = 3;
 constexpr double slow_gain = 0.5;
+/// Where the stiffness is nearly singular, iterations may not find the last correction. Then this many times the wanted
+/// residual is enough, because a shorter increment has the same difficulty.
+constexpr double enough = 10;
 
 }  // namespace
 
@@ -91,6 +94,7 @@ IncrementReport Newton::solve(const WallIncrement& increment, double scale, Tria
   while (true) {
     out.residual = now;
     if (now <= options_.residual) return out.converged = true, out;
+    out.converged = engine_->wants_symmetric() && now <= enough * options_.residual;
     if (out.passes >= options_.passes || !std::isfinite(now) || stuck >= 4) return out;
     if (engine_->wants_symmetric() && out.passes % slow_passes == 0) {
       if (now > slow_gain * earlier) return out;

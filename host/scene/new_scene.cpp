@@ -175,7 +175,7 @@ Part loading_of(const std::string& test, bool cracks) {
   const auto give = [&](const char* key, const char* value) { out.given.push_back({key, value}); };
   if (test == "cyclic") give("frequencies", "[2.0, 5.0, 10.0, 20.0]"), give("strain_amplitude", "1e-4");
   if (test == "indirect_tension") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
-  if (test == "indirect_tensile_strength") give("displacement", R"("3 mm")"), give("points", "100");
+  if (test == "indirect_tensile_strength") give("displacement", R"("0.4 mm")"), give("points", "100");
   if (test == "semicircular_bending") give("displacement", R"("0.3 mm")"), give("points", "100");
   if (test == "bending") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "sweep") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
@@ -244,6 +244,9 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
             {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
   if (!of_phases) append(contacts_of(kind, cracks));
+  std::vector<std::string> not_set{"tolerance", "density_scaling", "safety",   "time_step", "damping", "damping_kind",
+                                   "form",      "geometry",        "precision"};
+  if (of_strength) not_set.insert(not_set.end(), {"linear", "inertia"});  // keys of time steps
   append({{"[network]",
            of_phases ? std::vector<Given>{{"rule", std::string("\"") + to_string(rule) + '"'}} : std::vector<Given>{},
            kind == NewKind::packing ? about_gaps : ""},
@@ -252,10 +255,7 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
            of_strength ? std::vector<Given>{{"method", R"("quasi_static")"}}
            : cracks    ? std::vector<Given>{{"method", R"("explicit")"}, {"density_scaling", "10"}}
                        : std::vector<Given>{{"method", R"("harmonic")"}},
-           "A line that begins with # is a key that is not set: remove the # and give it a value.",
-           true,
-           {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",
-            "precision"}},
+           "A line that begins with # is a key that is not set: remove the # and give it a value.", true, not_set},
           {"[output]", {}, "", true, {"every", "format"}}});
   if (kind == NewKind::packing) std::erase_if(parts, is_of_aggregates);
   std::string out =

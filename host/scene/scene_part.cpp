@@ -55,7 +55,7 @@ std::string written(const std::vector<KnownKey>& keys, const Part& part) {
   std::string out = "\n" + (part.remark.empty() ? "" : wrapped(part.remark, "# ")) + part.title + "\n";
   const auto may = [&](const KnownKey& key) {
     const bool fits = key.chosen.empty() || std::count(key.chosen.begin(), key.chosen.end(), chosen);
-    return key.section == part.title && fits && !key.words.type.starts_with("section");
+    return key.section == part.title && fits;
   };
   for (const Given& given : part.given) {
     const auto known =
@@ -66,7 +66,8 @@ std::string written(const std::vector<KnownKey>& keys, const Part& part) {
   if (!part.others) return out;
   for (const KnownKey& key : keys) {
     const auto is_given = [&](const Given& given) { return given.key == key.name; };
-    if (!may(key) || std::any_of(part.given.begin(), part.given.end(), is_given) ||
+    if (!may(key) || key.words.type.starts_with("section") ||
+        std::any_of(part.given.begin(), part.given.end(), is_given) ||
         std::count(part.not_these.begin(), part.not_these.end(), key.name))
       continue;
     const bool fixed = key.usual.empty() && !key.words.usual.empty();

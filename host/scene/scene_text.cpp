@@ -70,6 +70,7 @@ void SceneText::move(const std::filesystem::path& from, const std::filesystem::p
   namespace fs = std::filesystem;
   constexpr std::array<const char*, 4> paths{"specimen.file", "specimen.aggregate_file", "specimen.shapes.library",
                                              "materials.mastic.from"};
+  const auto whole = [](const fs::path& folder) { return fs::absolute(folder.empty() ? fs::path(".") : folder); };
   // the text is parsed for each edit, because an edit moves the text behind it
   for (const std::string path : paths) {
     const bool shapes = path == "specimen.shapes.library";
@@ -78,7 +79,7 @@ void SceneText::move(const std::filesystem::path& from, const std::filesystem::p
     const auto name = view.value<std::string>();
     if (!name || (shapes && shipped_library(*name)) || fs::path(*name).is_absolute()) continue;
     const fs::path moved =
-        fs::weakly_canonical(fs::absolute(from) / *name).lexically_relative(fs::weakly_canonical(fs::absolute(to)));
+        fs::weakly_canonical(whole(from) / *name).lexically_relative(fs::weakly_canonical(whole(to)));
     // "./" marks the name as the name of a folder, even if a built-in library has the same name
     const TextEdit edit = replaced(text_, *view.node(), in_toml_quotes((shapes ? "./" : "") + moved.string()));
     text_ = edit.applied_to(std::move(text_));

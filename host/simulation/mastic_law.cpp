@@ -95,6 +95,7 @@ Scene sweep_of(const Scene& mastic, const SolverSpec& solver, Range range) {
   for (int i = 0; i <= steps; ++i)
     sweep.frequencies.push_back(range.lowest * std::pow(range.highest / range.lowest, static_cast<double>(i) / steps));
   out.experiment = sweep;
+  out.specimen.box.set_rollers({});
   out.solver = {};
   out.solver.method = SolverMethod::harmonic;
   out.solver.backend = solver.backend == Backend::reference ? Backend::cpu : solver.backend;

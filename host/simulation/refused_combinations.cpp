@@ -130,7 +130,9 @@ void require_combination(const Scene& scene) {
       throw InputError(scene.file.string(), 0, std::string(what) + " with method \"quasi_static\"", found, expected);
     };
     if (stepping_of(scene.experiment) == experiments::Stepping::never)
-      refuse("kind", kind_of(scene.experiment), "\"cyclic\", \"monotonic\", \"relaxation\", \"creep\" or \"history\"");
+      refuse("kind", kind_of(scene.experiment),
+             "\"cyclic\", \"monotonic\", \"relaxation\", \"creep\", \"history\", \"indirect_tensile_strength\" or "
+             "\"semicircular_bending\"");
     if (scene.solver.backend == Backend::reference) refuse("backend", "reference", "auto, cpu or cuda");
     if (scene.solver.backend == Backend::cuda && !temperature_history_of(scene.experiment).empty())
       refuse("backend", "cuda and a temperature that changes",

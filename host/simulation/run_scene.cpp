@@ -68,6 +68,25 @@ void require_same_rule(const Scene& scene, const ContactNetwork& network) {
             network.rock_poisson_ratio);
 }
 
+/// Refuses a specimen that was made before for the walls of another test, or for another domain than that of a scene
+/// whose walls are strips or rollers. \throws InputError
+void require_same_domain(const Scene& scene, const Specimen& specimen) {
+  const Domain &expected = scene.specimen.box, &found = specimen.box;
+  const auto strips = [](const Domain& d) {
+    const auto* disc = std::get_if<domains::Disc>(&d.shape);
+    return disc ? disc->strip_width : 0;
+  };
+  const auto rollers = [](const Domain& d) { return d.rollers() ? *d.rollers() : domains::Rollers{}; };
+  const bool has_parts = strips(expected) > 0 || strips(found) > 0 || expected.rollers() || found.rollers();
+  if (!has_parts) return;
+  const auto words = [&](const Domain& d) {
+    return fmt::format("{} with strips of {:g} m and rollers at {}; {} m (width {:g} m)", d.dimensions(), strips(d),
+                       fmt::join(rollers(d).bottom, ", "), fmt::join(rollers(d).top, ", "), rollers(d).width);
+  };
+  if (words(expected) != words(found))
+    throw InputError(scene.file.string(), 0, "specimen", words(found), words(expected));
+}
+
 /// The course of one run. Each step returns its result or stores it in a member that no other step changes.
 class SceneRun {
  public:
@@ -79,6 +98,7 @@ class SceneRun {
   RunResult run(const std::vector<std::string>& about_scene) {
     begin();
     if (!given_) made_ = make_preparation();
+    if (given_) require_same_domain(scene_, given_->specimen);
     if (given_) require_same_rule(scene_, given_->network);
     if (given_) require_laws(scene_, given_->specimen, given_->network);
     const Backend backend = wait_for_backend();

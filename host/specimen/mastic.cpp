@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-constexpr int most_rounds = 10;  // rounds of relaxation after which remaining hidden spheres are an error
+constexpr int most_relaxations = 10;  // rounds of relaxation after which remaining hidden spheres are an error
 
 /// Moves hidden mastic spheres to new random places.
 void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Placement& placement) {
@@ -23,7 +23,7 @@ void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Place
 
 [[noreturn]] void give_up(const Origin& origin, const std::vector<std::int32_t>& hidden) {
   std::string message = std::to_string(hidden.size()) + " particles have no Laguerre cell after " +
-                        std::to_string(most_rounds) + " rounds of relaxation:";
+                        std::to_string(most_relaxations) + " rounds of relaxation:";
   constexpr std::size_t shown = 10;
   for (std::size_t k = 0; k < std::min(hidden.size(), shown); ++k) message += " " + std::to_string(hidden[k]);
   if (hidden.size() > shown) message += " …";
@@ -39,7 +39,7 @@ SettledMastic settle_mastic(Specimen& specimen, Placement& placement, bool fix_a
     if (progress) progress(stage, share);
   };
   SettledMastic out;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_relaxations; ++round) {
     reinsert(out.tessellation.hidden, specimen, placement);
     out.iterations += relax(
         specimen, fix_aggregates, [&](double share) { report("relaxing mastic", share); }, wall);

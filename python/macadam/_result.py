@@ -207,6 +207,9 @@ class Result:
             return " to ".join(at)
         if rows[0].get("strength_pa") is not None:
             return f"strength {rows[0]['strength_pa']:.4g} Pa at a strain of {rows[0]['strain_at_peak']:.4g}"
+        for key, name in (("indirect_tensile_strength_pa", "indirect tensile strength"), ("bending_strength_pa", "strength")):
+            if rows[0].get(key) is not None:
+                return f"{name} {rows[0][key]:.4g} Pa, largest load {rows[0]['peak_load_n']:.4g} N"
         points = rows[0].get("points") or []
         for key in ("modulus_pa", "secant_pa", "compliance_1_pa", "stress_pa"):
             ends = [p for p in points if p.get(key) is not None]

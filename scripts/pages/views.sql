@@ -348,8 +348,17 @@ CREATE VIEW disc_against_box AS
 SELECT material, strips, frequency_hz, 100 * (avg(d.e_star_pa) / u.e - 1) AS e, avg(d.phase_deg) - u.phi AS phi,
   avg(d.poisson_ratio) - u.nu AS nu, 100 * (max(d.e_star_pa) - min(d.e_star_pa)) / avg(d.e_star_pa) AS range_of_discs,
   u.range AS range_of_boxes
-FROM "indirect-tension.csv" d JOIN (
+FROM "laboratory-tests.csv" d JOIN (
   SELECT material, frequency_hz, avg(e_star_pa) AS e, avg(phase_deg) AS phi, avg(poisson_ratio) AS nu,
     100 * (max(e_star_pa) - min(e_star_pa)) / avg(e_star_pa) AS range
-  FROM "indirect-tension.csv" WHERE test = 'uniaxial' GROUP BY material, frequency_hz) u USING (material, frequency_hz)
+  FROM "laboratory-tests.csv" WHERE test = 'uniaxial' GROUP BY material, frequency_hz) u USING (material, frequency_hz)
 WHERE d.test = 'indirect_tension' GROUP BY material, strips, frequency_hz;
+
+-- |E*| [%] and phi [degrees] of beams in bending minus those of boxes in the uniaxial test.
+CREATE VIEW beam_against_box AS
+SELECT material, d.test AS test, frequency_hz, 100 * (avg(d.e_star_pa) / u.e - 1) AS e, avg(d.phase_deg) - u.phi AS phi,
+  100 * (max(d.e_star_pa) - min(d.e_star_pa)) / avg(d.e_star_pa) AS range_of_beams
+FROM "laboratory-tests.csv" d JOIN (
+  SELECT material, frequency_hz, avg(e_star_pa) AS e, avg(phase_deg) AS phi
+  FROM "laboratory-tests.csv" WHERE test = 'uniaxial' GROUP BY material, frequency_hz) u USING (material, frequency_hz)
+WHERE d.test LIKE 'bending%' GROUP BY material, d.test, frequency_hz;

@@ -80,7 +80,7 @@ TEST_F(IndirectTension, StripsAreWalls) {
 
 // A homogeneous disc without lateral contraction has the modulus of its material. The strips are rigid and press
 // unevenly, the closed form has a uniform pressure, and there are only 14 spheres across the disc: with 36 the modulus
-// is 1 % too large (bench/indirect_tension), with 14 it is 2.7 %.
+// is 1 % too large (bench/laboratory), with 14 it is 2.7 %.
 TEST_F(IndirectTension, GivesTheModulusOfAHomogeneousDisc) {
   for (const std::string ratio : {"", "poisson_ratio = 0.0\n"}) {
     const Scene scene = read(text(disc(), kind(ratio)));

@@ -168,7 +168,8 @@ TEST_F(NewCommand, EveryTestRuns) {
     else
       text = replaced(text, "[\"20 mm\", \"20 mm\", \"30 mm\"]", "[0.008, 0.008, 0.011]");
     if (test == "indirect_tensile_strength")
-      text = replaced(replaced(text, "displacement = \"3 mm\"", "displacement = 5e-6"), "points = 100", "points = 10");
+      text =
+          replaced(replaced(text, "displacement = \"0.4 mm\"", "displacement = 5e-6"), "points = 100", "points = 10");
     if (is_half_disc)
       text =
           replaced(replaced(text, "displacement = \"0.3 mm\"", "displacement = 5e-6"), "points = 100", "points = 10");

@@ -16,11 +16,11 @@ experiments::Bending ExperimentOf<experiments::Bending>::read(const scene::Secti
        {"span", Need::optional, into(out.span, scene::length, positive), "distance of the two lower rollers",
         "0.9 of the length of the beam"},
        {"inner_span", Need::optional, into(out.inner_span, scene::length, positive),
-        "rollers = 4: distance of the two upper rollers", "a third of the span"},
+        "with 4 rollers: distance of the two upper ones", "a third of the span"},
        {"roller_width", Need::optional, into(out.roller_width, scene::length, positive),
         "length of each roller along the beam; particles touch the rollers only there", "0.04 of the span"},
        {"poisson_ratio", Need::optional, into(out.poisson_ratio, scene::ratio, scene::of_poisson),
-        "Poisson's ratio of the mixture, from which the deflection by shear follows; the standard assumes 0.35"}});
+        "Poisson's ratio of the mixture, from which the deflection by shear follows"}});
   return out;
 }
 

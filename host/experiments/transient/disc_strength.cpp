@@ -12,6 +12,9 @@ namespace {
 
 /// Thickness to which the CT index refers [m].
 constexpr double usual_thickness = 0.062;
+/// A slope needs this number of samples within its range. A sudden drop has fewer, and its slope is that of an
+/// increment.
+constexpr int least_samples = 2;
 
 }  // namespace
 
@@ -26,7 +29,7 @@ experiments::DiscStrength disc_strength(std::span<const StressSample> samples, c
 
   constexpr double first = 0.85, middle = 0.75, last = 0.65;  // parts of the largest load
   const auto begin = curve.displacement_at(first), end = curve.displacement_at(last);
-  if (!begin || !end || !(*end > *begin)) return out;
+  if (!begin || !end || curve.samples_between(*begin, *end) < least_samples) return out;
   out.slope_n_m = (first - last) * out.load_n / (*end - *begin);
   out.l75_m = curve.displacement_at(middle);
   out.ct_index =

@@ -23,19 +23,21 @@ constexpr double fallen = 0.5;
 constexpr double window = 0.1;
 
 /// Returns the factor of the stress intensity K = Y·load/(2·radius·thickness)·√(π·notch) for a span of 0.8 of the
-/// diameter (AASHTO TP 105). `part`: length of the notch over the radius.
-double intensity_factor(double part) { return 4.782 + 1.219 * part + 0.063 * std::exp(7.045 * part); }
+/// diameter (Lim, Johnston and Choi 1993; AASHTO TP 105). `part`: length of the notch over the radius.
+double intensity_factor(double part) { return 4.782 - 1.219 * part + 0.063 * std::exp(7.045 * part); }
 
 }  // namespace
 
 std::optional<HalfDiscNotch> half_disc_notch(const Domain& half_disc, std::span<const Notch> notches) {
-  if (notches.empty()) return HalfDiscNotch{};
+  const double radius = half_disc.gauge_length(2);
+  if (notches.empty()) return HalfDiscNotch{0, true, radius};
   const Notch& notch = notches.front();
-  const double radius = half_disc.gauge_length(2), thickness = half_disc.gauge_length(1);
+  const double thickness = half_disc.gauge_length(1);
   const bool is_through = notch.low[1] <= 0 && notch.high[1] >= thickness;
   const bool is_from_flat_side = notch.low[2] <= 0 && notch.high[2] > 0 && notch.high[2] < radius;
   if (notches.size() > 1 || notch.axis != 0 || !is_through || !is_from_flat_side) return {};
-  return HalfDiscNotch{notch.high[2], std::abs(notch.position - radius) < middle * radius};
+  const double beside = notch.position - radius, height = std::sqrt(std::max(0.0, radius * radius - beside * beside));
+  return HalfDiscNotch{notch.high[2], std::abs(beside) < middle * radius, height - notch.high[2]};
 }
 
 experiments::HalfDiscStrength half_disc_strength(std::span<const StressSample> samples,
@@ -46,7 +48,7 @@ experiments::HalfDiscStrength half_disc_strength(std::span<const StressSample> s
   experiments::HalfDiscStrength out;
   static_cast<experiments::LoadResults&>(out) = curve.results();
   out.notch_m = notch.length;
-  out.fracture_energy_j_m2 = out.work_j / ((radius - notch.length) * thickness);
+  out.fracture_energy_j_m2 = out.work_j / (notch.ligament * thickness);
 
   const std::vector<double>& lower = half_disc.rollers()->bottom;
   const double span = lower.at(1) - lower.at(0);

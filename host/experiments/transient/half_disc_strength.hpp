@@ -16,6 +16,7 @@ namespace macadam {
 struct HalfDiscNotch {
   double length = 0;       ///< from the flat side towards the arc [m]; 0: no notch
   bool in_middle = false;  ///< whether the notch lies in the plane between the two lower rollers
+  double ligament = 0;     ///< height of the half disc above the notch [m]
 };
 
 /// Returns the notch of a half disc; its length is 0 if there is none. Empty if the notches are not one cut that is

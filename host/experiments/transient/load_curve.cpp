@@ -27,6 +27,7 @@ LoadCurve::LoadCurve(std::span<const StressSample> samples, const experiments::F
   for (std::size_t k = 1; k < samples_.size(); ++k) {
     const Sample &last = samples_[k - 1], &now = samples_[k];
     results_.work_j += 0.5 * (now.load + last.load) * (now.displacement - last.displacement);
+    results_.last_part = now.load / results_.load_n;
     if (now.displacement > results_.displacement_m && now.load < least_load) break;
   }
 }
@@ -40,6 +41,11 @@ std::optional<double> LoadCurve::displacement_at(double part) const {
     return last.displacement + std::clamp(fraction, 0.0, 1.0) * (now.displacement - last.displacement);
   }
   return {};
+}
+
+int LoadCurve::samples_between(double from, double to) const {
+  return static_cast<int>(
+      std::ranges::count_if(samples_, [&](const Sample& s) { return s.displacement >= from && s.displacement <= to; }));
 }
 
 std::optional<double> LoadCurve::steepest_fall(double window) const {

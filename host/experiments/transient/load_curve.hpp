@@ -27,6 +27,9 @@ class LoadCurve {
   /// Empty if the load does not fall so far.
   std::optional<double> displacement_at(double part) const;
 
+  /// Returns the number of samples between two displacements [m], both included.
+  int samples_between(double from, double to) const;
+
   /// Returns the steepest fall of the load after the peak [N/m]: the largest mean slope over a window of the
   /// displacement that has this width [m]. Empty if the curve ends within the first window, if the load never falls, or
   /// if the window or the displacement at the peak is not positive.

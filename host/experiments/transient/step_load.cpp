@@ -78,7 +78,7 @@ void SteppedLoad::make(RunResult& result, const std::filesystem::path& checkpoin
       throw InputError(checkpoint.string() + ": this machine cannot continue the checkpoint: " + error.what());
     throw;
   }
-  if (state.empty() && starts_in_motion(test_, facts_of(scene_.laws))) set_in_motion();
+  if (state.empty() && !test_.rows && starts_in_motion(test_, facts_of(scene_.laws))) set_in_motion();
 }
 
 void SteppedLoad::set_in_motion() {

@@ -177,7 +177,7 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     add_load(load_test_of(scene), out);
     if (words.ratio) out["ramp_s"] = found.ramp_s;
     add_extremes(found.kind, found.points, out);
-    if (measures_strength(found)) add_strength(found, out);
+    if (measures_strength(found) && !has_standard_results(found)) add_strength(found, out);
     if (has_standard_results(found)) add_standard_results(found, passed_peak(found), out);
     if (found.cracks && found.cracks->sums) {
       const auto error = energy_error_of(found);
@@ -188,6 +188,10 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     if (found.platen_mass_kg > 0) out["platen_mass_kg"] = found.platen_mass_kg;
     for (const SteppedPoint& p : found.points) {
       Json point = point_json(words, p);
+      if (has_standard_results(found)) {
+        point["displacement_m"] = -p.strain * gauge_length(scene.specimen.box);
+        point["load_n"] = -p.stress_pa * section_area(scene.specimen.box);
+      }
       point["error"] = p.error;
       point["top_pa"] = p.top_pa;
       point["bottom_pa"] = p.bottom_pa;

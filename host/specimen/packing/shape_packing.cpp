@@ -27,7 +27,7 @@ constexpr double growth_a_gap = 0.15;  // relative growth in one iteration, divi
 constexpr int most_idle = 2000;        // iterations without growth after which the bodies count as jammed
 // At the end, bodies may touch according to the exact test although their samples show no contact. Such bodies are
 // separated in at most this number of rounds.
-constexpr int most_rounds = 40;
+constexpr int most_packing_rounds = 40;
 constexpr double freeing = 1.4;  // factor by which the gaps of such bodies are widened in each round
 
 /// A displacement or a force.
@@ -81,7 +81,7 @@ class Packing {
           progress((grown_ - begun) / (1 - begun));
         } else if (widen_gaps_of_overlaps() == 0) {
           return 1;
-        } else if (++rounds > most_rounds) {
+        } else if (++rounds > most_packing_rounds) {
           break;
         }
       }

@@ -25,8 +25,7 @@ constexpr double unbounded = 1e4;
 
 void require_valid_input(const Scene& scene, const ModulusData& data, const CalibrationOptions& options) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
-  if (std::holds_alternative<experiments::IndirectTension>(scene.experiment) ||
-      std::holds_alternative<experiments::Bending>(scene.experiment))
+  if (!scene.specimen.box.has_uniform_section() || scene.specimen.box.rollers())
     throw InputError(scene.file.string(), 0, "kind in [loading]", std::string("\"") + kind_of(scene.experiment) + '"',
                      "\"cyclic\" or \"sweep\", whose moduli a calibration compares with the measured ones");
   if (data.points.empty()) throw InputError(data.source, 0, "measurements", "none", "at least one");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file bending.hpp  Defines the cyclic bending test: the complex modulus of a beam between rollers (EN 12697-26,
-/// annexes B and C).
+/// annex B).
 #pragma once
 
 #include <array>

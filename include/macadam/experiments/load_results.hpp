@@ -11,6 +11,7 @@ struct LoadResults {
   /// Work of the load until it has fallen to 100 N, or to a tenth of its largest value if this is less, or until the
   /// test ends.
   double work_j = 0;
+  double last_part = 0;  ///< load at the end of the work over the largest load
 };
 
 }  // namespace macadam::experiments

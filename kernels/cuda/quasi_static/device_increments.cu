@@ -161,7 +161,7 @@ class Increments : public DeviceIncrements {
     const IncrementView& d = m_.view;
     put(s.displacement, d.displacement);
     put(s.linear, d.linear_state), put(s.points, d.point_state);
-    put(std::vector<double>(3 * std::size_t{d.points}), d.point_drag);
+    check_cuda(cudaMemsetAsync(d.point_drag, 0, 3 * sizeof(double) * d.points, team_.stream()), "states");
     dragged_ = false;
     if (d.points == 0) return;
     for (std::uint8_t* to : {d.grew, d.grows}) copy_now(to, s.grew.data(), d.points, "states");

@@ -149,8 +149,8 @@ def _main_results(f: Folder) -> str:
         return "; ".join(_point(r) for r in ([rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]))
     if f.in_time:
         points = f.in_time.get("points") or []
-        if f.in_time.get("strength_pa") is not None:
-            return _strength(f)
+        if text := _strength(f):
+            return text
         key = f.modulus_column
         if points and key:
             return "; ".join(f"{look.modulus(p[key])} at {look.seconds(p['time_s'])}" for p in (points[0], points[-1]))
@@ -175,9 +175,30 @@ def _point(r: dict[str, Any]) -> str:
     )
 
 
+# Names and units of the results of discs and half discs that were loaded until they failed.
+_STANDARD_RESULTS = (
+    ("indirect_tensile_strength_pa", "indirect tensile strength", 1e-6, "MPa"),
+    ("bending_strength_pa", "bending strength", 1e-6, "MPa"),
+    ("fracture_toughness_pa_sqrt_m", "fracture toughness", 1e-6, "MPa √m"),
+    ("fracture_energy_j_m2", "fracture energy", 1, "J/m²"),
+    ("ct_index", "CT index", 1, ""),
+    ("flexibility_index", "flexibility index", 1, ""),
+)
+
+
 def _strength(f: Folder) -> str:
-    """Returns peak stress, the strain at it and, if it is known, the work of fracture, for a test of a specimen that can
-    break."""
+    """Returns the strength of a specimen that broke, with the results of the standard of its test, or with the strain at
+    the peak and the work of fracture; empty if no strength was reached."""
+    standard = [
+        f"{name} {look.number(factor * f.in_time[key], 3)} {unit}".strip()
+        for key, name, factor, unit in _STANDARD_RESULTS
+        if f.in_time.get(key) is not None
+    ]
+    if standard:
+        load, moved = 1e-3 * f.in_time["peak_load_n"], 1e3 * f.in_time["displacement_at_peak_m"]
+        return ", ".join(standard) + f"; largest load {look.number(load, 3)} kN at {look.number(moved, 3)} mm"
+    if f.in_time.get("strength_pa") is None:
+        return ""
     stress, strain = f.in_time["strength_pa"], f.in_time["strain_at_peak"]
     words = f"strength of {look.modulus(stress)} at a strain of {look.number(1e6 * strain, 3)} µm/m"
     work, box = f.in_time.get("work_of_fracture_j"), f.summary.get("box_m")
@@ -206,8 +227,7 @@ def _broken(result: dict[str, Any]) -> str:
 # Returns the sentences that summarise one folder.
 def _summary_sentences(f: Folder) -> list[str]:
     s, words = f.summary, []
-    if f.in_time and f.in_time.get("strength_pa") is not None:
-        text = _strength(f)  # not capitalize(), which would change the units to "kpa"
+    if f.in_time and (text := _strength(f)):  # not capitalize(), which would change the units to "kpa"
         words.append(text[:1].upper() + text[1:] + ".")
     if f.kind == "run":
         edges = s.get("box_m") or []

@@ -220,11 +220,26 @@ def _any_test(found: list[Folder]) -> tuple[Any, str]:
     return figure, "Strain (left) and stress (right) over time; tension is positive."
 
 
+# Draws the load over the displacement of the strips or rollers, and over time.
+def _load_curve(found: list[Folder]) -> tuple[Any, str]:
+    figure, (left, right) = _axes(found)
+    for f in found:
+        t, moved, load = _points(f, "time_s", "displacement_m", "load_n")
+        left.plot(1e3 * moved, 1e-3 * load, "o-", color=f.colour, ms=2.5, label=f.label)
+        right.plot(t, 1e-3 * load, "o-", color=f.colour, ms=2.5)
+    left.set(xlabel="displacement (mm)", ylabel="load (kN)")
+    right.set(xlabel="time (s)", ylabel="load (kN)")
+    _finish(figure, left, found, [left, right], [])
+    return figure, "Load over the approach of the strips or rollers (left) and over time (right)."
+
+
 # Title and drawing of the tests in time, in the order of the report.
 _DRAWINGS = {
     "relaxation": ("Relaxation", _relaxation),
     "creep": ("Creep", _creep),
     "monotonic": ("Constant rate of strain", _monotonic),
+    "indirect_tensile_strength": ("Indirect tensile strength", _load_curve),
+    "semicircular_bending": ("Semicircular bending", _load_curve),
 }
 
 

@@ -36,6 +36,14 @@ QUANTITIES = (
     "strength_pa",
     "strain_at_peak",
     "work_of_fracture_j",
+    "peak_load_n",
+    "displacement_at_peak_m",
+    "indirect_tensile_strength_pa",
+    "bending_strength_pa",
+    "fracture_toughness_pa_sqrt_m",
+    "fracture_energy_j_m2",
+    "ct_index",
+    "flexibility_index",
 )
 _LARGEST_SEED = 2**63 - 1  # TOML's largest whole number
 _ROWS = 24  # largest number of printed rows
