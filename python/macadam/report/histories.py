@@ -229,7 +229,9 @@ def _load_curve(found: list[Folder]) -> tuple[Any, str]:
         right.plot(t, 1e-3 * load, "o-", color=f.colour, ms=2.5)
     left.set(xlabel="displacement (mm)", ylabel="load (kN)")
     right.set(xlabel="time (s)", ylabel="load (kN)")
-    _finish(figure, left, found, [left, right], [])
+    for axes in (left, right):
+        axes.set_ylim(bottom=0)
+    _finish(figure, left, found, [], [])
     return figure, "Load over the approach of the strips or rollers (left) and over time (right)."
 
 

@@ -96,7 +96,7 @@ def _test(f: Folder) -> str:
         return f"|E*| and the phase angle were computed in {loading} at {span}{at}."
     if f.in_time and f.in_time.get("points"):
         points = f.in_time["points"]
-        return (f"The test is of the kind {f.in_time['kind']}, with {len(points)} points from {look.seconds(points[0]['time_s'])} "
+        return (f"The test is of the kind {f.in_time['kind'].replace('_', ' ')}, with {len(points)} points from {look.seconds(points[0]['time_s'])} "
                 f"to {look.seconds(points[-1]['time_s'])}.")
     return ""
 
