@@ -68,8 +68,8 @@ void require_same_rule(const Scene& scene, const ContactNetwork& network) {
             network.rock_poisson_ratio);
 }
 
-/// Refuses a specimen that was made before for the walls of another test, or for another domain than that of a scene
-/// whose walls are strips or rollers. \throws InputError
+/// Refuses a given specimen if its strips or rollers, or its size between them, are not those of the scene. \throws
+/// InputError
 void require_same_domain(const Scene& scene, const Specimen& specimen) {
   const Domain &expected = scene.specimen.box, &found = specimen.box;
   const auto strips = [](const Domain& d) {
@@ -80,8 +80,13 @@ void require_same_domain(const Scene& scene, const Specimen& specimen) {
   const bool has_parts = strips(expected) > 0 || strips(found) > 0 || expected.rollers() || found.rollers();
   if (!has_parts) return;
   const auto words = [&](const Domain& d) {
-    return fmt::format("{} with strips of {:g} m and rollers at {}; {} m (width {:g} m)", d.dimensions(), strips(d),
-                       fmt::join(rollers(d).bottom, ", "), fmt::join(rollers(d).top, ", "), rollers(d).width);
+    std::string out = d.dimensions();
+    if (strips(d) > 0) out += fmt::format(", strips of {:g} m", strips(d));
+    const domains::Rollers of = rollers(d);
+    if (of.width > 0)
+      out += fmt::format(", rollers of {:g} m at x = {:g} m below and {:g} m above", of.width,
+                         fmt::join(of.bottom, ", "), fmt::join(of.top, ", "));
+    return out == d.dimensions() ? out + ", no strips and no rollers" : out;
   };
   if (words(expected) != words(found))
     throw InputError(scene.file.string(), 0, "specimen", words(found), words(expected));

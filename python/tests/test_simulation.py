@@ -2,12 +2,14 @@
 """Runs of experiments from Python: the same numbers as the command's, callbacks, errors."""
 import json
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
 import macadam as mc
+from conftest import ROOT
 
 
 def of_the_command(program, file, out, *options):
@@ -210,3 +212,18 @@ def test_a_test_of_any_kind_needs_no_function_of_its_own(specimen):
     assert mc.test(specimen, "relaxation", loading).table.equals(mc.relaxation(specimen, **loading).table)
     with pytest.raises(mc.InputError, match="kind: found 'torsion', expected one of cyclic, sweep, relaxation"):
         mc.test(specimen, "torsion", loading)
+
+
+def test_a_specimen_keeps_its_rollers(tmp_path: Path) -> None:
+    bending = (ROOT / "examples" / "bending" / "scene.toml").read_text(encoding="utf-8")
+    bending = bending.replace('"100 mm"', '"60 mm"').replace('"16 mm"', '"12 mm"')
+    sweep = bending[: bending.index("[loading]")] + (
+        '[loading]\nkind = "sweep"\nfrequencies = [1.0]\n[solver]\nmethod = "harmonic"\n'
+    )
+    (tmp_path / "bending.toml").write_text(bending, encoding="utf-8")
+    (tmp_path / "sweep.toml").write_text(sweep, encoding="utf-8")
+    bent, plain = mc.specimen(tmp_path / "bending.toml"), mc.specimen(tmp_path / "sweep.toml")
+    with pytest.raises(mc.InputError, match="found beam .*, rollers of 0.00216 m at .*, expected .* no rollers"):
+        mc.run(tmp_path / "sweep.toml", out=tmp_path / "out", specimen=bent)
+    with pytest.raises(mc.InputError, match="found beam .* no rollers, expected .* rollers of 0.00216 m"):
+        mc.run(tmp_path / "bending.toml", out=tmp_path / "out", specimen=plain)
