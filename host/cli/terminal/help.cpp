@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <regex>
 #include <sstream>
 
 namespace macadam {
@@ -52,7 +53,13 @@ std::string description_of(const CLI::Option& option) {
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool positional) const {
-  return entry(option->get_name(positional, !positional) + shown_value(*option), description_of(*option));
+  constexpr std::size_t longest = 80;  // a longer list of choices goes into the description, whose lines are wrapped
+  std::string value = shown_value(*option), text = description_of(*option);
+  if (value.size() > longest) {
+    text += "; one of" + std::regex_replace(value, std::regex("\\|"), ", ");
+    value = " NAME";
+  }
+  return entry(option->get_name(positional, !positional) + value, text);
 }
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
