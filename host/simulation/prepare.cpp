@@ -189,6 +189,9 @@ void write_preparation(const Scene& scene, const Preparation& prepared, const st
                        const std::function<void()>& remove_results) {
   const bool same_specimen = scene.specimen.file && is_in(*scene.specimen.file, out),
              aggregates = !prepared.aggregates.empty(), gradation = scene.recipe.has_value();
+  RunResult none;
+  // before any file is written: threads that cannot be made end the process without cleaning up
+  none.warnings = packing_warnings(prepared.specimen, prepared.tessellation);
   FilesTogether files(out);
   write_specimen_csv(files.place_of("specimen.csv"), prepared.specimen);
   if (aggregates) write_aggregates_csv(files.place_of("aggregates.csv"), prepared.aggregates, prepared.composition);
@@ -199,8 +202,6 @@ void write_preparation(const Scene& scene, const Preparation& prepared, const st
   const bool same_scene = std::filesystem::equivalent(scene.file, out / changed_scene_file, ignored);
   if (!scene.changes.empty() && !same_scene)
     write_whole(files.place_of(changed_scene_file), changed_scene_text(scene, out));
-  RunResult none;
-  none.warnings = packing_warnings(prepared.specimen, prepared.tessellation);
   write_whole(files.place_of("summary.json"), summary_json(scene, prepared, none, "prepared"));
   replace(out / "summary.json");
   remove_results();
