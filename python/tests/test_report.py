@@ -211,24 +211,23 @@ def test_the_methods_have_laws_scene_and_version(tmp_path: Path, no_pictures) ->
     assert "box = [1, 1, 1]" in other and "[specimen.mastic]" not in other
 
 
-def test_the_methods_name_the_indirect_tension_test(tmp_path: Path, no_pictures) -> None:
-    scene = (ROOT / "examples" / "indirect_tension" / "scene.toml").read_text(encoding="utf-8")
-    small = scene.replace('"60 mm"', '"30 mm"').replace('thickness = "20 mm"', 'thickness = "12 mm"')
-    (tmp_path / "scene.toml").write_text(small, encoding="utf-8")
+@pytest.mark.parametrize(
+    ("example", "sizes", "words"),
+    [
+        ("indirect_tension", {'"60 mm"': '"30 mm"', 'thickness = "20 mm"': 'thickness = "12 mm"'}, "cyclic indirect tension"),
+        ("bending", {'"100 mm"': '"60 mm"', '"16 mm"': '"12 mm"'}, "cyclic bending"),
+    ],
+)
+def test_the_methods_name_the_test(tmp_path: Path, no_pictures, example, sizes, words) -> None:
+    scene = (ROOT / "examples" / example / "scene.toml").read_text(encoding="utf-8")
+    for usual, small in sizes.items():
+        assert usual in scene
+        scene = scene.replace(usual, small)
+    (tmp_path / "scene.toml").write_text(scene, encoding="utf-8")
     subprocess.run([PROGRAM, "run", tmp_path / "scene.toml", "--out", tmp_path / "out", "--backend", "cpu"], check=True,
                    capture_output=True)
     page = report(tmp_path / "out", tmp_path / "r.html").read_text(encoding="utf-8")
-    assert "computed in cyclic indirect tension" in page and "uniaxial" not in page
-
-
-def test_the_methods_name_the_bending_test(tmp_path: Path, no_pictures) -> None:
-    scene = (ROOT / "examples" / "bending" / "scene.toml").read_text(encoding="utf-8")
-    small = scene.replace('"100 mm"', '"60 mm"').replace('"16 mm"', '"12 mm"')
-    (tmp_path / "scene.toml").write_text(small, encoding="utf-8")
-    subprocess.run([PROGRAM, "run", tmp_path / "scene.toml", "--out", tmp_path / "out", "--backend", "cpu"], check=True,
-                   capture_output=True)
-    page = report(tmp_path / "out", tmp_path / "r.html").read_text(encoding="utf-8")
-    assert "computed in cyclic bending" in page and "uniaxial" not in page
+    assert f"computed in {words}" in page and "uniaxial" not in page
 
 
 def test_the_methods_show_the_values_of_set(tmp_path: Path, no_pictures) -> None:

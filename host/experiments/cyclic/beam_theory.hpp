@@ -15,7 +15,8 @@ class UnitDeflection {
   /// `width` and `height` are the edges of the section along y and z [m].
   UnitDeflection(double left, double right, double loaded, double width, double height, double poisson_ratio);
 
-  /// Returns the deflection times the modulus at x [1/m]. It is zero at the supports. Beyond them the beam is straight.
+  /// Returns the deflection times the modulus at x [1/m]. It is zero at the supports. The beam is straight beyond the
+  /// supports.
   double deflection(double x) const;
   /// Returns the slope of the neutral axis by bending alone times the modulus at x [1/m²]. It is the turn of the
   /// section about −y.

@@ -19,7 +19,7 @@ struct HalfDiscNotch {
   double ligament = 0;     ///< height of the half disc above the notch [m]
 };
 
-/// Returns the notch of a half disc; its length is 0 if there is none. Empty if the notches are not one cut that is
+/// Returns the notch of a half disc; its length is 0 without a notch. Empty if the notches are not one cut that is
 /// perpendicular to x, begins at the flat side and passes through the whole thickness.
 std::optional<HalfDiscNotch> half_disc_notch(const Domain& half_disc, std::span<const Notch> notches);
 

@@ -25,8 +25,8 @@ struct IndirectTensileStrength {
   double diameter = 0;                ///< of the scene's disc [m]; not a key
 };
 
-/// What a laboratory reports of this test. The three results after the slope are those of the IDEAL-CT (ASTM D8225);
-/// they are empty if the load did not fall to 65 % of its largest value.
+/// The numbers that a laboratory reports. Slope, l75 and CT index are those of the IDEAL-CT (ASTM D8225). They are
+/// empty if the load did not fall to 65 % of its largest value, or if fewer than two samples lie between 85 and 65 %.
 struct DiscStrength : LoadResults {
   double strength_pa = 0;           ///< indirect tensile strength, 2·load/(π·diameter·thickness)
   double fracture_energy_j_m2 = 0;  ///< work over diameter·thickness

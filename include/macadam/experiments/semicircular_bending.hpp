@@ -29,7 +29,7 @@ struct SemicircularBending {
   double radius = 0;                   ///< of the scene's half disc [m]; not a key
 };
 
-/// What a laboratory reports of this test.
+/// The numbers that a laboratory reports.
 struct HalfDiscStrength : LoadResults {
   double notch_m = 0;               ///< length of the notch; 0: no notch
   double fracture_energy_j_m2 = 0;  ///< work over the area of the ligament, (radius − notch)·thickness
