@@ -90,10 +90,6 @@ PairLaws pair_laws(const ContactNetwork& network, const LawTable& laws) {
         },
         *laws[pair]);
   }
-  for (const Contact& c : network.contacts) {
-    if (c.series != 0 && out[static_cast<std::size_t>(c.pair)].cracked)
-      throw InputError("quasi-static: a contact with rock in series cannot crack; found rule \"series\" with a crack");
-  }
   return out;
 }
 
@@ -142,7 +138,7 @@ void ContactIncrements::prepare(std::size_t number) {
   double* base = base_.data() + base_begin_[number];
   if (!l.cracks) return kernels::prepare_linear(l, c.series, numbers_of(state, l), base);
   for (std::uint32_t j = c.point_begin; j < c.point_end; ++j, state += 3 * l.words, base += 3)
-    kernels::prepare_point(l, c.length, numbers_of(state, l), base);
+    kernels::prepare_point(l, c.length, c.series, numbers_of(state, l), base);
 }
 
 void ContactIncrements::evaluate(const std::vector<Six>& u) {
@@ -169,7 +165,7 @@ void ContactIncrements::evaluate_points(std::size_t number, const Six& u) {
   const Contact& c = network_.contacts[number];
   const kernels::IncrementLaw& l = law(c);
   const auto words = static_cast<std::size_t>(l.words);
-  const double kappa = l.stiffness() / c.length;
+  const auto stiffness = kernels::PointStiffness::of(l, c.length, c.series);
   const bool follows_opening = growing_area_ > 0;
   kernels::PointSums sums;
   kernels::TangentSums tangent;
@@ -184,7 +180,7 @@ void ContactIncrements::evaluate_points(std::size_t number, const Six& u) {
                                     {base[0], base[1], base[2]},
                                     {state[1], {state[words + 1], state[2 * words + 1]}, state[2]},
                                     follows_opening && grew_[j] ? area / growing_area_ : 0};
-    grows_[j] = kernels::add_point(l, kappa, point, u.data(), sums, tangent);
+    grows_[j] = kernels::add_point(l, stiffness, point, u.data(), sums, tangent);
   }
   std::copy(sums.force, sums.force + 6, force_[number].begin());
   std::copy(tangent.stiffness, tangent.stiffness + 36, stiffness_[number].begin());
@@ -244,12 +240,13 @@ ContactEnergies ContactIncrements::accept_contact(std::size_t number, const Six&
   }
   ContactEnergies out;
   for (std::uint32_t j = c.point_begin; j < c.point_end; ++j, state += 3 * l.words) {
-    kernels::accept_point(l, c.length, network_.point_s[j], network_.point_t[j], network_.point_area[j], grows_[j],
-                          u.data(), numbers_of(state, l), out);
+    kernels::accept_point(l, c.length, c.series, network_.point_s[j], network_.point_t[j], network_.point_area[j],
+                          grows_[j], u.data(), numbers_of(state, l), out);
     if (drag_.empty()) continue;
     kernels::accept_drag(
-        l, c.length, network_.point_s[j], network_.point_t[j], network_.point_area[j], u.data(),
-        [&](int k) -> double& { return drag_[3 * j + static_cast<std::size_t>(k)]; }, out);
+        l, kernels::PointStiffness::of(l, c.length, c.series), network_.point_s[j], network_.point_t[j],
+        network_.point_area[j], u.data(), [&](int k) -> double& { return drag_[3 * j + static_cast<std::size_t>(k)]; },
+        out);
   }
   return out;
 }

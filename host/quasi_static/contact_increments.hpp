@@ -35,8 +35,7 @@ struct PairLaw {
   }
 };
 using PairLaws = std::array<PairLaw, pair_types>;
-/// Returns the laws of those pair types that occur. \throws InputError for a law without a tangent, and for a contact
-/// that has a crack and rock in series.
+/// Returns the laws of those pair types that occur. \throws InputError for a law without a tangent.
 PairLaws pair_laws(const ContactNetwork& network, const LawTable& laws);
 
 class ContactIncrements {

@@ -51,7 +51,7 @@ void add_contacts(const ContactNetwork& network, const PairLaws& laws, const ker
     const Contact& c = network.contacts[s.contact_of[i]];
     kernels::IncrementContact& to = s.contacts.emplace_back();
     to.frame = {c.n, c.s, c.t, c.arm_a, c.arm_b};
-    to.length = c.length;
+    to.length = c.length, to.series = c.series;
     to.a = layout.body_of(c.a);
     to.b = c.b >= 0 ? layout.body_of(c.b) : c.b;
     to.pair = static_cast<std::int32_t>(c.pair);

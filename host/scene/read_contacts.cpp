@@ -118,26 +118,31 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
   return table;
 }
 
-void read_limits_of_pairs(const std::vector<Section>& sections, ContactRule rule, NetworkSpec& network) {
+void read_limits_of_pairs(const std::vector<Section>& sections, ContactRule rule, NetworkSpec& network,
+                          PairCracks& cracks, TemperatureTables& tables) {
   const std::string name = to_string(rule);
   const std::vector<std::string> pairs = pair_names();
   std::vector<bool> seen(pairs.size());
   for (const Section& section : sections) {
     for (const char* key : {"law", "alpha", "delta"}) {
       if (section.has(key))
-        section.refuse(key, "this key of a pair with rule = \"" + name + "\" in [network]",
-                       "only pair, gap_max and area_min: with this rule the laws of all pairs follow from the laws in "
-                       "[materials.mastic] and [materials.aggregate]");
+        section.refuse(
+            key, "this key of a pair with rule = \"" + name + "\" in [network]",
+            "only pair, crack, gap_max and area_min: with this rule the laws of all pairs follow from the laws in "
+            "[materials.mastic] and [materials.aggregate]");
     }
-    if (section.has("crack")) {
+    if (section.has("crack") && rule == ContactRule::volumetric)
       section.refuse("crack", "this key with rule = \"" + name + "\" in [network]",
-                     "rule = \"centres\", because contacts with rock in series cannot crack");
-    }
+                     "rule = \"series\" or \"centres\", because increments do not compute the pressures of cells");
     std::size_t pair = 0;
     FacetLimits limits;
     std::vector<Key> keys{{"pair", Need::required, {[&](const Value& v) { pair = v.choice(pairs); }}}};
     for (Key& key : keys_of(limits)) keys.push_back(std::move(key));
+    std::optional<laws::Crack> crack;
+    keys.push_back(crack_key(crack, tables));
     section.read(keys);
+    if (crack) require_particles(section, static_cast<PairType>(pair));
+    cracks[pair] = crack;
     if (seen[pair]) section.refuse("pair", fmt::format("\"{}\" again", pairs[pair]), "each pair once");
     seen[pair] = true;
     set_limits(section, pair, limits, network);

@@ -3,6 +3,7 @@
 /// "volumetric", the laws of mastic and rock. Derives the laws of all pairs from them.
 #include <fmt/format.h>
 
+#include "host/scene/crack_keys.hpp"
 #include "host/scene/law_keys.hpp"
 #include "host/scene/law_range.hpp"
 #include "host/scene/sections.hpp"
@@ -180,7 +181,7 @@ Materials read_materials(const Section& section, Need need, ContactRule rule, co
   return materials;
 }
 
-void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& root) {
+void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const PairCracks& cracks, const Section& root) {
   if (scene.network.rule == ContactRule::centres) return;
   const auto require = [&](bool needed, bool given, const char* phase, const char* example) {
     if (needed && !given)
@@ -196,7 +197,8 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& ro
   require(!scene.specimen.aggregate.empty(), rock, "aggregate", "law = \"elastic\" and E");
   scene.mastic_source = phases.source;
   const auto set = [&](PairType pair, const Law& law, const laws::Shift& shift) {
-    scene.laws[static_cast<std::size_t>(pair)] = law;
+    const auto& crack = cracks[static_cast<std::size_t>(pair)];
+    scene.laws[static_cast<std::size_t>(pair)] = crack ? with_crack(law, *crack) : law;
     if (pair != PairType::inner && pair != PairType::aw) scene.ranges[static_cast<std::size_t>(pair)] = phases.range;
     scene.shifts[static_cast<std::size_t>(pair)] = shift;
   };

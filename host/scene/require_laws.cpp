@@ -11,33 +11,42 @@
 namespace macadam {
 namespace {
 
-/// Returns the longest contact of a pair, which must have contacts.
-std::size_t longest_contact(const ContactNetwork& network, PairType pair) {
-  std::size_t out = network.contacts.size();
-  for (std::size_t c = 0; c < network.contacts.size(); ++c) {
-    if (network.contacts[c].pair != pair) continue;
-    if (out == network.contacts.size() || network.contacts[c].length > network.contacts[out].length) out = c;
-  }
-  return out;
+/// Ratio of shear to normal stiffness of a contact with a law. Rock in series weakens the two differently.
+template <class Chain>
+double shear_ratio(const laws::Cracked<Chain>& law, const Contact& c) {
+  const double r = c.series * law.instantaneous();
+  return law.alpha * (1 + r) / (1 + law.alpha * r);
 }
 
-/// Checks that the fracture energy of a law with a crack suffices for the longest contact of its pair (docs/cracks.md,
-/// (C.13)): with less energy, a point loses its stress at a fixed displacement of the particles, and a step of this
-/// contact has more than one solution.
+/// Returns the fracture energy that a contact needs [J/m²] (docs/cracks.md, (C.13)).
+template <class Chain>
+double least_energy(const laws::Cracked<Chain>& law, const Contact& c) {
+  const double modulus = law.instantaneous() / (1 + c.series * law.instantaneous());
+  return law.crack.least_fracture_energy(modulus, shear_ratio(law, c), c.length);
+}
+
+/// Checks that the fracture energy of a law with a crack suffices for every contact of its pair: with less energy, a
+/// point loses its stress at a fixed displacement of the particles, and a step of this contact has more than one
+/// solution.
 template <class Chain>
 void require_one_answer(const Scene& scene, const ContactNetwork& network, PairType pair,
                         const laws::Cracked<Chain>& law) {
-  const std::size_t number = longest_contact(network, pair);
+  std::size_t number = 0;  // contact that needs the most energy
+  double least = -1;
+  for (std::size_t c = 0; c < network.contacts.size(); ++c) {
+    if (network.contacts[c].pair != pair) continue;
+    const double energy = least_energy(law, network.contacts[c]);
+    if (energy > least) least = energy, number = c;
+  }
   const Contact& contact = network.contacts[number];
   const laws::Crack& crack = law.crack;
-  const double least = crack.least_fracture_energy(law.instantaneous(), law.alpha, contact.length);
   if (crack.softening == laws::Softening::brittle || crack.fracture_energy > least) return;
-  const double shear = crack.shear_term(law.alpha);
+  const double alpha = shear_ratio(law, contact), shear = crack.shear_term(alpha);
   const std::string why =
       shear > 1 ? fmt::format(
                       "shear decides: beta_c*beta_w/alpha = {:.4g}*{:.4g}/{:g} = {:.4g} times the energy that "
                       "tension needs; a larger alpha or a smaller shear_strength needs less",
-                      crack.strength_ratio(), crack.slip_weight(), law.alpha, shear)
+                      crack.strength_ratio(), crack.slip_weight(), alpha, shear)
                 : fmt::format("tension decides: beta_c*beta_w/alpha = {:.4g} is at most 1", shear);
   throw InputError(scene.file.string(), 0, fmt::format("fracture_energy in crack of pair {}", to_string(pair)),
                    fmt::format("{:g} J/m2", crack.fracture_energy),

@@ -227,6 +227,7 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
   };
   std::optional<SolverSpec> solver;
   PhaseLaws phases;
+  PairCracks cracks;
   TemperatureTables tables;
   const ContactRule rule = rule_of(root);
   const bool of_phases = has_laws_of_phases(rule);
@@ -238,7 +239,7 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
               }),
               "densities, and the temperature", "computed from [specimen.recipe] if that is given"},
              {"contacts", of_phases ? Need::optional : Need::required, sections_by([&](const Value& v) {
-                if (of_phases) return read_limits_of_pairs(v.sections(), rule, out.network);
+                if (of_phases) return read_limits_of_pairs(v.sections(), rule, out.network, cracks, tables);
                 out.laws = read_contacts(v.sections(), out.shifts, out.ranges, out.deltas, out.network, tables);
               }),
               "contact law of a pair of materials; one section per pair"},
@@ -255,7 +256,7 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
   // only the CPU computes the pressures of cells
   if (rule == ContactRule::volumetric && out.solver.backend == Backend::automatic) out.solver.backend = Backend::cpu;
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
-  set_laws_of_phases(out, phases, root);
+  set_laws_of_phases(out, phases, cracks, root);
   choose_method(out.solver, out.experiment, out.laws);
   set_strips(out, root);
   set_rollers(out, root);

@@ -3,7 +3,9 @@
 /// its own.
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,9 +63,14 @@ std::vector<Key> keys_of(FacetLimits& limits);
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, LawRanges& ranges, Deltas& deltas,
                        NetworkSpec& network, TemperatureTables& tables);
 
+/// Cracks of the pairs of a scene whose laws follow from those of its phases.
+using PairCracks = std::array<std::optional<laws::Crack>, pair_types>;
+
 /// Reads every `[[contacts]]` of a scene with the rule "series" or "volumetric": the limits on the facets of each pair,
-/// and no laws. \throws InputError
-void read_limits_of_pairs(const std::vector<Section>& sections, ContactRule rule, NetworkSpec& network);
+/// and its crack, but no laws. Strengths and fracture energies that are tables are evaluated at the temperature in
+/// `tables`. \throws InputError
+void read_limits_of_pairs(const std::vector<Section>& sections, ContactRule rule, NetworkSpec& network,
+                          PairCracks& cracks, TemperatureTables& tables);
 
 /// Laws of the phases, for the rules "series" and "volumetric".
 struct PhaseLaws {
@@ -99,9 +106,9 @@ Materials read_materials(const Section& section, Need need, ContactRule rule, co
 /// \throws InputError
 Materials read_mastic_alone(const Section& section, const ReadingFile& reading, PhaseLaws& phases);
 
-/// Sets the laws and shifts of all pairs of a scene with laws of phases; otherwise changes nothing. `root` is the
-/// whole scene. \throws InputError for a phase without a law
-void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const Section& root);
+/// Sets the laws, with their cracks, and the shifts of all pairs of a scene with laws of phases; otherwise changes
+/// nothing. `root` is the whole scene. \throws InputError for a phase without a law
+void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const PairCracks& cracks, const Section& root);
 
 /// Return the keys of `[output]` that ask for fields, and check that their values fit together.
 /// \throws InputError

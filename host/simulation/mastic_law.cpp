@@ -10,6 +10,7 @@
 
 #include "host/base/content_digest.hpp"
 #include "host/files/result_files.hpp"
+#include "host/scene/crack_keys.hpp"
 #include "host/scene/law_range.hpp"
 #include "host/scene/sections.hpp"
 #include "host/simulation/run_scene.hpp"
@@ -199,9 +200,14 @@ void take(Scene& scene, const Law& law, Range range) {
   for (const PairType type : {PairType::mm, PairType::ma, PairType::mw, PairType::aa}) {
     const auto pair = static_cast<std::size_t>(type);
     if (!scene.laws[pair]) continue;
-    const double alpha = std::visit([](const auto& l) { return l.alpha; }, *scene.laws[pair]);
+    const Law provisional = *scene.laws[pair];
     scene.laws[pair] = law;
-    std::visit([alpha](auto& l) { l.alpha = alpha; }, *scene.laws[pair]);
+    std::visit(
+        [&]<class L>(const L& before) {
+          std::visit([&](auto& l) { l.alpha = before.alpha; }, *scene.laws[pair]);
+          if constexpr (cracking_law<L>) scene.laws[pair] = scene::with_crack(*scene.laws[pair], before.crack);
+        },
+        provisional);
     if (!laws::flows(law)) continue;
     scene.ranges[pair] = {range.lowest, range.highest};
     if (scene.materials.temperature)

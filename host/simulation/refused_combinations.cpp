@@ -106,6 +106,11 @@ void require_combination(const Scene& scene) {
                      std::string("\"explicit\" with kind \"") + kind_of(scene.experiment) + "\"",
                      "\"harmonic\", because this kind is not stepped in time");
   }
+  if (scene.solver.method == SolverMethod::explicit_ && scene.network.rule == ContactRule::series &&
+      can_crack(facts_of(scene.laws))) {
+    throw InputError(scene.file.string(), 0, "method", "\"explicit\" with cracks and rule = \"series\" in [network]",
+                     "\"quasi_static\", because time steps do not compute cracks in series with rock");
+  }
   if (scene.solver.method == SolverMethod::explicit_ && scene.solver.inertia) {
     throw InputError(scene.file.string(), 0, "inertia", "true with method \"explicit\"",
                      "no key inertia, because this method always has inertia; or method \"harmonic\"");

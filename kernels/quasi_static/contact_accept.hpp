@@ -35,11 +35,13 @@ MACADAM_HD void prepare_linear(const IncrementLaw& law, double series, State&& s
 
 /// Computes PointStart::base.
 template <class State>
-MACADAM_HD void prepare_point(const IncrementLaw& law, double length, State&& state, double* base) {
+MACADAM_HD void prepare_point(const IncrementLaw& law, double length, double series, State&& state, double* base) {
   const double over_d = 1 / length;
+  const auto factors = SeriesFactors<double>::of(series, law.stiffness(), law.alpha());
   for (int k = 0; k < 3; ++k) {
     const double f = law.advance.chain.template trial<-1>(
-        double(state(k, 0)), 0.0, [&](int u) -> double& { return state(k, IncrementLaw::first_unit + u); });
+        double(state(k, 0)), 0.0, [&](int u) -> double& { return state(k, IncrementLaw::first_unit + u); },
+        k == 0 ? factors.normal : factors.shear);
     base[k] = (k == 0 ? over_d : over_d * law.alpha()) * f;
   }
 }
@@ -105,8 +107,8 @@ MACADAM_HD CrackNumbers crack_numbers(const IncrementLaw& law, State&& state, do
 /// Advances the states of a point with a crack and adds its energies to `out`. `grows`: whether it grew in the last
 /// evaluation.
 template <class State>
-MACADAM_HD void accept_point(const IncrementLaw& law, double length, double s, double t, double area, bool grows,
-                             const double* u, State&& state, ContactEnergies& out) {
+MACADAM_HD void accept_point(const IncrementLaw& law, double length, double series, double s, double t, double area,
+                             bool grows, const double* u, State&& state, ContactEnergies& out) {
   const double alpha = law.alpha();
   double before[3], old[3], units[3][IncrementLaw::max_units];
   for (int k = 0; k < 3; ++k) {
@@ -114,10 +116,10 @@ MACADAM_HD void accept_point(const IncrementLaw& law, double length, double s, d
     for (int n = 0; n < law.units; ++n) units[k][n] = state(k, IncrementLaw::first_unit + n);
   }
   const double dx[3] = {u[0] + s * u[1] + t * u[2], u[3] - t * u[5], u[4] + s * u[5]};
-  law.advance.template advance_point<-1>(dx, length, state);
+  law.advance.template advance_point<-1>(dx, length, state, SeriesFactors<double>::of(series, law.stiffness(), alpha));
   for (int k = 0; k < 3; ++k) {
     const double now = state(k, 0), weight = (k == 0 ? 1 : alpha) * area / length, mean = 0.5 * (now + before[k]);
-    double elastic = 0.5 * now * now / law.spring, viscous = 0;
+    double elastic = 0.5 * now * now * (1 / law.spring + (k == 0 ? 1 : alpha) * series), viscous = 0;
     if (std::isfinite(law.dashpot)) viscous += law.dt / law.dashpot * mean * mean;
     for (int n = 0; n < law.units; ++n) {
       const double x = state(k, IncrementLaw::first_unit + n), change = x - units[k][n];
@@ -137,11 +139,11 @@ MACADAM_HD void accept_point(const IncrementLaw& law, double length, double s, d
 /// Adds the work of the drag on a point in the increment by the trapezoidal rule. `before`: stress of the drag at the
 /// end of the last increment, normal and two shear components, which becomes that of this one [Pa].
 template <class Stress>
-MACADAM_HD void accept_drag(const IncrementLaw& law, double length, double s, double t, double area, const double* u,
-                            Stress&& before, ContactEnergies& out) {
+MACADAM_HD void accept_drag(const IncrementLaw& law, const PointStiffness& stiffness, double s, double t, double area,
+                            const double* u, Stress&& before, ContactEnergies& out) {
   const double dx[3] = {u[0] + s * u[1] + t * u[2], u[3] - t * u[5], u[4] + s * u[5]};
   for (int k = 0; k < 3; ++k) {
-    const double kappa = (k == 0 ? 1 : law.alpha()) * law.stiffness() / length, now = law.drag * kappa * dx[k];
+    const double kappa = k == 0 ? stiffness.normal : stiffness.shear, now = law.drag * kappa * dx[k];
     out.damping += 0.5 * area * (now + before(k)) * dx[k];
     out.drag += area * now * now / kappa;
     before(k) = now;

@@ -118,17 +118,29 @@ struct TangentSums {
   double opening_rate[6] = {};  ///< derivatives of PointSums::opening with respect to u
 };
 
+/// Changes of the stresses of a point per opening and per slip, if its crack does not move [Pa/m].
+struct PointStiffness {
+  double normal, shear;
+
+  /// `length`, `series`: Contact::length [m] and Contact::series [1/Pa].
+  MACADAM_HD static PointStiffness of(const IncrementLaw& law, double length, double series) {
+    const auto factors = SeriesFactors<double>::of(series, law.stiffness(), law.alpha());
+    const double k = law.stiffness() / length;
+    return {k * factors.normal, law.alpha() * k * factors.shear};
+  }
+};
+
 /// Stresses of a point if its crack does not move in the increment [Pa].
 struct PointTrial {
   double normal, shear[2];
   bool intact;  ///< whether the point was intact and stays below its strength without friction
 
-  MACADAM_HD static PointTrial of(const IncrementLaw& law, double kappa, const PointStart& p, const double* u) {
-    const double kappa_s = law.alpha() * kappa;
+  MACADAM_HD static PointTrial of(const IncrementLaw& law, const PointStiffness& k, const PointStart& p,
+                                  const double* u) {
     PointTrial out;
-    out.normal = p.base[0] + kappa * (u[0] + p.s * u[1] + p.t * u[2]);
-    out.shear[0] = p.base[1] + kappa_s * (u[3] - p.t * u[5]);
-    out.shear[1] = p.base[2] + kappa_s * (u[4] + p.s * u[5]);
+    out.normal = p.base[0] + k.normal * (u[0] + p.s * u[1] + p.t * u[2]);
+    out.shear[0] = p.base[1] + k.shear * (u[3] - p.t * u[5]);
+    out.shear[1] = p.base[2] + k.shear * (u[4] + p.s * u[5]);
     const double open = (out.normal > 0 ? out.normal : 0) * law.over_strength, over_c0 = law.over_shear_strength;
     out.intact = !(p.old.largest > 0) &&
                  open * open + (out.shear[0] * out.shear[0] + out.shear[1] * out.shear[1]) * over_c0 * over_c0 <= 1;
@@ -151,15 +163,14 @@ MACADAM_HD void add_stresses(const IncrementLaw& law, const PointStart& p, const
   if (p.part > 0) sums.opening += p.part * (opening - p.old.opening);
 }
 
-/// Adds the forces of a point for the relative displacements `u` of its contact. `kappa`: stiffness of the law over the
-/// length of the contact [Pa/m]. Returns whether its crack grows.
-MACADAM_HD bool add_point(const IncrementLaw& law, double kappa, const PointStart& p, const double* u,
+/// Adds the forces of a point for the relative displacements `u` of its contact. Returns whether its crack grows.
+MACADAM_HD bool add_point(const IncrementLaw& law, const PointStiffness& k, const PointStart& p, const double* u,
                           PointSums& sums) {
-  const PointTrial trial = PointTrial::of(law, kappa, p, u);
+  const PointTrial trial = PointTrial::of(law, k, p, u);
   laws::CrackOpenings<double> w = p.old;
   double sigma[3] = {trial.normal, trial.shear[0], trial.shear[1]};
   if (!trial.intact) {
-    const auto stress = law.advance.crack(trial.normal, trial.shear, kappa, w);
+    const auto stress = law.advance.crack(trial.normal, trial.shear, k.normal, k.shear, w);
     sigma[0] = stress.normal, sigma[1] = stress.shear[0], sigma[2] = stress.shear[1];
   }
   add_stresses(law, p, trial, sigma, w.opening, sums);
@@ -167,15 +178,15 @@ MACADAM_HD bool add_point(const IncrementLaw& law, double kappa, const PointStar
 }
 
 /// As add_point(), and adds the tangent stiffness.
-MACADAM_HD bool add_point(const IncrementLaw& law, double kappa, const PointStart& p, const double* u, PointSums& sums,
-                          TangentSums& tangent) {
-  const PointTrial trial = PointTrial::of(law, kappa, p, u);
-  const double kappa_s = law.alpha() * kappa, s = p.s, t = p.t;
+MACADAM_HD bool add_point(const IncrementLaw& law, const PointStiffness& stiff, const PointStart& p, const double* u,
+                          PointSums& sums, TangentSums& tangent) {
+  const PointTrial trial = PointTrial::of(law, stiff, p, u);
+  const double kappa = stiff.normal, kappa_s = stiff.shear, s = p.s, t = p.t;
   laws::CrackTangent out{{trial.normal, trial.shear[0], trial.shear[1]},
                          {{kappa, 0, 0}, {0, kappa_s, 0}, {0, 0, kappa_s}},
                          p.old,
                          laws::PointBranch::rests};
-  if (!trial.intact) out = laws::CrackTangent::of(law.advance.crack, trial.normal, trial.shear, kappa, p.old);
+  if (!trial.intact) out = laws::CrackTangent::of(law.advance.crack, trial.normal, trial.shear, kappa, kappa_s, p.old);
   add_stresses(law, p, trial, out.stress, out.w.opening, sums);
   if (p.part > 0) {
     const double on_normal[3] = {1, s, t};

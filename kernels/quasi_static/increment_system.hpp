@@ -26,6 +26,7 @@ using WallMotions = std::array<Vec3d, wall_count>;           ///< by wall_index(
 struct IncrementContact {
   Placement<double> frame;
   double length;                         ///< [m]
+  double series;                         ///< Contact::series [1/Pa]
   std::int32_t a, b;                     ///< bodies; b at a wall: −1 − wall_index()
   std::int32_t pair;                     ///< PairType
   std::uint32_t point_begin, point_end;  ///< of a contact with cracks; otherwise empty

@@ -52,15 +52,15 @@ class ContinuousCrack {
   /// Returns normal stress and shear stress; `w` contains the openings before and after.
   std::array<double, 2> stresses(const std::vector<double>& u, const double (&x)[2],
                                  laws::CrackOpenings<double>& w) const {
-    const double kappa = chain_.E_m / d_;
+    const double kappa = chain_.E_m / d_, kappa_s = chain_.alpha * kappa;
     double trial[2];
     for (std::size_t c = 0; c < 2; ++c) {
       double spring = x[c];
       for (std::size_t l = 0; l < words(); ++l) spring -= u[c * words() + l];
-      trial[c] = (c == 0 ? kappa : chain_.alpha * kappa) * (spring - (c == 0 ? w.opening : w.slip[0]));
+      trial[c] = (c == 0 ? kappa : kappa_s) * (spring - (c == 0 ? w.opening : w.slip[0]));
     }
     const double shear[2] = {trial[1], 0};
-    const auto found = solve_(trial[0], shear, kappa, w);
+    const auto found = solve_(trial[0], shear, kappa, kappa_s, w);
     return {found.normal, found.shear[0]};
   }
 

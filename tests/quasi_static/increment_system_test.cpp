@@ -94,11 +94,11 @@ TEST(IncrementSystem, HasTheForcesOfTheContacts) {
                             {},
                             {state(0, 1), {state(1, 1), state(2, 1)}, state(0, 2)},
                             e.contacts.grew()[s.point_of[j]] ? s.point_area[j] / area : 0};
-      kernels::prepare_point(law, c.length, state, p.base);
-      const double kappa = law.stiffness() / c.length;
+      kernels::prepare_point(law, c.length, c.series, state, p.base);
+      const auto stiffness = kernels::PointStiffness::of(law, c.length, c.series);
       kernels::PointSums without_tangent;
-      const bool grows = kernels::add_point(law, kappa, p, u.data(), without_tangent);
-      EXPECT_EQ(kernels::add_point(law, kappa, p, u.data(), sums, tangent), grows);
+      const bool grows = kernels::add_point(law, stiffness, p, u.data(), without_tangent);
+      EXPECT_EQ(kernels::add_point(law, stiffness, p, u.data(), sums, tangent), grows);
       cracked += state(0, 2) > 0;
     }
     opening += sums.opening;

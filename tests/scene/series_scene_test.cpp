@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/scene/new_scene.hpp"
+#include "host/simulation/refused_combinations.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/laws/values.hpp"
 #include "macadam/simulation.hpp"
@@ -109,7 +110,7 @@ TEST_F(SeriesScene, PairsKeepLimitsOfFacets) {
   EXPECT_EQ(scene.network.of_pair[static_cast<std::size_t>(PairType::ma)].gap_max, 0.5);
   EXPECT_EQ(scene.network.of_pair[static_cast<std::size_t>(PairType::inner)].area_min, 0.01);
   refused(good + "[[contacts]]\npair = \"M-A\"\nlaw = \"elastic\"\nE = 1e9\n",
-          {"[[contacts]] law", "only pair, gap_max"});
+          {"[[contacts]] law", "only pair, crack, gap_max"});
   refused(good + "[[contacts]]\npair = \"M-A\"\nalpha = 0.1\n", {"[[contacts]] alpha"});
   refused(good + "[[contacts]]\npair = \"M-A\"\ngap_mx = 0.1\n", {"an unknown key", "gap_max"});
   refused(good + "[[contacts]]\npair = \"M-W\"\ngap_max = 0.1\n", {"a pair with a wall"});
@@ -226,6 +227,25 @@ TEST_F(SeriesScene, PreparedSpecimen) {
   const std::string text{std::istreambuf_iterator<char>(summary), {}};
   for (const char* key : {"\"rule\"", "rock_fraction_cells", "rock_fraction_nominal", "mastic_centres_in_rock"})
     EXPECT_NE(text.find(key), std::string::npos) << key;
+}
+
+// A crack is in series with mastic and rock; only increments compute it.
+TEST_F(SeriesScene, MayCrack) {
+  const std::string strength = "[loading]\nkind = \"monotonic\"\nrate = 1\nstrain = 0.002\n";
+  const std::string crack =
+      "[[contacts]]\npair = \"M-A\"\ncrack = { tensile_strength = \"1 MPa\", fracture_energy = 300 }\n";
+  const std::string text = replaced(good, cyclic, strength) + crack;
+  const Scene scene = read(text);
+  const auto& law = std::get<laws::Cracked<laws::GeneralisedKelvin>>(law_of(scene, PairType::ma));
+  EXPECT_EQ(law.crack.fracture_energy, 300);
+  EXPECT_EQ(law.E_m, 6e9);
+  EXPECT_TRUE(std::holds_alternative<laws::GeneralisedKelvin>(law_of(scene, PairType::mm)));
+  EXPECT_EQ(scene.solver.method, SolverMethod::quasi_static);
+  refused(replaced(text, "rule = \"series\"", "rule = \"volumetric\""), {"crack", "volumetric", "pressures"});
+  refused(replaced(text, "M-A", "M-W"), {"crack", "M-W", "wall"});
+  // the rule of the network is checked against the method when a scene is run
+  const Scene stepped = read(text + "[solver]\nmethod = \"explicit\"\n");
+  EXPECT_THROW(require_combination(stepped), InputError);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ template <class R, int passes = passes_of_step>
 struct CrackSolve {
   static constexpr bool branches = passes > passes_of_step;
   SofteningCurve<R> curve;
-  R alpha;              ///< ratio of shear to normal stiffness of the law
+  R alpha;              ///< ratio of shear to normal stiffness of the law; 0: no shear stress
   R strengths;          ///< β_c·β_w
   R slip_weight;        ///< β_w
   R residual_friction;  ///< μ_r
@@ -47,15 +47,15 @@ struct CrackSolve {
   }
 
   /// Returns the stresses at the end of a step and updates the openings `w`. `normal`, `shear`: the stresses that the
-  /// law would have if the crack did not move in this step [Pa]. `kappa`: change of the normal stress per opening in
-  /// this step [Pa/m].
+  /// law would have if the crack did not move in this step [Pa]. `kappa`, `kappa_s`: change of the normal stress per
+  /// opening, and of the shear stress per slip, in this step [Pa/m].
   template <class S>
-  MACADAM_HD CrackStresses<S> operator()(const S& normal, const S (&shear)[2], const S& kappa,
+  MACADAM_HD CrackStresses<S> operator()(const S& normal, const S (&shear)[2], const S& kappa, const S& kappa_s,
                                          CrackOpenings<S>& w) const {
     const S zero(0), one(1), y = w.largest;
     // Stresses if the crack were shut and its faces had not slipped: S_n and T of (C.7).
     Closed<S> closed;
-    closed.kappa = kappa, closed.kappa_s = S(alpha) * kappa;
+    closed.kappa = kappa, closed.kappa_s = kappa_s;
     const S normal_closed = normal + kappa * w.opening;
     closed.opens = select(normal_closed > zero, normal_closed, zero);
     closed.pressure = closed.opens - normal_closed;

@@ -19,15 +19,14 @@ struct CrackTangent {
   CrackOpenings<double> w;  ///< openings at the end of the increment
   PointBranch branch;
 
-  /// Computes an increment. `normal`, `shear`: stresses if the crack did not move [Pa]; `kappa`: change of the normal
-  /// stress per opening [Pa/m]; `old`: openings at the beginning.
+  /// Computes an increment. `normal`, `shear`: stresses if the crack did not move [Pa]; `kappa`, `kappa_s`: change of
+  /// the normal stress per opening, and of the shear stress per slip [Pa/m]; `old`: openings at the beginning.
   template <int passes>
   MACADAM_HD static CrackTangent of(const CrackSolve<double, passes>& crack, double normal, const double (&shear)[2],
-                                    double kappa, const CrackOpenings<double>& old) {
+                                    double kappa, double kappa_s, const CrackOpenings<double>& old) {
     CrackTangent out{{}, {}, old, PointBranch::rests};
-    const auto stresses = crack(normal, shear, kappa, out.w);
+    const auto stresses = crack(normal, shear, kappa, kappa_s, out.w);
     out.stress[0] = stresses.normal, out.stress[1] = stresses.shear[0], out.stress[2] = stresses.shear[1];
-    const double kappa_s = crack.alpha * kappa;
     out.stiffness[0][0] = kappa, out.stiffness[1][1] = out.stiffness[2][2] = kappa_s;
     if (!(out.w.largest > 0)) return out;  // intact
 

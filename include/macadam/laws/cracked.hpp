@@ -59,20 +59,23 @@ struct Cracked : Inner {
     CrackSolve<R, passes> crack;
     R alpha, inverse_alpha;
 
-    template <int L, class S, class State>
-    MACADAM_HD void advance_point(const S (&dx)[3], S d, State&& state) const {
+    template <int L, class S, class State, class Factors = NoFactors>
+    MACADAM_HD void advance_point(const S (&dx)[3], S d, State&& state, const Factors& factors = {}) const {
       constexpr int units = L >= 0 ? L - crack_numbers : -1;
       const S over_d = S(1) / d;
       const auto unit = [&](int c) { return [&state, c](int l) -> S& { return state(c, 1 + crack_numbers + l); }; };
       const S before[3] = {state(0, 0), state(1, 0), state(2, 0)};
       S f[3];  // without motion of the crack
-      for (int c = 0; c < 3; ++c) f[c] = chain.template trial<units>(before[c], dx[c], unit(c));
+      f[0] = chain.template trial<units>(before[0], dx[0], unit(0), factors.normal);
+      for (int c = 1; c < 3; ++c) f[c] = chain.template trial<units>(before[c], dx[c], unit(c), factors.shear);
 
       const CrackOpenings<S> old{state(0, 1), {state(1, 1), state(2, 1)}, state(0, 2)};
       CrackOpenings<S> w = old;
       const S to_shear = S(alpha) * over_d;
       const S shear[2] = {to_shear * f[1], to_shear * f[2]};
-      const CrackStresses<S> stress = crack(over_d * f[0], shear, S(chain.step_stiffness()) * over_d, w);
+      const S per_opening = S(chain.step_stiffness()) * over_d;
+      const CrackStresses<S> stress =
+          crack(over_d * f[0], shear, factors.normal * per_opening, S(alpha) * (factors.shear * per_opening), w);
       const auto intact = !(w.largest > S(0));
       f[0] = select(intact, f[0], stress.normal * d);
       for (int k = 0; k < 2; ++k) f[1 + k] = select(intact, f[1 + k], stress.shear[k] * (d * S(inverse_alpha)));

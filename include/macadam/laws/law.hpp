@@ -61,7 +61,8 @@
 ///     `template <int L, class S, class State> void advance_point(const S (&dx)[3], S d, State&& state) const`. It
 ///     takes the increments of the opening and of the slips along s and t, and the contact's distance d [m], so that
 ///     f/d is the normal stress and α·f/d a shear stress. state(c, 0) is the f of component c, state(c, 1 + l) its x(l)
-///     (references); it updates all of them. L is units(), or −1 if it is only known at run time;
+///     (references); it updates all of them. L is units(), or −1 if it is only known at run time. A last argument
+///     with members `normal` and `shear`, the factors of rock in series in advance(), is needed for increments only;
 ///   - `static constexpr bool needs_double = true` — states in single precision would be too inaccurate. A stepper in
 ///     single precision refuses such a law;
 ///   - `Break break_of(const double* state) const` — for laws whose contact points can break: returns whether and how
@@ -140,6 +141,10 @@ struct NoFactor {
   MACADAM_HD friend S operator*(NoFactor, S x) {
     return x;
   }
+};
+/// The factors of normal and shear components of a contact without rock in series.
+struct NoFactors {
+  NoFactor normal, shear;
 };
 
 /// The parts of SteppableLaw as separate concepts, so that compilers name the missing one.

@@ -22,7 +22,7 @@ __global__ void __launch_bounds__(increment_threads) increment_prepare_points(In
   if (j >= d.points) return;
   const IncrementContact& c = d.contact[d.point_contact[j]];
   double base[3];
-  prepare_point(d.laws[c.pair], c.length, DeviceState{d.point_state + j, d.points, d.point_words}, base);
+  prepare_point(d.laws[c.pair], c.length, c.series, DeviceState{d.point_state + j, d.points, d.point_words}, base);
   for (int k = 0; k < 3; ++k) d.point_base[static_cast<std::size_t>(k) * d.points + j] = base[k];
 }
 
@@ -90,11 +90,11 @@ __global__ void __launch_bounds__(increment_threads)
   if (number < d.contacts) {
     const IncrementContact& c = d.contact[number];
     const IncrementLaw& law = d.laws[c.pair];
-    const double kappa = law.stiffness() / c.length;
+    const PointStiffness stiffness = PointStiffness::of(law, c.length, c.series);
     double u[6];
     d.relative(c, d.trial, wall, u);
     for (unsigned j = c.point_begin + lane; j < c.point_end; j += point_lanes)
-      d.grows[j] = add_point(law, kappa, point_start(d, j, growing_area), u, sums);
+      d.grows[j] = add_point(law, stiffness, point_start(d, j, growing_area), u, sums);
   }
   sum_lanes(sums.force);
   if (number < d.contacts && lane == 0) store_loads(d, number, sums.force);
@@ -111,11 +111,11 @@ __global__ void __launch_bounds__(increment_threads)
   if (number < d.contacts) {
     const IncrementContact& c = d.contact[number];
     const IncrementLaw& law = d.laws[c.pair];
-    const double kappa = law.stiffness() / c.length;
+    const PointStiffness stiffness = PointStiffness::of(law, c.length, c.series);
     double u[6];
     d.relative(c, d.trial, wall, u);
     for (unsigned j = c.point_begin + lane; j < c.point_end; j += point_lanes)
-      add_point(law, kappa, point_start(d, j, growing_area), u, sums, tangent);
+      add_point(law, stiffness, point_start(d, j, growing_area), u, sums, tangent);
   }
   sum_lanes(tangent.stiffness);
   sum_lanes(tangent.opening_rate);
@@ -154,12 +154,13 @@ __global__ void __launch_bounds__(increment_threads)
     const IncrementContact& c = d.contact[d.point_contact[j]];
     double u[6];
     d.relative(c, d.trial, wall, u);
-    accept_point(d.laws[c.pair], c.length, d.point_s[j], d.point_t[j], d.point_area[j], d.grows[j], u,
+    accept_point(d.laws[c.pair], c.length, c.series, d.point_s[j], d.point_t[j], d.point_area[j], d.grows[j], u,
                  DeviceState{d.point_state + j, d.points, d.point_words}, energies);
     d.grew[j] = d.grows[j];
     if (drags) {
       accept_drag(
-          d.laws[c.pair], c.length, d.point_s[j], d.point_t[j], d.point_area[j], u,
+          d.laws[c.pair], PointStiffness::of(d.laws[c.pair], c.length, c.series), d.point_s[j], d.point_t[j],
+          d.point_area[j], u,
           [&](int k) -> double& { return d.point_drag[static_cast<std::size_t>(k) * d.points + j]; }, energies);
     }
   }
