@@ -35,10 +35,13 @@ bool is_field_file(const fs::path& file) {
           name.starts_with(cracks));
 }
 
-/// Returns the strain amplitude of steady states. A sweep gives no amplitude and gets the default of a cyclic test.
-double strain_amplitude(const Scene& scene) {
+/// Returns the amplitude of the top wall in steady states: its displacement [m], or its turn [rad], with which the
+/// shear strain at the side of a cylinder has the strain amplitude. A sweep gives no strain amplitude and gets the
+/// default of a cyclic test.
+double wall_amplitude(const Scene& scene, const Domain& domain, const WallMotion& wall) {
   const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment);
-  return cyclic ? cyclic->strain_amplitude : experiments::Cyclic{}.strain_amplitude;
+  const double strain = cyclic ? cyclic->strain_amplitude : experiments::Cyclic{}.strain_amplitude;
+  return strain * gauge_length(domain) / (wall.turns() ? 0.5 * domain.size.x : 1.0);
 }
 
 FieldMesh cells_of(const Preparation& prepared) {
@@ -145,14 +148,14 @@ void FieldOutput::write(const HarmonicResult& solved, const LawTable& laws, std:
   const FieldSpec& spec = scene_.output.fields;
   std::string name = fmt::format("{}Hz", solved.frequency_hz);
   if (temperature) name += fmt::format("_{}C", *temperature);
-  const double amplitude = strain_amplitude(scene_) * gauge_length(prepared_.specimen);
+  const double amplitude = wall_amplitude(scene_, prepared_.specimen.box, solved.wall);
   if (spec.particles) {
     write_fields(stem(particles, name), spec.format, particle_mesh(prepared_.specimen, prepared_.aggregates),
                  particle_arrays(solved.motion, amplitude));
   }
   if (spec.contacts) {
     write_fields(stem(contacts, name), spec.format, contact_mesh(prepared_.specimen, prepared_.network),
-                 contact_arrays(prepared_.network, laws, solved.frequency_hz, solved.motion, amplitude));
+                 contact_arrays(prepared_.network, laws, solved.frequency_hz, solved.motion, amplitude, solved.wall));
   }
 }
 

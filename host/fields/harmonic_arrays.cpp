@@ -64,17 +64,17 @@ std::vector<FieldArray> particle_arrays(const std::vector<Complex>& motion, doub
 
 std::vector<FieldArray> contact_arrays(const ContactNetwork& network,
                                        const std::array<std::optional<Law>, pair_types>& laws, double frequency_hz,
-                                       const std::vector<Complex>& motion, double amplitude) {
+                                       const std::vector<Complex>& motion, double amplitude, const WallMotion& wall) {
   const Complex s(0, 2 * std::numbers::pi * frequency_hz);
   const harmonic::PairStiffness stiffness = harmonic::pair_stiffness(laws, s);
   const std::size_t contacts = network.contacts.size();
   // `acting` is `relative` with the additional displacement that pressures of cells cause (rule "volumetric")
   std::vector<std::array<Complex, 6>> relative(contacts), acting(contacts);
   std::vector<kernels::FacetLoad<Complex>> load(contacts);
-  const harmonic::Vector pressures = harmonic::cell_pressures(network, stiffness, motion, 1.0);
+  const harmonic::Vector pressures = harmonic::cell_pressures(network, stiffness, motion, wall);
 #pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < contacts; ++c) {
-    relative[c] = harmonic::relative_motion(network.contacts[c], motion, 1.0);
+    relative[c] = harmonic::relative_motion(network.contacts[c], motion, wall);
     acting[c] = relative[c];
     harmonic::add_pressure_shift(network.contacts[c], pressures, acting[c]);
     for (Complex& x : relative[c]) x *= amplitude;

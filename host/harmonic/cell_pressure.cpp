@@ -10,7 +10,7 @@ CentroidLever centroid_lever(const Contact& c, bool first_end) {
 }
 
 Vector cell_pressures(const ContactNetwork& network, const PairStiffness& stiffness, const Vector& motion,
-                      Complex wall) {
+                      const WallMotion& wall) {
   Vector out(network.cells.size());
 // dynamic, because large particles have hundreds of contacts each and have consecutive numbers
 #pragma omp parallel for schedule(dynamic, 64)

@@ -23,10 +23,10 @@ struct CentroidLever {
 /// Returns the centroid of the contact's facet as seen from its first or its second end.
 CentroidLever centroid_lever(const Contact& contact, bool first_end);
 
-/// Returns P of every particle if the particles move by `motion` and the top wall by `wall` along z. Returns an empty
-/// vector if cells do not resist changes of volume.
+/// Returns P of every particle if the particles move by `motion` and the walls by `wall`. Returns an empty vector if
+/// cells do not resist changes of volume.
 Vector cell_pressures(const ContactNetwork& network, const PairStiffness& stiffness, const Vector& motion,
-                      Complex wall);
+                      const WallMotion& wall);
 
 /// Returns the additional relative displacement of a contact along n, s and t [m], in the order of the relative
 /// displacements 0, 3 and 4. `pressures` is the result of cell_pressures(); if it is empty, the result is zero.

@@ -34,8 +34,9 @@ class Check {
     for (int f = 0; f < at_once; ++f) {  // with fewer than four tasks, the last task also fills the remaining lanes
       const LinearTask& task = *tasks[std::min(static_cast<std::size_t>(f), tasks.size() - 1)];
       motion_[f] = task.motion.data();
+      wall_[f] = &task.wall;
       if (!network.cells.empty() && (f == 0 || static_cast<std::size_t>(f) < tasks.size()))
-        pressures_[f] = cell_pressures(network, task.stiffness, task.motion, 1.0);
+        pressures_[f] = cell_pressures(network, task.stiffness, task.motion, task.wall);
       for (std::size_t pair = 0; pair < pair_types; ++pair) {
         k_[pair].set(f, task.stiffness.k[pair]);
         alpha_[pair] = task.stiffness.alpha[pair];
@@ -78,7 +79,7 @@ class Check {
     PairProducts pairs[pair_types];
     Products<at_once> rest_squared, motion_squared;
     for (std::size_t i = begin; i < end; ++i) {
-      const Twist<L> own = motion_of([i](int) { return static_cast<std::int32_t>(i); });
+      const Twist<L> own = motion_of([this, i](int f) { return of_particle(f, static_cast<std::int32_t>(i)); });
       const Total total = loads_on(i, own, pairs);
       L x[6], rest[6];
       kernels::to_array(own, x);
@@ -119,19 +120,32 @@ class Check {
     }
   }
 
-  /// Returns the motion of the particle or wall `end(f)`, which may differ from lane to lane if `single`.
-  template <class End>
-  Twist<L> motion_of(End&& end) const {
-    static constexpr Complex at_rest[6] = {}, moved[6] = {0, 0, 1, 0, 0, 0};
+  /// Returns the six numbers of a particle's motion in the solution of lane f.
+  const Complex* of_particle(int f, std::int32_t particle) const {
+    return motion_[single ? 0 : f] + 6 * static_cast<std::size_t>(particle);
+  }
+
+  /// Returns the motion whose six numbers `numbers(f)` are those of lane f.
+  template <class Numbers>
+  static Twist<L> motion_of(Numbers&& numbers) {
     const Complex* motion[at_once];
-    for (int f = 0; f < at_once; ++f) {
-      const std::int32_t particle = end(single ? f : 0);
-      motion[f] = particle >= 0 ? motion_[single ? 0 : f] + 6 * static_cast<std::size_t>(particle)
-                                : (particle == wall_z_hi ? moved : at_rest);
-    }
+    for (int f = 0; f < at_once; ++f) motion[f] = numbers(f);
     L x[6];
     for (int c = 0; c < 6; ++c) x[c] = complex_lanes([&](int f) { return motion[f][c]; });
     return kernels::to_twist(x);
+  }
+
+  /// Returns the motions of the far ends of a group's contacts, which are particles or walls.
+  Twist<L> motion_of_far_ends(const Group& g) const {
+    Complex of_wall[at_once][6] = {};
+    return motion_of([&](int f) -> const Complex* {
+      const int contact = single ? f : 0;
+      if (g.far[contact] >= 0) return of_particle(f, g.far[contact]);
+      const WallMotion::Rigid moved = wall_[single ? 0 : f]->at(*g.contact[contact]);
+      of_wall[f][0] = moved.displacement.x, of_wall[f][1] = moved.displacement.y, of_wall[f][2] = moved.displacement.z;
+      of_wall[f][3] = moved.rotation.x, of_wall[f][4] = moved.rotation.y, of_wall[f][5] = moved.rotation.z;
+      return of_wall[f];
+    });
   }
 
   /// Returns the loads of all contacts of a particle, and adds the products of load and relative displacement to
@@ -163,7 +177,7 @@ class Check {
   /// Adds the loads of a group of contacts to `out`, and their products with the relative displacements to `pairs`.
   /// `own` is the motion of the particle.
   void add_loads(const Group& g, const Twist<L>& own, Total& out, PairProducts (&pairs)[pair_types]) const {
-    const Twist<L> other = motion_of([&](int f) { return g.far[f]; });
+    const Twist<L> other = motion_of_far_ends(g);
     const kernels::Placement<L> frame = frame_of(g);
     L m[6];
     moments_over_length(g, m);
@@ -232,6 +246,7 @@ class Check {
   const Inertia& inertia_;
   double rounding_;
   const Complex* motion_[at_once];
+  const WallMotion* wall_[at_once];
   std::array<Vector, at_once> pressures_;  ///< of cells, for each solution; empty without cells that resist
   std::size_t last_ = 0;                   ///< index of the last solution
   Factor<at_once> k_[pair_types], mass_factor_{};

@@ -9,7 +9,7 @@
 
 namespace macadam::harmonic {
 
-/// Results of the check of a solution u, in which the top wall moves by one unit of length.
+/// Results of the check of a solution u, in which the top wall moves by one unit (LinearTask::wall).
 struct SolutionCheck {
   double residual = 0;         ///< ‖f − (K* − inertia·M)·u‖ [N]
   double beyond_rounding = 0;  ///< the residual without the parts that rounding explains [N]

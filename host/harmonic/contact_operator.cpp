@@ -27,20 +27,21 @@ PairStiffness pair_stiffness(const LawTable& laws, Complex s) {
 
 namespace {
 
-/// Returns the six relative displacements of a contact. `a` and `b` are the motions of its two ends (six numbers each),
-/// or nullptr for a wall. `wall` is the displacement of the top wall along z.
-std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const Complex* b, Complex wall) {
-  const auto twist = [&](std::int32_t end, const Complex* x, auto part) -> kernels::Twist<double> {
-    if (x) return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
-    return {{0, 0, end == wall_z_hi ? part(wall) : 0.0}, {}};
-  };
+/// Returns the six relative displacements of a contact. `a` and `b` are the motions of its two ends (six numbers each);
+/// `b` is nullptr for a wall, which moves by `wall`.
+std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const Complex* b, const WallMotion& wall) {
+  const WallMotion::Rigid at_wall = b ? WallMotion::Rigid{} : wall.at(c);
   std::array<Complex, 6> out;
-  const auto rates = [&](auto part, auto&& set) {
-    const auto u = kernels::relative_displacements(c, twist(c.a, a, part), twist(c.b, b, part));
+  const auto rates = [&](auto part, const WallMotion::Rigid& of_wall, auto&& set) {
+    const auto twist = [&](const Complex* x) -> kernels::Twist<double> {
+      if (!x) return {of_wall.displacement, of_wall.rotation};
+      return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
+    };
+    const auto u = kernels::relative_displacements(c, twist(a), twist(b));
     for (std::size_t i = 0; i < 6; ++i) set(out[i], u[i]);
   };
-  rates([](Complex z) { return z.real(); }, [](Complex& z, double v) { z.real(v); });
-  rates([](Complex z) { return z.imag(); }, [](Complex& z, double v) { z.imag(v); });
+  rates([](Complex z) { return z.real(); }, at_wall, [](Complex& z, double v) { z.real(v); });
+  rates([](Complex z) { return z.imag(); }, {}, [](Complex& z, double v) { z.imag(v); });
   return out;
 }
 
@@ -64,7 +65,7 @@ double length(const Loads& loads) {
   return std::sqrt(squares);
 }
 
-std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, Complex wall) {
+std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, const WallMotion& wall) {
   const auto of = [&](std::int32_t end) { return end >= 0 ? &motion[6 * static_cast<std::size_t>(end)] : nullptr; };
   return relative_motion(c, of(c.a), of(c.b), wall);
 }
@@ -117,25 +118,25 @@ ContactOperator::ContactOperator(const ContactNetwork& network, std::size_t part
                    [&](std::uint32_t x, std::uint32_t y) { return network.contacts[x].a < network.contacts[y].a; });
 }
 
-Loads ContactOperator::wall_loads(const PairStiffness& stiffness) const {
+Loads ContactOperator::wall_loads(const PairStiffness& stiffness, const WallMotion& wall) const {
   const Complex rest[6] = {};
-  if (!network_.cells.empty()) return wall_loads_of_cells(stiffness);
+  if (!network_.cells.empty()) return wall_loads_of_cells(stiffness, wall);
   Loads out;
   for (const std::uint32_t number : on_top_) {
     const Contact& c = network_.contacts[number];
-    const Load load = contact_load(c, stiffness, relative_motion(c, rest, nullptr, 1.0));
+    const Load load = contact_load(c, stiffness, relative_motion(c, rest, nullptr, wall));
     if (out.empty() || out.back().particle != c.a) out.push_back({c.a, {}});
     for (std::size_t k = 0; k < 6; ++k) out.back().load[k] += load.a[k];
   }
   return out;
 }
 
-Loads ContactOperator::wall_loads_of_cells(const PairStiffness& stiffness) const {
+Loads ContactOperator::wall_loads_of_cells(const PairStiffness& stiffness, const WallMotion& wall) const {
   const Vector at_rest(6 * particles_);
-  const Vector pressures = cell_pressures(network_, stiffness, at_rest, 1.0);
+  const Vector pressures = cell_pressures(network_, stiffness, at_rest, wall);
   Loads out;
   for (std::size_t i = 0; i < particles_; ++i) {
-    const auto load = load_on(i, stiffness, at_rest, 1.0, pressures);
+    const auto load = load_on(i, stiffness, at_rest, wall, pressures);
     if (std::any_of(load.begin(), load.end(), [](const Complex& z) { return z != 0.0; }))
       out.push_back({static_cast<std::int32_t>(i), load});
   }
@@ -143,7 +144,8 @@ Loads ContactOperator::wall_loads_of_cells(const PairStiffness& stiffness) const
 }
 
 std::array<Complex, 6> ContactOperator::load_on(std::size_t particle, const PairStiffness& stiffness,
-                                                const Vector& motion, Complex wall, const Vector& pressures) const {
+                                                const Vector& motion, const WallMotion& wall,
+                                                const Vector& pressures) const {
   std::array<Complex, 6> out{};
   for (const std::uint32_t number : network_.row(particle)) {
     const Contact& c = network_.contacts[number];
@@ -159,25 +161,31 @@ std::array<Complex, 6> ContactOperator::load_on(std::size_t particle, const Pair
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
                                  const Vector& motion, Vector& out) const {
   out.resize(6 * particles_);
-  const Vector pressures = cell_pressures(network_, stiffness, motion, 0.0);
+  const WallMotion at_rest = WallMotion::at_rest();
+  const Vector pressures = cell_pressures(network_, stiffness, motion, at_rest);
 // dynamic, because large particles have hundreds of contacts each and have consecutive numbers
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t i = 0; i < particles_; ++i) {
-    const auto load = load_on(i, stiffness, motion, 0.0, pressures);
+    const auto load = load_on(i, stiffness, motion, at_rest, pressures);
     for (std::size_t k = 0; k < 6; ++k) {
       out[6 * i + k] = -load[k] - factor * inertia_at(inertia, 6 * i + k) * motion[6 * i + k];
     }
   }
 }
 
-Complex ContactOperator::bottom_force(const PairStiffness& stiffness, const Vector& motion) const {
+Complex ContactOperator::bottom_load(const PairStiffness& stiffness, const Vector& motion,
+                                     const WallMotion& wall) const {
   Complex out = 0;
-  const Vector pressures = cell_pressures(network_, stiffness, motion, 1.0);
+  const Vector pressures = cell_pressures(network_, stiffness, motion, wall);
   for (const std::uint32_t c : on_bottom_) {
     const Contact& contact = network_.contacts[c];
-    std::array<Complex, 6> u = relative_motion(contact, motion, 0.0);
+    std::array<Complex, 6> u = relative_motion(contact, motion, wall);
     add_pressure_shift(contact, pressures, u);
-    out += contact_load(contact, stiffness, u).a[2];
+    // the work of the load in a rigid motion of the particle with the top wall, per unit of this motion
+    const Load load = contact_load(contact, stiffness, u);
+    const WallMotion::Rigid moved = wall.of_particle(contact);
+    out += load.a[0] * moved.displacement.x + load.a[1] * moved.displacement.y + load.a[2] * moved.displacement.z +
+           load.a[3] * moved.rotation.x + load.a[4] * moved.rotation.y + load.a[5] * moved.rotation.z;
   }
   return out;
 }

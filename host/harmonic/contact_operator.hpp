@@ -50,9 +50,9 @@ PairStiffness pair_stiffness(const LawTable& laws, double) = delete;
 /// its law, or of its law in series with rock.
 std::array<Complex, 2> contact_stiffness(const Contact& contact, const PairStiffness& stiffness);
 
-/// Returns the six relative displacements of a contact (Eq. 8 about x0) if the particles move by `motion` and the top
-/// wall moves by `wall` along z.
-std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& motion, Complex wall);
+/// Returns the six relative displacements of a contact (Eq. 8 about x0) if the particles move by `motion` and the walls
+/// by `wall`.
+std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& motion, const WallMotion& wall);
 
 /// Returns the load of a contact's springs at given relative displacements: force on its first end and moment about x0,
 /// both along (n, s, t).
@@ -67,9 +67,8 @@ class ContactOperator {
  public:
   ContactOperator(const ContactNetwork& network, std::size_t particles);
 
-  /// Returns f, the forces and moments on the particles if the particles are at rest and the top wall moves by one unit
-  /// along z.
-  Loads wall_loads(const PairStiffness& stiffness) const;
+  /// Returns f, the forces and moments on the particles if the particles are at rest and the walls move by `wall`.
+  Loads wall_loads(const PairStiffness& stiffness, const WallMotion& wall = {}) const;
 
   /// Computes out = (K* − factor·M)·motion, the loads that must act on the particles for this motion, with factor =
   /// −(s² + s·β)·density scaling. Each particle sums its own contacts in a fixed order, so that the result does not
@@ -77,8 +76,9 @@ class ContactOperator {
   void resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia, const Vector& motion,
                   Vector& out) const;
 
-  /// Returns the force along z that the contacts of the bottom wall, which is at rest, exert on the particles.
-  Complex bottom_force(const PairStiffness& stiffness, const Vector& motion) const;
+  /// Returns the load that the contacts of the bottom wall, which is at rest, exert on the particles: the force along z
+  /// [N], or the torque about the axis [N·m] if the top wall turns. `wall` is the motion of the walls.
+  Complex bottom_load(const PairStiffness& stiffness, const Vector& motion, const WallMotion& wall = {}) const;
 
  private:
   struct Load {
@@ -87,14 +87,14 @@ class ContactOperator {
   /// Returns the loads on both ends of a contact with relative displacements `u`.
   static Load contact_load(const Contact& contact, const PairStiffness& stiffness, const std::array<Complex, 6>& u);
 
-  /// Returns the load that the contacts of a particle exert on it if the particles move by `motion`, the top wall moves
-  /// by `wall` along z, and the cells have the given pressures (cell_pressures()).
+  /// Returns the load that the contacts of a particle exert on it if the particles move by `motion`, the walls by
+  /// `wall`, and the cells have the given pressures (cell_pressures()).
   std::array<Complex, 6> load_on(std::size_t particle, const PairStiffness& stiffness, const Vector& motion,
-                                 Complex wall, const Vector& pressures) const;
+                                 const WallMotion& wall, const Vector& pressures) const;
 
   /// Returns the result of wall_loads() for a network whose cells resist changes of volume. In such a network the cells
   /// at the wall press on their neighbours.
-  Loads wall_loads_of_cells(const PairStiffness& stiffness) const;
+  Loads wall_loads_of_cells(const PairStiffness& stiffness, const WallMotion& wall) const;
 
   const ContactNetwork& network_;
   std::size_t particles_;

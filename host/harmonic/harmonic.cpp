@@ -157,7 +157,8 @@ class Harmonic::Implementation {
     LinearTask& task = out.task;
     task.stiffness = pair_stiffness(laws_, s);
     task.inertia = -load.density_scaling * (s * s + s * load.viscous_damping);
-    task.right = contacts_.wall_loads(task.stiffness);
+    task.wall = load.top;
+    task.right = contacts_.wall_loads(task.stiffness, task.wall);
     // stricter than the option, because rounding makes the solver's own residual differ from the true one
     task.tolerance = 0.3 * options_.tolerance;
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -257,22 +258,23 @@ class Harmonic::Implementation {
         to_string(w.method), larger);
   }
 
-  /// Returns the result of a solved task. The reaction of the top wall at unit displacement is uᵀ·(K* − inertia·M)·u,
+  /// Returns the result of a solved task. The reaction of the top wall at unit motion is uᵀ·(K* − inertia·M)·u,
   /// without conjugates. In this form the error of the solution enters squared, and nothing cancels when the wall is
   /// far stiffer than the specimen.
   HarmonicResult result_of(Work& w, const HarmonicLoad& load) const {
     const LinearTask& task = w.task;
     const Vector& x = task.motion;
     HarmonicResult out;
-    out.pressures = cell_pressures(network_, task.stiffness, x, 1.0);
+    out.pressures = cell_pressures(network_, task.stiffness, x, task.wall);
     out.parts = w.parts;
-    add_phase_derivatives(network_, task.stiffness, x, out.pressures, out.parts);
+    add_phase_derivatives(network_, task.stiffness, x, task.wall, out.pressures, out.parts);
     const double top = std::abs(out.parts.modulus());
-    const double to_modulus =
-        // converts the reaction at unit displacement into stress over strain
-        gauge_length(specimen_) / section_area(specimen_);
+    // converts the reaction at unit displacement into stress over strain, or the torque at unit turn into G*
+    const double section = task.wall.turns() ? specimen_.box.torsion_constant().value() : section_area(specimen_);
+    const double to_modulus = gauge_length(specimen_) / section;
     out.frequency_hz = load.frequency_hz;
     out.growth = load.growth;
+    out.wall = task.wall;
     out.linear = w.method;
     out.residual = w.residual;
     out.iterations = task.iterations;
@@ -284,7 +286,7 @@ class Harmonic::Implementation {
                           &out.parts.rock_poisson_ratio})
       *part *= to_modulus;
     out.top = modulus(out.parts.modulus());
-    out.bottom = modulus(-to_modulus * contacts_.bottom_force(task.stiffness, x));
+    out.bottom = modulus(-to_modulus * contacts_.bottom_load(task.stiffness, x, task.wall));
     if (task.inertia == 0.0 && w.method == LinearMethod::direct) {
       for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.force(x));
       out.held_force /= top;

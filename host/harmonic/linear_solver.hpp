@@ -21,6 +21,7 @@ namespace macadam::harmonic {
 struct LinearTask {
   PairStiffness stiffness;
   Complex inertia = 0;   ///< −(s² + s·β)·density scaling; 0: without inertia
+  WallMotion wall;       ///< motion of the walls, which causes the load
   Loads right;           ///< f; particles that are not listed have no load
   double tolerance = 0;  ///< largest accepted ‖f − K·u‖ / ‖f‖
   /// Largest accepted rᴴ·P⁻¹·r, where P is the solver's preconditioner.

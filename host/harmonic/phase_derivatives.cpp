@@ -38,7 +38,7 @@ struct ProductsOfPairs : std::array<PairParts, pair_types> {
 
 /// Returns F·v of each pair type.
 ProductsOfPairs products_with_pressures(const ContactNetwork& network, const PairStiffness& stiffness,
-                                        const Vector& motion, const Vector& pressures) {
+                                        const Vector& motion, const WallMotion& wall, const Vector& pressures) {
   constexpr std::size_t range = 1 << 12;  // number of contacts that one thread sums at a time
   const std::size_t contacts = network.contacts.size(), ranges = (contacts + range - 1) / range;
   std::vector<ProductsOfPairs> sums(ranges);
@@ -46,7 +46,7 @@ ProductsOfPairs products_with_pressures(const ContactNetwork& network, const Pai
     for (std::size_t i = k * range; i < std::min(contacts, (k + 1) * range); ++i) {
       const Contact& c = network.contacts[i];
       const auto pair = static_cast<std::size_t>(c.pair);
-      const auto load = facet_load(c, stiffness, relative_motion(c, motion, 1.0));
+      const auto load = facet_load(c, stiffness, relative_motion(c, motion, wall));
       const auto v = pressure_shift(c, pressures);
       const auto of_contact = contact_stiffness(c, stiffness);
       const Complex normal = load.n * v[0], shear = load.s * v[1] + load.t * v[2];
@@ -84,12 +84,12 @@ CellSums sums_over_cells(const ContactNetwork& network, const PairStiffness& sti
 }  // namespace
 
 void add_phase_derivatives(const ContactNetwork& network, const PairStiffness& stiffness, const Vector& motion,
-                           const Vector& pressures, ModulusParts& parts) {
+                           const WallMotion& wall, const Vector& pressures, ModulusParts& parts) {
   if (!has_laws_of_phases(network.rule)) return;
   ProductsOfPairs products;
   parts.pressure_of_mastic = 0;
   if (!pressures.empty()) {
-    products = products_with_pressures(network, stiffness, motion, pressures);
+    products = products_with_pressures(network, stiffness, motion, wall, pressures);
     for (std::size_t pair = 0; pair < pair_types; ++pair)
       if (is_of_mastic(static_cast<PairType>(pair))) parts.pressure_of_mastic += products[pair].law();
   }

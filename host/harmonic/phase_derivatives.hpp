@@ -8,10 +8,10 @@
 namespace macadam::harmonic {
 
 /// Sets `pressure_of_mastic`, `mastic_poisson_ratio` and `rock_poisson_ratio` of `parts`. `parts` must contain the
-/// other parts of the solution `motion`, in which the top wall moves by one. All parts are in the unit of uᵀ·K·u,
+/// other parts of the solution `motion`, in which the walls move by `wall`. All parts are in the unit of uᵀ·K·u,
 /// before they are multiplied by height over cross-section. `pressures` is the result of cell_pressures() for this
 /// solution. Changes nothing for networks with the rule "centres".
 void add_phase_derivatives(const ContactNetwork& network, const PairStiffness& stiffness, const Vector& motion,
-                           const Vector& pressures, ModulusParts& parts);
+                           const WallMotion& wall, const Vector& pressures, ModulusParts& parts);
 
 }  // namespace macadam::harmonic

@@ -52,7 +52,7 @@ StartState steady_start(const ContactNetwork& network, const LawTable& laws,
     double* chain = &out.chain[out.chain_begin[i]];
     const auto stiffness = contact_stiffness(c, of_pairs);
     const std::array<Complex, 2> force{before * stiffness[0], before * stiffness[1]};  // per relative displacement
-    const auto motions = relative_motion(c, motion, 1.0);
+    const auto motions = relative_motion(c, motion, WallMotion{});
     for (std::size_t component = 0; component < motions.size(); ++component) {
       const Complex f = force[component / 3] * motions[component];
       *chain++ = f.imag();

@@ -20,6 +20,7 @@
 #include "macadam/laws/all.hpp"
 #include "macadam/specimen.hpp"
 #include "macadam/stepper.hpp"
+#include "macadam/wall_motion.hpp"
 #include "macadam/tessellation.hpp"
 
 namespace macadam {
@@ -102,9 +103,10 @@ std::vector<FieldArray> crack_arrays(const ContactNetwork& network, const FactsT
 /// have the real part, imaginary part, magnitude and phase of z.
 std::vector<FieldArray> particle_arrays(const std::vector<std::complex<double>>& motion, double amplitude);
 /// Returns the arrays of the contacts in a steady state. Forces are computed from the complex stiffness of the laws at
-/// the frequency, with the initial geometry.
+/// the frequency, with the initial geometry. `wall` is HarmonicResult::wall.
 std::vector<FieldArray> contact_arrays(const ContactNetwork& network, const LawTable& laws, double frequency_hz,
-                                       const std::vector<std::complex<double>>& motion, double amplitude);
+                                       const std::vector<std::complex<double>>& motion, double amplitude,
+                                       const WallMotion& wall = {});
 
 /// A file to which frames are added. After each frame the file is complete, even if the program is then killed.
 class FieldSeries {

@@ -22,6 +22,7 @@
 #include "macadam/results.hpp"
 #include "macadam/sensitivity.hpp"
 #include "macadam/stepper.hpp"
+#include "macadam/wall_motion.hpp"
 
 namespace macadam {
 
@@ -52,12 +53,15 @@ struct HarmonicLoad {
   /// Initial solution: HarmonicResult::motion of a similar problem, or nullptr.
   const std::vector<std::complex<double>>* near = nullptr;
 
+  WallMotion top = {};  ///< motion of the top wall; all other walls are at rest
+
   std::complex<double> s() const { return {growth, 2 * std::numbers::pi * frequency_hz}; }
 };
 
-/// Result of one problem.
+/// Result of one problem. If the top wall turns, the modulus is the shear modulus G*, and the reactions are torques.
 struct HarmonicResult {
   double frequency_hz = 0, growth = 0;  ///< as in the problem (HarmonicLoad)
+  WallMotion wall = {};                 ///< as in the problem (HarmonicLoad::top)
   Stiffness top;                        ///< from the reaction of the top wall, computed from the energy of the motion
   Stiffness bottom;                     ///< from the reaction of the bottom wall; equal to `top` without inertia
   ModulusParts parts;                   ///< parts of E*; their sum is the complex modulus of `top`
@@ -70,10 +74,10 @@ struct HarmonicResult {
   /// is only a rounding error.
   double held_force = 0;
   double seconds = 0;
-  /// Complex displacement and rotation of each particle (ux uy uz θx θy θz) per unit displacement of the top wall.
+  /// Complex displacement and rotation of each particle (ux uy uz θx θy θz) per unit motion of the top wall.
   std::vector<std::complex<double>> motion;
-  /// With the rule "volumetric": pressure of each cell over 2μ, per unit displacement of the top wall [1/m]; otherwise
-  /// empty. Pressures are positive in tension.
+  /// With the rule "volumetric": pressure of each cell over 2μ, per unit motion of the top wall [1/m]; otherwise empty.
+  /// Pressures are positive in tension.
   std::vector<std::complex<double>> pressures;
 };
 

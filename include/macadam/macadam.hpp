@@ -44,6 +44,7 @@
 #include "macadam/quasi_static.hpp"
 #include "macadam/results.hpp"
 #include "macadam/sensitivity.hpp"
+#include "macadam/wall_motion.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/simulation.hpp"
 #include "macadam/run_many.hpp"

@@ -48,7 +48,7 @@ SolutionCheck one_by_one(const TestScene& scene, const LinearTask& task) {
     out.inertia += harmonic::inertia_at(scene.inertia, i) * task.motion[i] * task.motion[i];
   }
   for (const Contact& c : scene.network.contacts) {
-    const std::array<Complex, 6> u = harmonic::relative_motion(c, task.motion, 1.0);
+    const std::array<Complex, 6> u = harmonic::relative_motion(c, task.motion, task.wall);
     const auto load = harmonic::facet_load(c, task.stiffness, u);
     const auto pair = static_cast<std::size_t>(c.pair);
     out.parts.normal[pair] += load.n * u[0] - load.moment_t * u[1] + load.moment_s * u[2];

@@ -234,7 +234,7 @@ TEST(ContactOperator, EveryWallContactCountsOnceInALargeNetwork) {
   ASSERT_EQ(loads.size(), 1);
   EXPECT_EQ(loads[0].particle, 0);
   EXPECT_EQ(loads[0].load, (std::array<Complex, 6>{0, 0, of_an_area * area[1], 0, 0, 0}));
-  EXPECT_EQ(contacts.bottom_force(stiffness, {0, 0, 1, 0, 0, 0}), -of_an_area * area[0]);
+  EXPECT_EQ(contacts.bottom_load(stiffness, {0, 0, 1, 0, 0, 0}), -of_an_area * area[0]);
 }
 
 TEST(Harmonic, MechanismIsRefused) {

@@ -44,7 +44,7 @@ Complex weighted_loads(const Specimen& specimen, const ContactNetwork& network, 
   Complex sum = 0;
   for (const Contact& c : network.contacts) {
     if (c.b >= 0) continue;
-    const auto load = harmonic::facet_load(c, stiffness, harmonic::relative_motion(c, state.motion, 1.0));
+    const auto load = harmonic::facet_load(c, stiffness, harmonic::relative_motion(c, state.motion, state.wall));
     const auto component = [&c](const Complex& n, const Complex& s, const Complex& t, double Vec3d::*axis) {
       return n * (c.n.*axis) + s * (c.s.*axis) + t * (c.t.*axis);
     };

@@ -38,6 +38,9 @@ struct Cylinder {
 
   double section_area(const Vec3d& size, int axis) const { return axis == 2 ? circle_area(size) : size.x * size.z; }
 
+  /// Returns the polar moment of the section, π·r⁴/2 [m⁴].
+  double torsion_constant(const Vec3d& size) const { return circle_area(size) * size.x * size.x / 8; }
+
   SmallestDimension smallest_dimension(const Vec3d& size) const {
     return {std::min(size.x, size.z), "the smaller of diameter and height"};
   }

@@ -2,6 +2,7 @@
 /// \file domain.hpp  Defines the region of a specimen: a shape in its bounding box.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -62,6 +63,17 @@ struct Domain {
   /// Returns the area of the section perpendicular to an axis (0 to 2) through the middle of the bounding box [m²].
   double section_area(int axis = 2) const {
     return ask([&](const auto& s) { return s.section_area(size, axis); });
+  }
+  /// Returns the torsion constant J of the section perpendicular to z [m⁴]: the torque is G·J times the turn per
+  /// length. Empty for all shapes except a cylinder, whose J is the polar moment of its section.
+  std::optional<double> torsion_constant() const {
+    return ask([&](const auto& s) -> std::optional<double> {
+      if constexpr (requires { s.torsion_constant(Vec3d{}); }) {
+        return s.torsion_constant(size);
+      } else {
+        return {};
+      }
+    });
   }
   /// Returns the extent along an axis (0 to 2) [m]; along z it is the distance of the two platens.
   double gauge_length(int axis = 2) const { return axis == 0 ? size.x : axis == 1 ? size.y : size.z; }
