@@ -66,8 +66,9 @@ std::vector<Part> specimen_of(NewKind kind) {
 
 Given chain(const char* key, const char* value) { return {key, value}; }
 
-/// Returns the contact laws. `cracks`: whether contacts between particles have cracks.
-std::vector<Part> contacts_of(NewKind kind, bool cracks) {
+/// Returns the contact laws. `cracks`: whether contacts between particles have cracks. `glued`: whether the walls have
+/// shear stiffness.
+std::vector<Part> contacts_of(NewKind kind, bool cracks, bool glued) {
   const std::string kelvin = R"("generalised_kelvin")", elastic = R"("elastic")";
   std::vector<Part> out{
       {"[[contacts]]",
@@ -108,8 +109,10 @@ std::vector<Part> contacts_of(NewKind kind, bool cracks) {
                             R"({ tensile_strength = "2 MPa", fracture_energy = 60.0, friction = 0.6 })"};
     for (std::size_t pair = 0; pair < std::size(values); ++pair) out[pair].given.push_back({"crack", values[pair]});
   }
-  add("A-W", "1.151e11", "0.0", "Walls without shear stiffness, along which the specimen slides freely.");
-  add("M-W", "3.511e10", "0.0", "");
+  add("A-W", "1.151e11", glued ? "0.05" : "0.0",
+      glued ? "Platens that are glued to the specimen."
+            : "Walls without shear stiffness, along which the specimen slides freely.");
+  add("M-W", "3.511e10", glued ? "0.1" : "0.0", "");
   return out;
 }
 
@@ -155,6 +158,7 @@ void set_domain(Part& specimen, const std::string& test) {
     replace_box(specimen, "beam", {{"length", R"("120 mm")"}, {"width", R"("20 mm")"}, {"height", R"("20 mm")"}});
   if (test == "semicircular_bending")
     replace_box(specimen, "half_disc", {{"diameter", R"("60 mm")"}, {"thickness", R"("20 mm")"}});
+  if (test == "torsion") replace_box(specimen, "cylinder", {{"diameter", R"("24 mm")"}, {"height", R"("40 mm")"}});
 }
 
 /// Returns the notch of a half disc, which the test of half discs usually has.
@@ -177,8 +181,8 @@ Part loading_of(const std::string& test, bool cracks) {
   if (test == "indirect_tension") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "indirect_tensile_strength") give("displacement", R"("0.4 mm")"), give("points", "100");
   if (test == "semicircular_bending") give("displacement", R"("0.3 mm")"), give("points", "100");
-  if (test == "bending") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
-  if (test == "sweep") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
+  if (test == "bending" || test == "sweep" || test == "torsion")
+    give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
   if (test == "monotonic" && cracks) give("rate", "1.0"), give("strain", "5e-3"), give("points", "100");
@@ -228,7 +232,7 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
         "semicircular_bending, which measure a strength",
         test));
   }
-  if ((test == "indirect_tension" || test == "bending") && rule == ContactRule::volumetric)
+  if ((test == "indirect_tension" || test == "bending" || test == "torsion") && rule == ContactRule::volumetric)
     throw InputError("--test: found " + test + " with --rule volumetric, expected --rule series or centres");
   std::vector<Part> parts = specimen_of(kind);
   set_domain(parts.front(), test);
@@ -243,7 +247,7 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
     append({{"[materials]", {}},
             {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
             {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
-  if (!of_phases) append(contacts_of(kind, cracks));
+  if (!of_phases) append(contacts_of(kind, cracks, test == "torsion"));
   std::vector<std::string> not_set{"tolerance", "density_scaling", "safety",   "time_step", "damping", "damping_kind",
                                    "form",      "geometry",        "precision"};
   if (of_strength) not_set.insert(not_set.end(), {"linear", "inertia"});  // keys of time steps

@@ -196,6 +196,8 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const PairCracks&
           "law = \"generalised_kelvin\" or \"elastic\" and poisson_ratio, or with the key from");
   require(!scene.specimen.aggregate.empty(), rock, "aggregate", "law = \"elastic\" and E");
   scene.mastic_source = phases.source;
+  // Frictionless platens, as in [1]. The platens that turn a cylinder are glued to it.
+  const double alpha_of_platens = std::holds_alternative<experiments::Torsion>(scene.experiment) ? 1 : 0;
   const auto set = [&](PairType pair, const Law& law, const laws::Shift& shift) {
     const auto& crack = cracks[static_cast<std::size_t>(pair)];
     scene.laws[static_cast<std::size_t>(pair)] = crack ? with_crack(law, *crack) : law;
@@ -205,7 +207,7 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const PairCracks&
   if (mastic) {
     const double nu = *scene.materials.mastic_poisson_ratio;
     set(PairType::mm, *phases.mastic, phases.shift);
-    set(PairType::mw, with_alpha(*phases.mastic, 0), phases.shift);  // frictionless platens, as in [1]
+    set(PairType::mw, with_alpha(*phases.mastic, alpha_of_platens), phases.shift);
     if (rock) {
       set(PairType::ma, *phases.mastic, phases.shift);
       // A film between two aggregates is held at its faces: λ + 2μ resists its opening and μ its slip.
@@ -215,7 +217,7 @@ void set_laws_of_phases(Scene& scene, const PhaseLaws& phases, const PairCracks&
   if (rock) {
     const laws::Elastic law{*phases.rock_modulus, 1};
     set(PairType::inner, law, laws::NoShift{});
-    set(PairType::aw, with_alpha(law, 0), laws::NoShift{});
+    set(PairType::aw, with_alpha(law, alpha_of_platens), laws::NoShift{});
   }
 }
 

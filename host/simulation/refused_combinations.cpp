@@ -46,8 +46,8 @@ void require_volumetric(const Scene& scene) {
                    expected);
 }
 
-/// Refuses what the tests of a disc, of a half disc and of a bent beam do not have. `domain`: name of the domain that
-/// the test needs. \throws InputError
+/// Refuses what tests of other deformations than uniaxial ones do not have. `domain`: name of the domain that the test
+/// needs. \throws InputError
 void require_domain(const Scene& scene, const std::string& domain) {
   if (scene.specimen.box.name() != domain)
     refuse_with_kind(scene, "domain in [specimen]", std::string("\"") + scene.specimen.box.name() + "\"",
@@ -56,6 +56,18 @@ void require_domain(const Scene& scene, const std::string& domain) {
   if (scene.network.rule == ContactRule::volumetric)
     refuse_with_kind(scene, "rule in [network]", "\"volumetric\"", "\"centres\" or \"series\"");
   if (scene.output.sensitivities) refuse_with_kind(scene, "sensitivities in [output]", "true", "false");
+}
+
+/// Refuses what the torsion test does not have. \throws InputError
+void require_torsion(const Scene& scene) {
+  require_domain(scene, domains::Cylinder::name);
+  const FactsTable laws = facts_of(scene.laws);
+  for (const PairType pair : {PairType::aw, PairType::mw}) {
+    const std::optional<LawFacts>& law = laws[static_cast<std::size_t>(pair)];
+    if (law && law->alpha == 0)
+      refuse_with_kind(scene, fmt::format("alpha of {} in [[contacts]]", to_string(pair)).c_str(), "0",
+                       "a number above 0, because the platens are glued to the cylinder and turn it by shear");
+  }
 }
 
 /// Refuses a strength test if the scene has no cracks, or if the method cannot follow cracks. \throws InputError
@@ -95,6 +107,8 @@ void require_combination(const Scene& scene) {
     require_domain(scene, domains::Beam::name);
   else if (std::holds_alternative<experiments::SemicircularBending>(scene.experiment))
     require_half_disc(scene);
+  else if (std::holds_alternative<experiments::Torsion>(scene.experiment))
+    require_torsion(scene);
   else if (is_of_disc(scene.experiment))
     require_domain(scene, domains::Disc::name);
   else if (!scene.specimen.box.has_uniform_section())

@@ -86,8 +86,8 @@ class Result:
 
     @cached_property
     def table(self) -> pandas.DataFrame:
-        """For a cyclic test or a sweep one row per frequency: frequency_hz, e_star_pa [Pa], phase_deg and so on. For
-        the other tests one row per time: time_s and the measured quantities."""
+        """For a cyclic test or a sweep one row per frequency: frequency_hz, e_star_pa (torsion: g_star_pa) [Pa],
+        phase_deg and so on. For the other tests one row per time: time_s and the measured quantities."""
         import pandas
         rows = self.summary["results"]
         if rows and "points" in rows[0]:
@@ -200,9 +200,10 @@ class Result:
         """Returns the most important numbers: modulus and phase at the first and the last frequency, or strength, or the
         first and the last value over time."""
         rows = self.summary.get("results") or [{}]
-        if "e_star_pa" in rows[0]:
+        modulus = next((key for key in ("e_star_pa", "g_star_pa") if key in rows[0]), None)
+        if modulus:
             ends = rows if len(rows) == 1 else (rows[0], rows[-1])
-            at = [f"|E*| {r['e_star_pa']:.4g} Pa, phase {r['phase_deg']:.3g} degrees at {r['frequency_hz']:g} Hz"
+            at = [f"|{modulus[0].upper()}*| {r[modulus]:.4g} Pa, phase {r['phase_deg']:.3g} degrees at {r['frequency_hz']:g} Hz"
                   + (f", {r['temperature_c']:g} °C" if r.get("temperature_c") is not None else "") for r in ends]
             return " to ".join(at)
         if rows[0].get("strength_pa") is not None:

@@ -216,6 +216,7 @@ def test_the_methods_have_laws_scene_and_version(tmp_path: Path, no_pictures) ->
     [
         ("indirect_tension", {'"60 mm"': '"30 mm"', 'thickness = "20 mm"': 'thickness = "12 mm"'}, "cyclic indirect tension"),
         ("bending", {'"100 mm"': '"60 mm"', '"16 mm"': '"12 mm"'}, "cyclic bending"),
+        ("torsion", {'"24 mm"': '"12 mm"', '"40 mm"': '"16 mm"'}, "cyclic torsion"),
     ],
 )
 def test_the_methods_name_the_test(tmp_path: Path, no_pictures, example, sizes, words) -> None:
@@ -228,6 +229,8 @@ def test_the_methods_name_the_test(tmp_path: Path, no_pictures, example, sizes, 
                    capture_output=True)
     page = report(tmp_path / "out", tmp_path / "r.html").read_text(encoding="utf-8")
     assert f"computed in {words}" in page and "uniaxial" not in page
+    symbol, other = ("|G*|", "|E*|") if example == "torsion" else ("|E*|", "|G*|")
+    assert f"modulus {symbol} and phase angle" in page and other not in page
 
 
 def test_the_methods_show_the_values_of_set(tmp_path: Path, no_pictures) -> None:

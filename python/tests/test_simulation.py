@@ -210,8 +210,8 @@ def test_a_test_of_any_kind_needs_no_function_of_its_own(specimen):
     assert "relaxation.csv" in kinds["relaxation"]["files"] and not kinds["sweep"]["can_be_stepped"]
     loading = {"times": [1e-3, 1.0], "strain": 1e-4}
     assert mc.test(specimen, "relaxation", loading).table.equals(mc.relaxation(specimen, **loading).table)
-    with pytest.raises(mc.InputError, match="kind: found 'torsion', expected one of cyclic, sweep, relaxation"):
-        mc.test(specimen, "torsion", loading)
+    with pytest.raises(mc.InputError, match="kind: found 'impact', expected one of cyclic, sweep, relaxation"):
+        mc.test(specimen, "impact", loading)
 
 
 def test_a_specimen_keeps_its_rollers(tmp_path: Path) -> None:

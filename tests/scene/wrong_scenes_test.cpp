@@ -127,7 +127,7 @@ const std::vector<Wrong> wrong_scenes = {
     // Choices
     {"UnknownPair", {{15, "pair = \"M-B\""}}, 15, "\"M-B\"", "\"M-M\", \"M-A\", \"A-A\", \"inner\""},
     {"UnknownLaw", {{24, "law = \"burgers\""}}, 24, "\"burgers\"", "\"elastic\", \"generalised_kelvin\""},
-    {"UnknownKind", {{30, "kind = \"torsion\""}}, 30, "\"torsion\"", "\"cyclic\""},
+    {"UnknownKind", {{30, "kind = \"impact\""}}, 30, "\"impact\"", "\"cyclic\""},
     {"UnknownMethod", {{36, "method = \"implicit\""}}, 36, "\"implicit\"", "\"harmonic\""},
     {"UnknownPrecision", {{36, "precision = \"float\""}}, 36, "\"float\"", "\"mixed\""},
     {"UnknownBackend", {{36, "backend = \"gpu\""}}, 36, "\"gpu\"", "\"cuda\""},

@@ -124,8 +124,9 @@ TEST_F(ForeignPackings, OptionsOfPackingsNeedTheKind) {
       contains(macadam("new --kind packing " + path("a.toml")).err, "--packing: found nothing, expected a file"));
   EXPECT_TRUE(contains(macadam("new --kind packing --packing x --test indirect_tension " + path("a.toml")).err,
                        "--test: found indirect_tension with --kind packing"));
-  EXPECT_TRUE(contains(macadam("new --kind packing --packing x --test bending " + path("a.toml")).err,
-                       "--test: found bending with --kind packing"));
+  for (const std::string test : {"bending", "torsion"})
+    EXPECT_TRUE(contains(macadam("new --kind packing --packing x --test " + test + " " + path("a.toml")).err,
+                         "--test: found " + test + " with --kind packing"));
   EXPECT_TRUE(contains(macadam("new --kind packing --packing x --test semicircular_bending " + path("a.toml")).err,
                        "--test: found semicircular_bending with --kind packing"));
   EXPECT_TRUE(contains(macadam("new --packing x " + path("a.toml")).err, "expected --kind packing as well"));

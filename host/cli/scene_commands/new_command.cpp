@@ -64,7 +64,8 @@ void check_packing(const NewArguments& arguments) {
   };
   if (asked && !given) refuse("--packing", "nothing", "a file with the spheres, because of --kind packing");
   if (given && !asked) refuse("--packing", "a file without --kind packing", "--kind packing as well");
-  if (asked && (arguments.test.starts_with("indirect_") || arguments.test.ends_with("bending")))
+  if (asked &&
+      (arguments.test.starts_with("indirect_") || arguments.test.ends_with("bending") || arguments.test == "torsion"))
     refuse("--test", arguments.test + " with --kind packing", "another test, or --kind spheres");
   for (const CLI::Option* option : {arguments.unit_option, arguments.cylinder_option})
     if (!asked && option->count() > 0)

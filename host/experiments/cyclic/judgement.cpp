@@ -42,8 +42,8 @@ std::vector<std::string> faults_of(const Frequency& f, double stiffest) {
     faults.push_back(fmt::format("the phase angle is {:.4g} degrees, but springs and dashpots give 0 to 90", phase));
   }
   if (f.stiffness.e_star_pa > bound_margin * stiffest) {
-    faults.push_back(fmt::format("|E*| is {:.4g} Pa, but even the modulus of the stiffest contact is only {:.4g} Pa",
-                                 f.stiffness.e_star_pa, stiffest));
+    faults.push_back(fmt::format("{} is {:.4g} Pa, but even the modulus of the stiffest contact is only {:.4g} Pa",
+                                 modulus_symbol(f), f.stiffness.e_star_pa, stiffest));
   }
   return faults;
 }
@@ -51,10 +51,10 @@ std::vector<std::string> faults_of(const Frequency& f, double stiffest) {
 void require_modulus(const Frequency& f) {
   const Stiffness& found = f.stiffness;
   if (!std::isfinite(found.phase_deg) || !(found.e_star_pa > 0 && std::isfinite(found.e_star_pa))) {
-    throw RunError(
-        fmt::format("{} Hz: |E*| = {} Pa, phi = {} degrees: expected finite numbers and |E*| above 0 (the strain may "
-                    "be too small for the precision)",
-                    f.frequency_hz, found.e_star_pa, found.phase_deg));
+    throw RunError(fmt::format(
+        "{} Hz: {} = {} Pa, phi = {} degrees: expected finite numbers and {} above 0 (the strain may be too "
+        "small for the precision)",
+        f.frequency_hz, modulus_symbol(f), found.e_star_pa, found.phase_deg, modulus_symbol(f)));
   }
 }
 
@@ -79,9 +79,9 @@ void judge(HarmonicFrequency& f, double stiffest, std::vector<std::string>& warn
   const ErrorEstimate walls = difference(f.bottom, f.stiffness);
   if (largest(walls) > wall_difference) {
     warn(f,
-         fmt::format("the reactions of bottom and top wall differ by {:.1e} of |E*| and {:.1e} rad, and the error of "
-                     "the solution may be as large (the stiffnesses of contacts may differ too much)",
-                     walls.e_star, walls.phase_rad),
+         fmt::format("the reactions of bottom and top wall differ by {:.1e} of {} and {:.1e} rad, and the error of the "
+                     "solution may be as large (the stiffnesses of contacts may differ too much)",
+                     walls.e_star, modulus_symbol(f), walls.phase_rad),
          warnings);
   }
 }

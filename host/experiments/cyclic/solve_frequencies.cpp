@@ -9,6 +9,7 @@
 #include "host/experiments/cyclic/beam_modulus.hpp"
 #include "host/experiments/cyclic/disc_modulus.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
+#include "host/experiments/cyclic/torsion_modulus.hpp"
 #include "host/run/harmonic_options.hpp"
 #include "host/fields/field_output.hpp"
 #include "host/run/phases.hpp"
@@ -146,6 +147,7 @@ class PlannedHarmonic : public PlannedExperiment {
     for (std::size_t i = first; i < end; ++i) {
       const double scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
       loads.push_back({frequencies_[i], scaling, viscous_});
+      loads.back().top = wall_;
     }
     return harmonic_->solve(loads);
   }
@@ -173,6 +175,7 @@ class PlannedHarmonic : public PlannedExperiment {
         observe_disc(*test, prepared_.specimen, prepared_.tessellation, s, f);
       if (const auto* test = std::get_if<experiments::Bending>(&scene_.experiment))
         observe_beam(*test, prepared_.specimen, prepared_.network, isothermal_.laws, s, f);
+      if (s.wall.turns()) observe_torsion(prepared_.specimen, s, f);
       judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), result.warnings);
       {
         const InPhase writing(result.phases, &PhaseSeconds::writing);
@@ -191,6 +194,9 @@ class PlannedHarmonic : public PlannedExperiment {
   std::vector<double> frequencies_ = frequencies_of(scene_.experiment),
                       temperatures_ = temperatures_of(scene_.experiment);
   Backend backend_ = Backend::cpu;
+  WallMotion wall_ = std::holds_alternative<experiments::Torsion>(scene_.experiment)
+                         ? WallMotion::turn(prepared_.specimen)
+                         : WallMotion();
   Scene isothermal_ = scene_;  ///< the scene with the laws of the present temperature
   double viscous_ = 0;
   std::optional<Harmonic> harmonic_;

@@ -41,9 +41,11 @@ void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Contact
 /// Returns the entries of one frequency in `results` that do not depend on the method.
 Json begun(const Frequency& f, const char* method, double residual, const Scene& scene) {
   Json out = {{"frequency_hz", f.frequency_hz},
-              {"e_star_pa", f.stiffness.e_star_pa},
+              {f.shear ? "g_star_pa" : "e_star_pa", f.stiffness.e_star_pa},
               {"phase_deg", f.stiffness.phase_deg},
-              {"modulus", f.confined ? "confined" : "uniaxial"},
+              {"modulus", f.shear      ? "torsion"
+                          : f.confined ? "confined"
+                                       : "uniaxial"},
               {"method", method},
               {"residual", residual},
               {"density_scaling", f.density_scaling},
@@ -99,7 +101,7 @@ Json frequency_json(const HarmonicFrequency& f, const Scene& scene) {
   Json out = begun(f, "harmonic", f.residual, scene);
   if (f.disc) out["modulus"] = "indirect_tension";
   if (f.beam) out["modulus"] = "bending";
-  out["e_star_bottom_pa"] = f.bottom.e_star_pa;
+  out[f.shear ? "g_star_bottom_pa" : "e_star_bottom_pa"] = f.bottom.e_star_pa;
   out["phase_bottom_deg"] = f.bottom.phase_deg;
   add_poisson_ratio(f, out);
   out["iterations"] = f.iterations;

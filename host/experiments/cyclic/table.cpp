@@ -11,6 +11,7 @@ namespace macadam {
 using experiments::Frequency;
 using experiments::HarmonicCyclic;
 using experiments::HarmonicFrequency;
+using experiments::modulus_symbol;
 using experiments::SteppedCyclic;
 using experiments::SteppedFrequency;
 
@@ -22,19 +23,17 @@ bool warm(const std::vector<F>& frequencies) {
   return !frequencies.empty() && frequencies.front().temperature_c;
 }
 
+/// Returns the symbol of the modulus.
 template <class F>
-bool confined(const std::vector<F>& frequencies) {
-  return !frequencies.empty() && frequencies.front().confined;
+const char* symbol(const std::vector<F>& frequencies) {
+  return frequencies.empty() ? modulus_symbol({}) : modulus_symbol(frequencies.front());
 }
-
-/// Returns the symbol of the modulus: |M*| if the sides are held, |E*| if they are free.
-const char* symbol(bool confined) { return confined ? "|M*|" : "|E*|"; }
 
 template <class F>
 std::string heads(const std::vector<F>& frequencies) {
-  const bool held = confined(frequencies);
+  const bool held = !frequencies.empty() && frequencies.front().confined;
   return fmt::format("\n{}{}{:>8} {:>11} {:>9}", held ? "|M*|: confined modulus (the sides are held)\n" : "",
-                     warm(frequencies) ? "   T (C) " : "", "f (Hz)", fmt::format("{} (GPa)", symbol(held)),
+                     warm(frequencies) ? "   T (C) " : "", "f (Hz)", fmt::format("{} (GPa)", symbol(frequencies)),
                      "phi (deg)");
 }
 
@@ -64,7 +63,7 @@ template <>
 std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
   const bool known = !found.frequencies.empty() && found.frequencies.front().achieved;
   const bool by_increments = !found.frequencies.empty() && found.frequencies.front().increments;
-  const char* modulus = symbol(confined(found.frequencies));
+  const char* modulus = symbol(found.frequencies);
   std::string out =
       heads(found.frequencies) + fmt::format(" {:>11} {:>9} {:>9} {:>10} {:>9}\n",
                                              known ? fmt::format("err {}", modulus) : fmt::format("d{} cycle", modulus),

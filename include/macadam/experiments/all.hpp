@@ -17,14 +17,15 @@
 #include "macadam/experiments/semicircular_bending.hpp"
 #include "macadam/experiments/strain_history.hpp"
 #include "macadam/experiments/sweep.hpp"
+#include "macadam/experiments/torsion.hpp"
 
 namespace macadam {
 
 /// The experiment that `[loading]` of a scene requests. Its `kind` selects one of these types.
-using Experiment =
-    std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
-                 experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension,
-                 experiments::IndirectTensileStrength, experiments::Bending, experiments::SemicircularBending>;
+using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
+                                experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension,
+                                experiments::IndirectTensileStrength, experiments::Bending,
+                                experiments::SemicircularBending, experiments::Torsion>;
 
 /// The result of an experiment. Its type depends on the experiment and on the method that ran; it is monostate before a
 /// run.

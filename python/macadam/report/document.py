@@ -12,7 +12,7 @@ from typing import Any
 from macadam._files import write_text
 from macadam.report import contacts, cracks, decisions, fields, fits, histories, look, loops, methods, mixture, modulus, scans, specimen
 from macadam.report.export import Export
-from macadam.report.folders import Folder, ReportError, read_all
+from macadam.report.folders import Folder, ReportError, modulus_symbol, read_all
 from macadam.report.page import Page
 
 _KINDS = {
@@ -139,7 +139,7 @@ def _test_or_kind(f: Folder) -> str:
         return _KINDS[f.kind]
     if f.summary["status"] == "prepared":
         return "specimen alone"
-    return f.in_time["kind"] if f.in_time else f"|E*| by method {(f.summary.get('solver') or {}).get('method', '–')}"
+    return f.in_time["kind"] if f.in_time else f"{modulus_symbol([f])} by method {(f.summary.get('solver') or {}).get('method', '–')}"
 
 
 # Returns the most important results of a folder on one line; a dash if the folder has no results.
@@ -242,7 +242,7 @@ def _summary_sentences(f: Folder) -> list[str]:
     if f.by_frequency:
         rows = sorted(f.by_frequency, key=lambda r: (r.get("temperature_c") or 0, r["frequency_hz"]))
         ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
-        words.append(f"Its |E*| and phase angle are {' and '.join(_point(r) for r in ends)}.")
+        words.append(f"Its {modulus_symbol([f])} and phase angle are {' and '.join(_point(r) for r in ends)}.")
     elif f.in_time:
         words.append(f"Test: {f.in_time['kind']}. Results: {_main_results(f)}.")
         rupture = (f.in_time.get("rupture") or {}).get("words")

@@ -96,10 +96,12 @@ class Folder:
 
     @property
     def by_frequency(self) -> list[dict[str, Any]]:
-        """The results at single frequencies that have |E*| [Pa] and phase angle [degrees]."""
+        """The results at single frequencies that have a modulus [Pa] and a phase angle [degrees]. The modulus is
+        `e_star_pa`, also |G*| of a torsion test; modulus_symbol() tells them apart."""
+        rows = [{key.replace("g_star", "e_star"): value for key, value in r.items()} for r in self.results]
         return [
             r
-            for r in self.results
+            for r in rows
             if r.get("e_star_pa") is not None and r.get("phase_deg") is not None and r.get("frequency_hz") is not None
         ]
 
@@ -115,6 +117,12 @@ class Folder:
         for example a compliance."""
         points = (self.in_time or {}).get("points") or [{}]
         return next((key for key in points[0] if key in MODULI), None)
+
+
+def modulus_symbol(found: list[Folder]) -> str:
+    """Returns the symbol of the modulus in the results over frequency of these folders, for tables and figures."""
+    of = {"|G*|" if r.get("modulus") == "torsion" else "|E*|" for f in found for r in f.by_frequency[:1]}
+    return " or ".join(sorted(of)) or "|E*|"
 
 
 def read(path: str | Path) -> Folder:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from macadam.report import look
-from macadam.report.folders import Folder
+from macadam.report.folders import Folder, modulus_symbol
 from macadam.report.modulus import decades
 from macadam.report.page import Page
 
@@ -75,7 +75,7 @@ def _from_moduli(folder: Folder) -> tuple[Any, str]:
     axes.legend(fontsize=6, handlelength=1, labelspacing=0.2)
     at = "" if shown is None else f" at {shown:g} °C"
     return figure, (
-        f"Loops of the steady state{at}, drawn from |E*| and φ: the method is harmonic, nothing was stepped. A "
+        f"Loops of the steady state{at}, drawn from {modulus_symbol([folder])} and φ: the method is harmonic, nothing was stepped. A "
         "wide loop dissipates much energy per cycle, a thin loop is nearly elastic."
     )
 
@@ -96,7 +96,7 @@ def _add_master_curve(page: Page, folder: Folder) -> None:
             page.leave_out(
                 folder.label,
                 "master curve",
-                "all frequencies are tested at one temperature; the figure of |E*| over frequency shows that curve",
+                f"all frequencies are tested at one temperature; the figure of {modulus_symbol([folder])} over frequency shows that curve",
             )
         return
     if any(r.get("reduced_frequency_hz") is None for r in rows):
@@ -127,7 +127,7 @@ def master_curve(folder: Folder) -> tuple[Any, str]:
         axes.plot(along, up, "-", color="#b9bec6", lw=1, zorder=1)
     reference = _reference_temperature(temperatures, shifts)
     right.plot(temperatures, shifts, "o-", color=look.INK, ms=3.2)
-    left.set(xscale="log", yscale="log", ylabel=f"|E*| ({unit})")
+    left.set(xscale="log", yscale="log", ylabel=f"{modulus_symbol([folder])} ({unit})")
     middle.set(xscale="log", ylabel="phase angle φ (°)")
     right.set(xlabel="temperature (°C)", ylabel="log₁₀ of the shift a$_T$")
     for axes in (left, middle):
@@ -141,7 +141,7 @@ def master_curve(folder: Folder) -> tuple[Any, str]:
         f"Master curve of {folder.label}: the frequencies of each temperature multiplied by its shift a_T"
         + ("" if reference is None else f"; the reference temperature, where a_T is 1, is {reference}")
         + ". "
-        f"Over {look.number(float(np.log10(ends[1] / ends[0])), 2)} decades |E*| goes from {look.modulus(low)} to "
+        f"Over {look.number(float(np.log10(ends[1] / ends[0])), 2)} decades {modulus_symbol([folder])} goes from {look.modulus(low)} to "
         f"{look.modulus(high)}. Dots of neighbouring "
         "temperatures lie on one curve if the shift is valid for the whole specimen. The line connects all dots."
     )

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from macadam.report import look
-from macadam.report.folders import Folder
+from macadam.report.folders import Folder, modulus_symbol
 from macadam.report.page import Page
 
 MOST = 3  # largest number of different scenes that are printed
@@ -20,6 +20,7 @@ _CITE = (
 _LOADING = {  # the words for each `modulus` of summary.json that is not uniaxial
     "indirect_tension": "cyclic indirect tension, with the closed form of Hondros,",
     "bending": "cyclic bending, with the theory of Timoshenko beams,",
+    "torsion": "cyclic torsion of a cylinder between glued platens,",
 }
 
 
@@ -93,7 +94,7 @@ def _test(f: Folder) -> str:
         span = look.hertz(of[0]) if len(of) == 1 else f"{len(of)} frequencies from {look.hertz(of[0])} to {look.hertz(of[-1])}"
         at = f", at {', '.join(f'{t:g}' for t in warm)} °C" if warm else ""
         loading = _LOADING.get(f.by_frequency[0].get("modulus"), "uniaxial cyclic loading")
-        return f"|E*| and the phase angle were computed in {loading} at {span}{at}."
+        return f"{modulus_symbol([f])} and the phase angle were computed in {loading} at {span}{at}."
     if f.in_time and f.in_time.get("points"):
         points = f.in_time["points"]
         return (f"The test is of the kind {f.in_time['kind'].replace('_', ' ')}, with {len(points)} points from {look.seconds(points[0]['time_s'])} "

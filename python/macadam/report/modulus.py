@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from macadam.report import look, tables
-from macadam.report.folders import Folder
+from macadam.report.folders import Folder, modulus_symbol
 from macadam.report.page import Page
 from macadam.report.scatter import scatter
 
@@ -60,15 +60,16 @@ def add(page: Page, folders: list[Folder]) -> None:
     found = curves(runs)
     if not found:
         return
-    page.section("Stiffness modulus |E*| and phase angle φ")
+    symbol = _symbol(found)
+    page.section(f"{'Shear' if symbol == '|G*|' else 'Stiffness'} modulus {symbol} and phase angle φ")
     tables.add_seeds(page, scatter(found))
     tables.add(page, [f for f in runs if f.by_frequency], error)
-    page.figure(over_frequency(found), _caption(found), "|E*| and phase angle over frequency")
+    page.figure(over_frequency(found), _caption(found), f"{symbol} and phase angle over frequency")
     if len({(c.folder.label, f) for c in found for f in c.frequency}) > 1:
         page.figure(cole_cole(found), _cole_cole_caption(found), "Cole–Cole diagram", third=True)
         page.figure(
             black(found),
-            "Black diagram: |E*| over the phase angle. The diagram does not show frequency, so "
+            f"Black diagram: {symbol} over the phase angle. The diagram does not show frequency, so "
             "curves of different temperatures coincide if a shift of frequency makes one master curve of them."
             + _colour_note(found),
             "black diagram",
@@ -142,7 +143,7 @@ def over_frequency(found: list[Curve]) -> Any:
     wide = _covers_wide_range(found)
     several = min(c.frequency.min() for c in found) < max(c.frequency.max() for c in found)
     along = "log" if several else "linear"
-    left.set(xscale=along, yscale="log" if wide else "linear", xlabel="frequency (Hz)", ylabel=f"|E*| ({unit})")
+    left.set(xscale=along, yscale="log" if wide else "linear", xlabel="frequency (Hz)", ylabel=f"{_symbol(found)} ({unit})")
     right.set(xscale=along, xlabel="frequency (Hz)", ylabel="phase angle φ (°)")
     right.set_ylim(bottom=0)
     for axes in (left, right):
@@ -196,7 +197,12 @@ def _caption(found: list[Curve]) -> str:
             f"{look.percent(float((seeds.e_scatter / seeds.e_star).max()), 2)} of |E*| and "
             f"{look.number(float(seeds.phase_scatter.max()), 2)}° at most."
         )
-    return " ".join(words)
+    return " ".join(words).replace("|E*|", _symbol(found))
+
+
+# Returns the symbol of the modulus of the curves.
+def _symbol(found: list[Curve]) -> str:
+    return modulus_symbol([c.folder for c in found])
 
 
 # Returns storage and loss modulus, E′ and E″ [Pa].
@@ -211,7 +217,8 @@ def cole_cole(found: list[Curve]) -> Any:
     for c in found:
         storage, loss = _parts(c)
         axes.plot(factor * storage, factor * loss, marker=c.marker, color=c.colour, ms=3, label=c.label)
-    axes.set(xlabel=f"E′ ({unit})", ylabel=f"E″ ({unit})")
+    letter = "G" if _symbol(found) == "|G*|" else "E"
+    axes.set(xlabel=f"{letter}′ ({unit})", ylabel=f"{letter}″ ({unit})")
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
     return figure
@@ -221,8 +228,9 @@ def _cole_cole_caption(found: list[Curve]) -> str:
     best = max(found, key=lambda c: _parts(c)[1].max())
     storage, loss = _parts(best)
     k = int(np.argmax(loss))
+    letter = "G" if _symbol(found) == "|G*|" else "E"
     return (
-        f"Cole–Cole diagram: loss modulus E″ over storage modulus E′. E″ is largest, {look.modulus(loss[k])}, at "
+        f"Cole–Cole diagram: loss modulus {letter}″ over storage modulus {letter}′. {letter}″ is largest, {look.modulus(loss[k])}, at "
         f"{look.hertz(best.frequency[k])}{', ' + best.label if best.label else ''}."
     )
 
@@ -233,7 +241,7 @@ def black(found: list[Curve]) -> Any:
     figure, axes = look.figure(look.THIRD, 2.2)
     for c in found:
         axes.plot(c.phase, factor * c.e_star, marker=c.marker, color=c.colour, ms=3, label=c.label)
-    axes.set(xlabel="phase angle φ (°)", ylabel=f"|E*| ({unit})")
+    axes.set(xlabel="phase angle φ (°)", ylabel=f"{_symbol(found)} ({unit})")
     if _covers_wide_range(found):
         axes.set_yscale("log")
         decades(axes.yaxis)

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from macadam.report import look
-from macadam.report.folders import Folder
+from macadam.report.folders import Folder, modulus_symbol
 from macadam.report.page import Page
 from macadam.report.scatter import Seeds
 
@@ -91,6 +91,7 @@ def _cut(page: Page, label: str, rows: list[Any]) -> list[Any]:
 # Adds the table of one folder: |E*|, phase angle, E′, E″ and errors over frequency.
 def _one(page: Page, folder: Folder, error: Error) -> None:
     factor, unit = look.modulus_unit(r["e_star_pa"] for r in folder.by_frequency)
+    symbol = modulus_symbol([folder])
     body = []
     for r in _cut(page, folder.label, folder.by_frequency):
         e, phase, wrong = r["e_star_pa"], np.radians(r["phase_deg"]), error(r)
@@ -106,7 +107,7 @@ def _one(page: Page, folder: Folder, error: Error) -> None:
             ]
         )
     page.table(
-        ["f (Hz)", f"|E*| ({unit})", "φ (°)", f"E′ ({unit})", f"E″ ({unit})", "error of |E*| (%)", "error of φ (°)"],
+        ["f (Hz)", f"{symbol} ({unit})", "φ (°)", f"{symbol[1]}′ ({unit})", f"{symbol[1]}″ ({unit})", f"error of {symbol} (%)", "error of φ (°)"],
         body,
         f"{_of(folder)}.",
         words=0,
@@ -120,7 +121,8 @@ def _abreast(page: Page, folders: list[Folder]) -> None:
     first = folders[0].label
     head = ["f (Hz)"]
     for k, f in enumerate(folders):
-        head += [f"{f.label}: |E*| ({unit})", "φ (°)"] + [f"|E*| to {first} (%)"] * (k > 0)
+        symbol = modulus_symbol([f])
+        head += [f"{f.label}: {symbol} ({unit})", "φ (°)"] + [f"{symbol} to {first} (%)"] * (k > 0)
     rows = []
     for frequency in _cut(page, first, sorted(set().union(*of))):
         row = [f"{frequency:.4g}"]
@@ -144,7 +146,7 @@ def _by_temperature(page: Page, folder: Folder) -> None:
     factor, unit = look.modulus_unit(r["e_star_pa"] for r in folder.by_frequency)
     frequencies = _cut(page, folder.label, sorted({f for f, _ in at}))
     for head, key, digits, scale in (
-        (f"|E*| in {unit}", "e_star_pa", 4, factor),
+        (f"{modulus_symbol([folder])} in {unit}", "e_star_pa", 4, factor),
         ("φ in degrees", "phase_deg", 3, 1.0),
     ):
         rows = [

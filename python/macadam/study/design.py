@@ -23,6 +23,7 @@ _COMMANDS = ("run", "specimen")
 AT = ("temperature_c", "frequency_hz", "time_s")
 MEASURED = (
     "e_star_pa",
+    "g_star_pa",
     "phase_deg",
     "strain",
     "stress_pa",

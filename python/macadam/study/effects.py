@@ -61,6 +61,7 @@ _AT = (
 # GPa
 _SHOWN = (
     ("e_star_pa", "|E*|", "MPa", 1e-6),
+    ("g_star_pa", "|G*|", "MPa", 1e-6),
     ("phase_deg", "phase angle", "°", 1.0),
     ("modulus_pa", "relaxation modulus", "MPa", 1e-6),
     ("secant_pa", "secant modulus", "MPa", 1e-6),

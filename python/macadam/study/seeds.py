@@ -23,6 +23,7 @@ MOST_SEEDS = 10_000
 # results that are averaged over the seeds, in the order in which they are printed
 QUANTITIES = (
     "e_star_pa",
+    "g_star_pa",
     "phase_deg",
     "storage_pa",
     "loss_pa",
