@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section of the report on tests of specimens that crack: energies and cracked area over strain, and the crack in a
+"""Section of the report on tests of specimens that crack: energies and cracked area over strain or time, and the crack in a
 section of the specimen."""
 
 from __future__ import annotations
@@ -54,23 +54,26 @@ def _energies(folder: Folder) -> tuple[Any, str]:
     """Draws the energies as a stack (left) and the cracked and broken area by pair (right). Returns figure and
     caption."""
     points = folder.in_time["points"]
-    strain = np.array([1e6 * p["strain"] for p in points])
+    along, axis = _abscissa(points)
+    thermal = _known(points, "thermal_work_j")
+    work = [p["work_j"] + (p["thermal_work_j"] if thermal else 0) for p in points]
+    supply = "work of the walls" + (" and against thermal expansion" if thermal else "")
     figure, (left, right) = look.figure(look.WIDE, 2.7, 1, 2)
     stack = [(name, colour, [1e3 * p[key] for p in points]) for key, name, colour in ENERGIES if _known(points, key)]
     left.stackplot(
-        strain, [np.clip(values, 0, None) for _, _, values in stack], colors=[c for _, c, _ in stack], alpha=0.75,
+        along, [np.clip(values, 0, None) for _, _, values in stack], colors=[c for _, c, _ in stack], alpha=0.75,
         labels=[name for name, _, _ in stack],
     )  # fmt: skip
-    left.plot(strain, [1e3 * p["work_j"] for p in points], color=look.INK, lw=1, ls="--", label="work of the walls")
-    left.set(xlabel="strain (µm/m)", ylabel="energy (mJ)")
+    left.plot(along, 1e3 * np.array(work), color=look.INK, lw=1, ls="--", label="work")
+    left.set(xlabel=axis, ylabel="energy (mJ)")
     handles, labels = left.get_legend_handles_labels()
     left.legend(handles[::-1], labels[::-1], loc="upper left")
-    drawn = _area(folder, right, strain)
-    right.set(xlabel="strain (µm/m)", ylabel="area of contact points (mm²)")
+    drawn = _area(folder, right, along)
+    right.set(xlabel=axis, ylabel="area of contact points (mm²)")
     right.set_ylim(bottom=0)
     if drawn:
         right.legend()
-    words = "Left: the work of the walls (dashed) and the energies into which it was converted, stacked. "
+    words = f"Left: the {supply} (dashed) and the energies into which it was converted, stacked. "
     words += (
         "Right: area of the points that have begun to crack (dashed) and that are broken, by pair of materials."
         if drawn
@@ -80,17 +83,25 @@ def _energies(folder: Folder) -> tuple[Any, str]:
     if error is not None:
         words += f" The sum of the energies differs from the work by at most {look.percent(error, 2)} of the work."
     last = points[-1]
-    parts = [f"{name} {look.percent(last[key] / last['work_j'])}" for key, name, _ in ENERGIES if _known(points, key)]
-    if last["work_j"] > 0:
-        words += f" At the end: work {look.number(1e3 * last['work_j'], 3)} mJ, of which {', '.join(parts)}."
+    if work[-1] > 0:
+        parts = [f"{name} {look.percent(last[key] / work[-1])}" for key, name, _ in ENERGIES if _known(points, key)]
+        words += f" At the end: work {look.number(1e3 * work[-1], 3)} mJ, of which {', '.join(parts)}."
     return figure, words
+
+
+def _abscissa(points: list[dict[str, Any]]) -> tuple[np.ndarray, str]:
+    """Returns the strain of the points and its name for an axis; the time [h] if the specimen is held while its
+    temperature changes."""
+    if _known(points, "temperature_c") and all(p["strain"] == 0 for p in points):
+        return np.array([p["time_s"] / 3600 for p in points]), "time (h)"
+    return np.array([1e6 * p["strain"] for p in points]), "strain (µm/m)"
 
 
 def _known(points: list[dict[str, Any]], key: str) -> bool:
     return all(p.get(key) is not None for p in points)
 
 
-def _area(folder: Folder, axes: Any, strain: np.ndarray) -> bool:
+def _area(folder: Folder, axes: Any, along: np.ndarray) -> bool:
     """Draws the area of the points that have begun to crack (dashed) and of those that are broken (solid), by pair.
     Returns whether any point has begun to crack."""
     points = folder.in_time["points"]
@@ -99,12 +110,12 @@ def _area(folder: Folder, axes: Any, strain: np.ndarray) -> bool:
     times = np.array([p["time_s"] for p in points])
     for pair in pairs:
         colour = look.PAIRS.get(pair, look.INK)
-        axes.plot(strain, [1e6 * p["cracked_area_m2"][pair] for p in points], color=colour, ls="--", lw=1)
+        axes.plot(along, [1e6 * p["cracked_area_m2"][pair] for p in points], color=colour, ls="--", lw=1)
         rows = broken[broken["pair"] == pair] if broken is not None else None
         by_time = np.zeros(len(times)) if rows is None else [
             1e6 * rows.loc[rows["time_s"] <= t * (1 + 1e-9), "area_m2"].sum() for t in times
         ]  # fmt: skip
-        axes.plot(strain, by_time, color=colour, label=pair)
+        axes.plot(along, by_time, color=colour, label=pair)
     return bool(pairs)
 
 
