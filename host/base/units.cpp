@@ -23,6 +23,13 @@ constexpr Unit rates[] = {{"1/s", 0}, {"s^-1", 0}, {"1/ms", 3}};
 constexpr Unit speeds[] = {{"m/s", 0}, {"mm/s", -3}, {"mm/min", -3, 1.0 / 60}};
 constexpr Unit temperatures[] = {{"degC", 0}, {"\u00b0C", 0}, {"C", 0}};
 constexpr Unit differences[] = {{"K", 0}, {"degC", 0}, {"\u00b0C", 0}};
+constexpr Unit warming_rates[] = {{"K/s", 0},
+                                  {"K/min", 0, 1.0 / 60},
+                                  {"K/h", 0, 1.0 / 3600},
+                                  {"degC/min", 0, 1.0 / 60},
+                                  {"degC/h", 0, 1.0 / 3600},
+                                  {"\u00b0C/min", 0, 1.0 / 60},
+                                  {"\u00b0C/h", 0, 1.0 / 3600}};
 constexpr Unit expansions[] = {{"1/K", 0}, {"K^-1", 0}, {"1/degC", 0}};
 constexpr Unit molar_energies[] = {{"J/mol", 0}, {"kJ/mol", 3}};
 constexpr Unit fracture_energies[] = {{"J/m2", 0},   {"J/m^2", 0},      {"J/m\u00b2", 0}, {"kJ/m2", 3},
@@ -65,6 +72,7 @@ const Quantity rate{"rate", rates};
 const Quantity speed{"speed", speeds};
 const Quantity temperature{"temperature", temperatures};
 const Quantity temperature_difference{"difference of temperatures", differences};
+const Quantity warming_rate{"rate of a temperature", warming_rates};
 const Quantity expansion{"coefficient of expansion", expansions};
 const Quantity molar_energy{"molar energy", molar_energies};
 const Quantity fracture_energy{"fracture energy", fracture_energies};

@@ -66,9 +66,9 @@ std::vector<Part> specimen_of(NewKind kind) {
 
 Given chain(const char* key, const char* value) { return {key, value}; }
 
-/// Returns the contact laws. `cracks`: whether contacts between particles have cracks. `glued`: whether the walls have
-/// shear stiffness.
-std::vector<Part> contacts_of(NewKind kind, bool cracks, bool glued) {
+/// Returns the contact laws. `cracks`: whether contacts between particles have cracks. `shift`: whether viscosities
+/// depend on the temperature. `glued`: whether the walls have shear stiffness.
+std::vector<Part> contacts_of(NewKind kind, bool cracks, bool shift, bool glued) {
   const std::string kelvin = R"("generalised_kelvin")", elastic = R"("elastic")";
   std::vector<Part> out{
       {"[[contacts]]",
@@ -91,6 +91,14 @@ std::vector<Part> contacts_of(NewKind kind, bool cracks, bool glued) {
         {"alpha", "0.1"}},
        "",
        false}};
+  if (shift) {
+    for (Part& law : out) {
+      law.given.insert(
+          law.given.end(),
+          {{"shift", R"("wlf")"}, {"C1", "12.0"}, {"C2", R"("120 K")"}, {"reference_temperature", R"("20 degC")"}});
+    }
+    out.front().remark += " The shift is an example.";
+  }
   const auto add = [&](const char* pair, const char* modulus, const char* alpha, const char* remark) {
     out.push_back({"[[contacts]]",
                    {{"pair", '"' + std::string(pair) + '"'}, {"law", elastic}, {"E", modulus}, {"alpha", alpha}},
@@ -171,7 +179,7 @@ Part notch_of_half_disc() {
 
 /// Returns whether a test measures a strength and needs cracks.
 bool needs_cracks(const std::string& test) {
-  return test == "indirect_tensile_strength" || test == "semicircular_bending";
+  return test == "indirect_tensile_strength" || test == "semicircular_bending" || test == "cooling";
 }
 
 Part loading_of(const std::string& test, bool cracks) {
@@ -183,6 +191,7 @@ Part loading_of(const std::string& test, bool cracks) {
   if (test == "semicircular_bending") give("displacement", R"("0.3 mm")"), give("points", "100");
   if (test == "bending" || test == "sweep" || test == "torsion")
     give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
+  if (test == "cooling") give("from", R"("20 degC")"), give("to", R"("-30 degC")"), give("rate", R"("10 K/h")");
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
   if (test == "monotonic" && cracks) give("rate", "1.0"), give("strain", "5e-3"), give("points", "100");
@@ -196,6 +205,22 @@ Part loading_of(const std::string& test, bool cracks) {
   if (test == "monotonic") out.not_these = {"times", "points_per_decade"};
   if (test == "history")  // keys of other drives
     out.not_these = {"times", "strains", "file", "ramp", "hold", "smooth", "rate", "frequency"};
+  return out;
+}
+
+/// Returns `[materials]` for laws in `[[contacts]]`. `densities`: whether the scene gives densities; `expansion`:
+/// whether the materials expand.
+std::vector<Part> materials_without_laws(bool densities, bool expansion) {
+  std::vector<Part> out{{"[materials]", {}}};
+  if (expansion) out.front().not_these.push_back("temperature");  // the test has temperatures of its own
+  const auto add = [&](const char* title, const char* density, const char* per_kelvin) {
+    Part part{title, {}, "", false};
+    if (densities) part.given.push_back({"density", density});
+    if (expansion) part.given.push_back({"expansion", per_kelvin});
+    if (!part.given.empty()) out.push_back(part);
+  };
+  add("[materials.aggregate]", R"("2.63 g/cm3")", R"("8e-6 1/K")");
+  add("[materials.mastic]", R"("2.11 g/cm3")", R"("5e-5 1/K")");
   return out;
 }
 
@@ -227,10 +252,10 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
                                  of_strength ? "--test" : "--cracks", of_strength ? test : "this option",
                                  to_string(rule)));
   if (cracks && test != "monotonic" && !of_strength) {
-    throw InputError(fmt::format(
-        "--cracks: found this option with --test {}, expected --test monotonic, indirect_tensile_strength or "
-        "semicircular_bending, which measure a strength",
-        test));
+    throw InputError(
+        fmt::format("--cracks: found this option with --test {}, expected --test monotonic, indirect_tensile_strength, "
+                    "semicircular_bending or cooling, which measure a strength",
+                    test));
   }
   if ((test == "indirect_tension" || test == "bending" || test == "torsion") && rule == ContactRule::volumetric)
     throw InputError("--test: found " + test + " with --rule volumetric, expected --rule series or centres");
@@ -238,16 +263,9 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
   set_domain(parts.front(), test);
   if (test == "semicircular_bending") parts.push_back(notch_of_half_disc());
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
-  const bool of_phases = has_laws_of_phases(rule);
-  if (of_phases)
-    append(materials_with_laws(kind != NewKind::recipe));
-  else if (kind == NewKind::recipe)
-    append({{"[materials]", {}}});
-  else
-    append({{"[materials]", {}},
-            {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
-            {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
-  if (!of_phases) append(contacts_of(kind, cracks, test == "torsion"));
+  const bool of_phases = has_laws_of_phases(rule), densities = kind != NewKind::recipe, cools = test == "cooling";
+  append(of_phases ? materials_with_laws(densities) : materials_without_laws(densities, cools));
+  if (!of_phases) append(contacts_of(kind, cracks, cools, test == "torsion"));
   std::vector<std::string> not_set{"tolerance", "density_scaling", "safety",   "time_step", "damping", "damping_kind",
                                    "form",      "geometry",        "precision"};
   if (of_strength) not_set.insert(not_set.end(), {"linear", "inertia"});  // keys of time steps

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "host/scene/bending_rollers.hpp"
+#include "host/scene/cooling_conditions.hpp"
 #include "host/scene/known_keys.hpp"
 #include "host/scene/scene_changes.hpp"
 #include "host/scene/sections.hpp"
@@ -260,6 +261,7 @@ Scene read_root(const ReadingFile& reading, const Section& root, Need densities)
   choose_method(out.solver, out.experiment, out.laws);
   set_strips(out, root);
   set_rollers(out, root);
+  require_cooling(out, root);
   check_together(out, root);
   apply_temperature(out, root, tables);
   return out;

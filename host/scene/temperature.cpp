@@ -93,7 +93,9 @@ void apply_temperature(Scene& scene, const Section& root, const TemperatureTable
       loading.refuse("temperature", "a temperature that changes nothing in the scene",
                      "expansion in [materials.mastic] or [materials.aggregate], or a law with a shift");
     }
-    for (const double temperature : history.temperatures) check_values(loading, "temperature", temperature);
+    const auto* cooling = std::get_if<experiments::Cooling>(&scene.experiment);
+    for (const double temperature : history.temperatures)
+      check_values(loading, !cooling ? "temperature" : temperature == cooling->to ? "to" : "from", temperature);
   }
   if (const std::optional<double> temperature = scene.materials.temperature) {
     // laws_at() assumes that the laws are at the scene's temperature, but they are still at their reference

@@ -8,6 +8,7 @@
 #include "host/experiments/transient/half_disc_strength.hpp"
 #include "host/harmonic/law_stiffness.hpp"
 #include "host/run/checkpoints.hpp"
+#include "host/scene/cooling_conditions.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -140,9 +141,12 @@ void require_combination(const Scene& scene) {
         "method \"harmonic\", or a single temperature as temperature in [materials]");
   }
   if (scene.solver.method != SolverMethod::quasi_static && !temperature_history_of(scene.experiment).empty()) {
-    throw InputError(scene.file.string(), 0, "temperature in [loading]",
-                     std::string("a list with method \"") + to_string(scene.solver.method) + "\"",
-                     "method \"quasi_static\", because only increments follow a changing temperature");
+    const bool cools = std::holds_alternative<experiments::Cooling>(scene.experiment);
+    throw InputError(
+        scene.file.string(), 0, cools ? "kind in [loading]" : "temperature in [loading]",
+        fmt::format("{} with method \"{}\"", cools ? "\"cooling\"" : "a list", to_string(scene.solver.method)),
+        "method \"quasi_static\", because only increments follow a changing temperature" +
+            (cools ? "; " + scene::why_cooling_has_no_steps(scene) : ""));
   }
   if (scene.solver.method == SolverMethod::quasi_static) {
     const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
@@ -150,8 +154,8 @@ void require_combination(const Scene& scene) {
     };
     if (stepping_of(scene.experiment) == experiments::Stepping::never)
       refuse("kind", kind_of(scene.experiment),
-             "\"cyclic\", \"monotonic\", \"relaxation\", \"creep\", \"history\", \"indirect_tensile_strength\" or "
-             "\"semicircular_bending\"");
+             "\"cyclic\", \"monotonic\", \"relaxation\", \"creep\", \"history\", \"indirect_tensile_strength\", "
+             "\"semicircular_bending\" or \"cooling\"");
     if (scene.solver.backend == Backend::reference) refuse("backend", "reference", "auto, cpu or cuda");
     if (scene.solver.backend == Backend::cuda && !temperature_history_of(scene.experiment).empty())
       refuse("backend", "cuda and a temperature that changes",

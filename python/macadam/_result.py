@@ -208,6 +208,8 @@ class Result:
             return " to ".join(at)
         if rows[0].get("strength_pa") is not None:
             return f"strength {rows[0]['strength_pa']:.4g} Pa at a strain of {rows[0]['strain_at_peak']:.4g}"
+        if rows[0].get("fracture_stress_pa") is not None:
+            return f"fracture at {rows[0]['fracture_temperature_c']:.4g} °C, {rows[0]['fracture_stress_pa']:.4g} Pa"
         for key, name in (("indirect_tensile_strength_pa", "indirect tensile strength"), ("bending_strength_pa", "strength")):
             if rows[0].get(key) is not None:
                 return f"{name} {rows[0][key]:.4g} Pa, largest load {rows[0]['peak_load_n']:.4g} N"

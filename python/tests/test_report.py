@@ -397,3 +397,35 @@ def test_a_half_disc_has_the_results_of_its_standard(tmp_path: Path, no_pictures
     page = report(tmp_path / "out", tmp_path / "r.html").read_text(encoding="utf-8")
     assert "Bending strength" in page and "fracture energy" in page and "largest load" in page
     assert "Semicircular bending" in page and "Load over the approach" in page and "semicircular_bending, with" not in page
+
+
+def test_a_specimen_that_cools_has_its_fracture(tmp_path: Path, no_pictures) -> None:
+    """The stress of the column grows by 20 kPa per kelvin and reaches the strength at 10 °C; then it falls."""
+    crack = "crack = { tensile_strength = 2e5, shear_strength = 2e5, fracture_energy = 2 }"
+    (tmp_path / "column.csv").write_text(
+        "id,x,y,z,radius,phase,body\n0,0.005,0.005,0.005,0.005,mastic,-1\n1,0.005,0.005,0.015,0.005,mastic,-1\n", "utf-8"
+    )
+    (tmp_path / "scene.toml").write_text(
+        f"""
+        contacts = [{{ pair = "M-M", law = "elastic", E = 1e9, alpha = 0.3, {crack} }},
+          {{ pair = "M-W", law = "elastic", E = 1e9, alpha = 0.3 }}]
+        [specimen]
+        file = "column.csv"
+        box = [0.01, 0.01, 0.02]
+        [materials]
+        mastic = {{ density = 2000, expansion = 2e-5 }}
+        [loading]
+        kind = "cooling"
+        to = 4
+        points = 16
+        """,
+        encoding="utf-8",
+    )
+    command = [PROGRAM, "run", tmp_path / "scene.toml", "--backend", "cpu"]
+    subprocess.run([*command, "--out", tmp_path / "broken"], check=True, capture_output=True)
+    page = report(tmp_path / "broken", tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "Fracture at 10.0 °C under a thermal stress of 200 kPa" in page
+    assert "Thermal stress while cooling" in page and "fracture (cross) at 10.0 °C under 200 kPa" in page
+    subprocess.run([*command, "--set", "loading.to=12", "--out", tmp_path / "whole"], check=True, capture_output=True)
+    page = report(tmp_path / "whole", tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "not broken; largest thermal stress 160 kPa at 12.0 °C" in page and "did not break" in page

@@ -36,10 +36,10 @@ double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
 void SteppedLoad::follow_peak(const Observation& now) {
   const Box& box = prepared_.specimen.box;
   const double strain = now.top_displacement() / gauge_length(box), stress = -now.top_force() / section_area(box);
-  const double sign = std::copysign(1.0, strain);
+  const double sign = test_.cools ? 1.0 : std::copysign(1.0, strain);
   if (sign * stress > sign * at_.peak.stress_pa) at_.peak = {now.time, strain, stress};
   // a resumed run may observe a step again
-  if (cracks_.sums() && (at_.stresses.empty() || at_.stresses.back().strain != strain))
+  if (measures_peak() && cracks_.sums() && (at_.stresses.empty() || at_.stresses.back().strain != strain))
     at_.stresses.push_back({strain, stress});
 }
 
@@ -66,7 +66,7 @@ std::vector<experiments::CrackEvent> SteppedLoad::look_for_cracks(SteppedPoint& 
     point.energies = quasi_static_ ? experiments::Energies(quasi_static_->energies())
                                    : ledger_.sample(now, contact_state_, particles, point.cracks);
   }
-  if (drive_->value(now.step) > 0 && !cracks_.joins_walls()) {
+  if ((test_.cools || drive_->value(now.step) > 0) && !cracks_.joins_walls()) {
     const SteppedPoint before = at_.points.empty() ? SteppedPoint{} : at_.points.back();
     rupture_ = {point.time_s, point.strain, before.time_s, before.strain};
   }

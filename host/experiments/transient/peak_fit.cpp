@@ -84,4 +84,12 @@ experiments::FittedPeak peak_of(const experiments::SteppedResponse& found) {
   return found.fitted.value_or(experiments::FittedPeak{found.peak->strain, found.peak->stress_pa, 0});
 }
 
+bool passed_peak(const experiments::SteppedResponse& found, double peak_pa) {
+  if (found.rupture || (found.increments && found.increments->sudden_break)) return true;
+  if (!found.cracks || found.points.empty()) return false;
+  constexpr double fallen = 0.99;
+  const bool damaged = found.cracks->points() > 0 || (found.cracks->sums && found.cracks->sums->cracked > 0);
+  return damaged && std::abs(found.points.back().stress_pa) < fallen * std::abs(peak_pa);
+}
+
 }  // namespace macadam

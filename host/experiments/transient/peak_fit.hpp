@@ -29,4 +29,9 @@ std::optional<experiments::FittedPeak> interpolate_peak(std::span<const StressSa
 /// `found.peak` must have a value.
 experiments::FittedPeak peak_of(const experiments::SteppedResponse& found);
 
+/// Returns whether the largest stress of a test, `peak_pa`, counts as the strength of the specimen: the specimen broke,
+/// or contact points broke or cracked and the stress then fell by more than 1 % below the peak. `found` must have its
+/// points, its rupture, its cracks and its increments.
+bool passed_peak(const experiments::SteppedResponse& found, double peak_pa);
+
 }  // namespace macadam

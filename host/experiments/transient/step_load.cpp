@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/experiments/transient/cooling_results.hpp"
 #include "host/experiments/transient/load_judgement.hpp"
 #include "host/experiments/transient/load_rules.hpp"
 #include "host/experiments/transient/quasi_static_plan.hpp"
@@ -99,7 +100,7 @@ void SteppedLoad::make_quasi_static(const Boundary& boundary, const std::vector<
                                                    std::move(options));
   if (!state.empty()) made->set_state(state);
   quasi_static_ = made.get();
-  if (measures_peak()) made->after_each([this](const Observation& now) { follow_peak(now); });
+  if (measures_peak() || test_.cools) made->after_each([this](const Observation& now) { follow_peak(now); });
   stepper_ = std::move(made);
 }
 
@@ -207,6 +208,7 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
       found.increments->sudden_break = sudden_break_;
       found.increments->temperature_at_break_c = test_.temperature.at(sudden_break_->time_s);
     }
+    if (test_.cools) found.cooling = cooling_results(found, at_.peak, test_.temperature);
     found.seconds = before + seconds_since(start);
     found.kinetic_share = kinetic_share(found.points, prepared_.specimen.box.volume());
     owns_checkpoint_ = sampled_runs.own_checkpoint();
@@ -244,7 +246,8 @@ void SteppedLoad::solve(const std::filesystem::path& out, const Saving& save, Ru
 }
 
 void SteppedLoad::judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
-  if (found.rupture && (!test_.grows || test_.reverses)) return warnings.push_back(rupture_words(*found.rupture));
+  if (found.rupture && !test_.cools && (!test_.grows || test_.reverses))
+    return warnings.push_back(rupture_words(*found.rupture));
   std::vector<SteppedPoint> whole = found.points;
   if (found.rupture && !whole.empty()) whole.pop_back();  // at the last point the specimen was in two pieces
   if (sudden_break_) {

@@ -58,7 +58,7 @@ class SteppedLoad : public PlannedExperiment {
   /// Returns whether the largest stress is recorded: only in a strength test, in which the strain grows and contact
   /// points can break.
   bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress && !test_.reverses; }
-  /// Keeps the largest stress so far, with its time and strain.
+  /// Keeps the largest stress so far, with its time and strain; if the specimen cools, the largest tensile stress.
   void follow_peak(const Observation& now);
 
   /// Reads the state of the contacts at the stepper's present state, and returns the contact points that have broken

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/experiments/transient/cooling_results.hpp"
 #include "host/experiments/transient/peak_fit.hpp"
 #include "host/experiments/transient/standard_results.hpp"
 #include "host/experiments/transient/stepped_columns.hpp"
@@ -37,14 +38,8 @@ std::optional<double> experiments::SteppedResponse::energy_error() const {
 
 namespace {
 
-/// Returns whether the peak counts as the strength of the specimen: the specimen broke, or contact points broke or
-/// cracked and the stress then fell by more than 1 % below the peak.
-bool passed_peak(const SteppedResponse& found) {
-  if (found.rupture) return true;
-  constexpr double fallen = 0.99;
-  const bool damaged = found.cracks->points() > 0 || (found.cracks->sums && found.cracks->sums->cracked > 0);
-  return damaged && std::abs(found.points.back().stress_pa) < fallen * std::abs(found.peak->stress_pa);
-}
+/// Returns whether the test has passed its peak. `found.peak` must have a value.
+bool passed_its_peak(const SteppedResponse& found) { return passed_peak(found, found.peak->stress_pa); }
 
 bool measures_strength(const SteppedResponse& found) { return found.peak && !found.points.empty(); }
 
@@ -52,10 +47,11 @@ bool measures_strength(const SteppedResponse& found) { return found.peak && !fou
 /// test.
 std::string strength_words(const SteppedResponse& found) {
   const experiments::FittedPeak peak = peak_of(found);
-  if (has_standard_results(found)) return standard_results_words(found, passed_peak(found));
-  std::string out = fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
-                                passed_peak(found) ? "strength" : "largest stress", peak.stress_pa / 1e6, peak.strain,
-                                found.peak->time_s, passed_peak(found) ? "" : "; the strength was not reached");
+  if (has_standard_results(found)) return standard_results_words(found, passed_its_peak(found));
+  std::string out =
+      fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
+                  passed_its_peak(found) ? "strength" : "largest stress", peak.stress_pa / 1e6, peak.strain,
+                  found.peak->time_s, passed_its_peak(found) ? "" : "; the strength was not reached");
   if (found.fitted && found.increments) {
     out += fmt::format(
         "the strength is the vertex of a parabola through three increments; the largest stress at the end of an "
@@ -94,7 +90,7 @@ std::string energy_words(const SteppedResponse& found) {
 
 void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
   using Json = nlohmann::ordered_json;
-  const bool passed = passed_peak(found);
+  const bool passed = passed_its_peak(found);
   const experiments::FittedPeak peak = peak_of(found);
   out["strength_pa"] = passed ? Json(peak.stress_pa) : Json();
   out["strain_at_peak"] = passed ? Json(peak.strain) : Json();
@@ -116,6 +112,7 @@ const char* modulus_name(const SteppedResponse& found) {
 const char* load_kind_words(const SteppedResponse& found) {
   if (found.kind == experiments::IndirectTensileStrength::kind) return "disc between two strips";
   if (found.kind == experiments::SemicircularBending::kind) return "half disc on two rollers";
+  if (found.kind == experiments::Cooling::kind) return "specimen held between two platens while it cools";
   return modulus_words(found.confined);
 }
 
@@ -177,8 +174,9 @@ void ResultOf<SteppedResponse>::summarise(const SteppedResponse& found, const Sc
     add_load(load_test_of(scene), out);
     if (words.ratio) out["ramp_s"] = found.ramp_s;
     add_extremes(found.kind, found.points, out);
+    if (found.cooling) add_cooling(*found.cooling, out);
     if (measures_strength(found) && !has_standard_results(found)) add_strength(found, out);
-    if (has_standard_results(found)) add_standard_results(found, passed_peak(found), out);
+    if (has_standard_results(found)) add_standard_results(found, passed_its_peak(found), out);
     if (found.cracks && found.cracks->sums) {
       const auto error = energy_error_of(found);
       out["energy_error"] = error ? Json(*error) : Json();
@@ -227,15 +225,19 @@ double ResultOf<SteppedResponse>::seconds(const SteppedResponse& found) {
 template <>
 std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
   const LoadWords& words = load_words(found.kind);
-  std::string out = measures_strength(found) ? strength_words(found) : "";
+  std::string out = found.cooling              ? cooling_words(*found.cooling)
+                    : measures_strength(found) ? strength_words(found)
+                                               : "";
   if (found.rupture && measures_strength(found)) out += rupture_words(*found.rupture) + "\n";
   if (found.cracks) out += cracks_words(*found.cracks) + "\n";
   if (found.cracks && found.cracks->sums && !found.points.empty()) out += energy_words(found);
   const char* ratio = words.shown_stepped;
-  out += shown_head(ratio) + fmt::format(" {:>9}", "error") + (found.cracks ? fmt::format(" {:>9}", "broken") : "");
+  const bool cools = found.cooling.has_value();
+  out += shown_head(ratio) + (cools ? fmt::format(" {:>9}", "T (degC)") : "") + fmt::format(" {:>9}", "error") +
+         (found.cracks ? fmt::format(" {:>9}", "broken") : "");
   for (const SteppedPoint& p : found.points) {
-    out += shown_line(words, ratio, p) + fmt::format(" {:>9.1e}", p.error) +
-           (found.cracks ? fmt::format(" {:>9}", p.broken_points) : "");
+    out += shown_line(words, ratio, p) + (cools ? fmt::format(" {:>9.4g}", p.temperature_c) : "") +
+           fmt::format(" {:>9.1e}", p.error) + (found.cracks ? fmt::format(" {:>9}", p.broken_points) : "");
   }
   if (found.increments) return out + increment_words(found);
   return out + fmt::format(

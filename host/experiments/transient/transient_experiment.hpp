@@ -44,6 +44,9 @@ struct TransientExperiment {
   bool grows = false;
   /// Whether the load may pass through 0 (strain histories). Errors are then relative to the largest stress so far.
   bool reverses = false;
+  /// Whether the top wall rests while the specimen cools. The result is then the largest tensile stress and its
+  /// temperature, and the test ends when the specimen is in two pieces.
+  bool cools = false;
   /// Times at which the rate of the load jumps, in addition to those that `when` gives [s], rising.
   std::vector<double> jumps;
   std::optional<double> platen_mass;  ///< mass of the top wall if a stress loads it [kg]
@@ -70,6 +73,7 @@ TransientExperiment load_test(const experiments::Monotonic& spec);
 TransientExperiment load_test(const experiments::StrainHistory& spec);
 TransientExperiment load_test(const experiments::IndirectTensileStrength& spec);
 TransientExperiment load_test(const experiments::SemicircularBending& spec);
+TransientExperiment load_test(const experiments::Cooling& spec);
 /// @}
 /// Returns the description of the scene's experiment, or an empty one if the experiment is not a transient one.
 TransientExperiment load_test_of(const Scene& scene);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "macadam/experiments/bending.hpp"
+#include "macadam/experiments/cooling.hpp"
 #include "macadam/experiments/creep.hpp"
 #include "macadam/experiments/cyclic.hpp"
 #include "macadam/experiments/indirect_tensile_strength.hpp"
@@ -25,7 +26,7 @@ namespace macadam {
 using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
                                 experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension,
                                 experiments::IndirectTensileStrength, experiments::Bending,
-                                experiments::SemicircularBending, experiments::Torsion>;
+                                experiments::SemicircularBending, experiments::Torsion, experiments::Cooling>;
 
 /// The result of an experiment. Its type depends on the experiment and on the method that ran; it is monostate before a
 /// run.

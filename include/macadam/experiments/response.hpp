@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "macadam/experiments/cooling.hpp"
 #include "macadam/experiments/cracks.hpp"
 #include "macadam/experiments/energies.hpp"
 #include "macadam/experiments/increments.hpp"
@@ -78,6 +79,7 @@ struct SteppedResponse : Stepped {
 
   std::optional<DiscStrength> disc = {};           ///< only kind "indirect_tensile_strength"
   std::optional<HalfDiscStrength> half_disc = {};  ///< only kind "semicircular_bending"
+  std::optional<CoolingResults> cooling = {};      ///< only kind "cooling"
 
   std::optional<Increments> increments = {};  ///< only method "quasi_static"
 

@@ -151,6 +151,9 @@ def _main_results(f: Folder) -> str:
         points = f.in_time.get("points") or []
         if text := _strength(f):
             return text
+        if f.in_time.get("broke") is False:
+            stress, at = f.in_time["largest_stress_pa"], f.in_time["temperature_at_largest_stress_c"]
+            return f"not broken; largest thermal stress {look.modulus(stress)} at {look.number(at, 3)} °C"
         key = f.modulus_column
         if points and key:
             return "; ".join(f"{look.modulus(p[key])} at {look.seconds(p['time_s'])}" for p in (points[0], points[-1]))
@@ -197,6 +200,9 @@ def _strength(f: Folder) -> str:
     if standard:
         load, moved = 1e-3 * f.in_time["peak_load_n"], 1e3 * f.in_time["displacement_at_peak_m"]
         return ", ".join(standard) + f"; largest load {look.number(load, 3)} kN at {look.number(moved, 3)} mm"
+    if f.in_time.get("broke"):
+        stress, at = f.in_time["fracture_stress_pa"], f.in_time["fracture_temperature_c"]
+        return f"fracture at {look.number(at, 3)} °C under a thermal stress of {look.modulus(stress)}"
     if f.in_time.get("strength_pa") is None:
         return ""
     stress, strain = f.in_time["strength_pa"], f.in_time["strain_at_peak"]

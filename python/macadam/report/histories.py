@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
-from macadam.report import look
+from macadam.report import look, prony
 from macadam.report.folders import Folder, ReportError
 from macadam.report.modulus import decades
 from macadam.report.page import Page
@@ -29,7 +29,7 @@ def add(page: Page, folders: list[Folder]) -> None:
     series = [f for f in folders if f.kind == "run" and f.in_time and (f.in_time.get("prony") or {}).get("units")]
     if series:
         page.section("Viscoelastic constants of the mixture")
-        page.figure(_spectrum(series), _spectrum_caption(series), "Prony series")
+        page.figure(prony.spectrum(series), prony.caption(series), "Prony series")
 
 
 def drawing(found: list[Folder]) -> tuple[Any, str]:
@@ -235,6 +235,29 @@ def _load_curve(found: list[Folder]) -> tuple[Any, str]:
     return figure, "Load over the approach of the strips or rollers (left) and over time (right)."
 
 
+# Draws the stress of specimens that cool between two platens, over the temperature. Returns figure and caption.
+def _cooling(found: list[Folder]) -> tuple[Any, str]:
+    figure, axes = look.figure(look.WIDE, 2.7)
+    words = []
+    for f in found:
+        temperature, stress = _points(f, "temperature_c", "stress_pa")
+        axes.plot(temperature, 1e-6 * stress, "o-", color=f.colour, ms=2.5, label=f.label)
+        at = look.number(f.in_time["temperature_at_largest_stress_c"], 3)
+        largest = look.modulus(f.in_time["largest_stress_pa"])
+        if f.in_time["broke"]:
+            axes.plot(
+                f.in_time["fracture_temperature_c"], 1e-6 * f.in_time["fracture_stress_pa"], "x", color=f.colour, ms=7, mew=1.5
+            )
+            words.append(f"{f.label}: fracture (cross) at {at} °C under {largest}.")
+        else:
+            words.append(f"{f.label}: the specimen did not break; the largest stress is {largest} at {at} °C.")
+    axes.set(xlabel="temperature (°C)", ylabel="stress (MPa)")
+    axes.invert_xaxis()  # time runs to the right, as the specimen cools
+    if len(found) > 1:
+        axes.legend()
+    return figure, "Stress of a specimen that cools while its ends are held; tension is positive. " + " ".join(words)
+
+
 # Title and drawing of the tests in time, in the order of the report.
 _DRAWINGS = {
     "relaxation": ("Relaxation", _relaxation),
@@ -242,43 +265,5 @@ _DRAWINGS = {
     "monotonic": ("Constant rate of strain", _monotonic),
     "indirect_tensile_strength": ("Indirect tensile strength", _load_curve),
     "semicircular_bending": ("Semicircular bending", _load_curve),
+    "cooling": ("Thermal stress while cooling", _cooling),
 }
-
-
-# Draws the moduli of the units of Prony series over their relaxation times.
-def _spectrum(found: list[Folder]) -> Any:
-    figure, axes = look.figure(look.WIDE, 2.3)
-    for f in found:
-        units = f.in_time["prony"]["units"]
-        axes.plot(
-            [u["time_s"] for u in units],
-            [1e-6 * u["modulus_pa"] for u in units],
-            "o",
-            color=f.colour,
-            ms=3,
-            label=f.label,
-        )
-        axes.vlines([u["time_s"] for u in units], 0, [1e-6 * u["modulus_pa"] for u in units], color=f.colour, lw=1)
-    axes.set(xscale="log", xlabel="relaxation time (s)", ylabel="modulus of the unit (MPa)")
-    axes.set_ylim(bottom=0)
-    decades(axes.xaxis)
-    if len(found) > 1:
-        axes.legend()
-    return figure
-
-
-def _spectrum_caption(found: list[Folder]) -> str:
-    words = ["Prony series of the specimen, with one line per unit. High lines mark the times at "
-             "which the specimen relaxes most."]
-    for f in found:
-        prony = f.in_time["prony"]
-        words.append(
-            f"{f.label}: {len(prony['units'])} units, "
-            f"{look.modulus(f.in_time.get('instantaneous_pa') or 0)} at time 0 and "
-            f"{look.modulus(prony.get('long_term_pa') or 0)} at infinite time; valid from "
-            f"{look.seconds(f.in_time['shortest_s'])} to {look.seconds(f.in_time['longest_s'])}."
-        )
-    tables = [n for n in ("prony.csv", "prony_abaqus.inp", "prony_ansys.txt") if found[0].has(n)]
-    return " ".join(words) + (
-        f" Tables for finite-element programs are in the folder: {', '.join(tables)}." if tables else ""
-    )

@@ -45,6 +45,8 @@ QUANTITIES = (
     "fracture_energy_j_m2",
     "ct_index",
     "flexibility_index",
+    "fracture_stress_pa",
+    "fracture_temperature_c",
 )
 _LARGEST_SEED = 2**63 - 1  # TOML's largest whole number
 _ROWS = 24  # largest number of printed rows
