@@ -46,12 +46,14 @@ Key temperature_key(TemperatureHistory& target) {
           "the temperature does not change"};
 }
 
-std::vector<Key> Approach::keys(const std::string& of_rate, const std::string& of_displacement) {
+std::vector<Key> Approach::keys(const std::string& of_rate, const std::string& of_displacement,
+                                const std::string& usual_rate) {
   constexpr std::int64_t most_points = 100'000;
-  return {kind_key(),
-          {"rate", Need::optional, into(rate, speed, positive), of_rate, "50 mm/min, as in the standards"},
-          {"displacement", Need::required, into(displacement, length, positive), of_displacement},
-          {"points", Need::optional, into(points, 10, most_points), "rows of the result, evenly spaced"}};
+  return {
+      kind_key(),
+      {"rate", usual_rate.empty() ? Need::required : Need::optional, into(rate, speed, positive), of_rate, usual_rate},
+      {"displacement", Need::required, into(displacement, length, positive), of_displacement},
+      {"points", Need::optional, into(points, 10, most_points), "rows of the result, evenly spaced"}};
 }
 
 std::vector<double> Approach::times(double at_rate) const {

@@ -33,8 +33,10 @@ struct Approach {
   double displacement = 0;     ///< at the end [m]
   int points = 200;
 
-  /// Returns the keys `kind`, `rate`, `displacement` and `points`. The arguments explain `rate` and `displacement`.
-  std::vector<Key> keys(const std::string& of_rate, const std::string& of_displacement);
+  /// Returns the keys `kind`, `rate`, `displacement` and `points`. The first two arguments explain `rate` and
+  /// `displacement`. `usual_rate`: the rate without the key; if it is empty, the key `rate` is required.
+  std::vector<Key> keys(const std::string& of_rate, const std::string& of_displacement,
+                        const std::string& usual_rate = "50 mm/min, as in the standards");
   /// Returns the times of the rows at a rate [s], evenly spaced.
   std::vector<double> times(double at_rate) const;
 };

@@ -27,7 +27,7 @@ struct Sizes {
 domains::Rollers three_rollers(const Section& root, const Sizes& sizes, double domain, const std::string& name) {
   const auto [span, width, span_is_given] = sizes;
   const bool fits = span + width <= domain * (1 + sum_rounding);
-  if (span_is_given && !fits)
+  if (!fits && (span_is_given || span >= domain))
     refuse(root, "span", span, fmt::format("at most {:g} m, {} less the width of a roller", domain - width, name));
   if (!(width <= 0.25 * span * (1 + sum_rounding)))
     refuse(root, "roller_width", width, fmt::format("at most {:g} m, a quarter of the span", 0.25 * span));
@@ -61,6 +61,14 @@ domains::Rollers rollers_of(const experiments::SemicircularBending& test, double
   return three_rollers(root, {span, width, test.span.has_value()}, diameter, "the diameter");
 }
 
+domains::Rollers rollers_of(const experiments::ThreePointBending& test, double length, const Section& root) {
+  const double span = test.span.value_or(test.usual_span * test.height),
+               width = test.roller_width.value_or(test.usual_roller_width * span);
+  domains::Rollers out = three_rollers(root, {span, width, test.span.has_value()}, length, "the length of the beam");
+  out.turn = true;
+  return out;
+}
+
 }  // namespace
 
 void set_rollers(Scene& scene, const Section& root) {
@@ -71,6 +79,10 @@ void set_rollers(Scene& scene, const Section& root) {
   if (auto* test = std::get_if<experiments::SemicircularBending>(&scene.experiment)) {
     test->radius = domain.gauge_length();
     if (name == domains::HalfDisc::name) domain.set_rollers(rollers_of(*test, domain.size.x, root));
+  }
+  if (auto* test = std::get_if<experiments::ThreePointBending>(&scene.experiment)) {
+    test->height = domain.gauge_length();
+    if (name == domains::Beam::name) domain.set_rollers(rollers_of(*test, domain.size.x, root));
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace macadam::scene {
 
-/// Gives the beam or the half disc of a scene the rollers of its bending test, and the semicircular bending test the
-/// radius of the half disc. Does nothing for other tests. A test with the wrong domain gets no rollers; it is refused
+/// Gives the beam or the half disc of a scene the rollers of its bending test, and a test to failure the height of the
+/// specimen. Does nothing for other tests. A test with the wrong domain gets no rollers; it is refused
 /// later. `root` is the whole scene. \throws InputError if a roller does not fit on the domain, or if rollers overlap.
 void set_rollers(Scene& scene, const Section& root);
 

@@ -162,24 +162,29 @@ void replace_box(Part& specimen, const std::string& domain, const std::vector<Gi
 void set_domain(Part& specimen, const std::string& test) {
   if (test == "indirect_tension" || test == "indirect_tensile_strength")
     replace_box(specimen, "disc", {{"diameter", R"("60 mm")"}, {"thickness", R"("20 mm")"}});
-  if (test == "bending")
+  if (test == "bending" || test == "three_point_bending")
     replace_box(specimen, "beam", {{"length", R"("120 mm")"}, {"width", R"("20 mm")"}, {"height", R"("20 mm")"}});
   if (test == "semicircular_bending")
     replace_box(specimen, "half_disc", {{"diameter", R"("60 mm")"}, {"thickness", R"("20 mm")"}});
   if (test == "torsion") replace_box(specimen, "cylinder", {{"diameter", R"("24 mm")"}, {"height", R"("40 mm")"}});
 }
 
-/// Returns the notch of a half disc, which the test of half discs usually has.
-Part notch_of_half_disc() {
+/// Returns whether a test bends a specimen until it fails. Such a test usually has a notch.
+bool bends_to_failure(const std::string& test) {
+  return test == "semicircular_bending" || test == "three_point_bending";
+}
+
+/// Returns the notch of a specimen that is bent until it fails.
+Part notch_of(const std::string& test) {
+  const char* middle = test == "semicircular_bending" ? R"("30 mm")" : R"("60 mm")";
   return {"[[specimen.notch]]",
-          {{"axis", R"("x")"}, {"at", R"("30 mm")"}, {"z", R"(["0 mm", "6 mm"])"}},
-          "A thin cut from the middle of the flat side towards the crown, a tenth of the diameter long. Without this "
-          "section the half disc has no notch."};
+          {{"axis", R"("x")"}, {"at", middle}, {"z", R"(["0 mm", "6 mm"])"}},
+          "A thin cut from the middle of the bottom upwards. Without this section the specimen has no notch."};
 }
 
 /// Returns whether a test measures a strength and needs cracks.
 bool needs_cracks(const std::string& test) {
-  return test == "indirect_tensile_strength" || test == "semicircular_bending" || test == "cooling";
+  return test == "indirect_tensile_strength" || test == "cooling" || bends_to_failure(test);
 }
 
 Part loading_of(const std::string& test, bool cracks) {
@@ -189,6 +194,8 @@ Part loading_of(const std::string& test, bool cracks) {
   if (test == "indirect_tension") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "indirect_tensile_strength") give("displacement", R"("0.4 mm")"), give("points", "100");
   if (test == "semicircular_bending") give("displacement", R"("0.3 mm")"), give("points", "100");
+  if (test == "three_point_bending")
+    give("rate", R"("50 mm/min")"), give("displacement", R"("0.5 mm")"), give("points", "100");
   if (test == "bending" || test == "sweep" || test == "torsion")
     give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
   if (test == "cooling") give("from", R"("20 degC")"), give("to", R"("-30 degC")"), give("rate", R"("10 K/h")");
@@ -254,14 +261,14 @@ std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, b
   if (cracks && test != "monotonic" && !of_strength) {
     throw InputError(
         fmt::format("--cracks: found this option with --test {}, expected --test monotonic, indirect_tensile_strength, "
-                    "semicircular_bending or cooling, which measure a strength",
+                    "semicircular_bending, three_point_bending or cooling, which measure a strength",
                     test));
   }
   if ((test == "indirect_tension" || test == "bending" || test == "torsion") && rule == ContactRule::volumetric)
     throw InputError("--test: found " + test + " with --rule volumetric, expected --rule series or centres");
   std::vector<Part> parts = specimen_of(kind);
   set_domain(parts.front(), test);
-  if (test == "semicircular_bending") parts.push_back(notch_of_half_disc());
+  if (bends_to_failure(test)) parts.push_back(notch_of(test));
   const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
   const bool of_phases = has_laws_of_phases(rule), densities = kind != NewKind::recipe, cools = test == "cooling";
   append(of_phases ? materials_with_laws(densities) : materials_without_laws(densities, cools));

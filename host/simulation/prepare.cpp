@@ -9,6 +9,7 @@
 #include "host/network/clusters.hpp"
 #include "host/network/cell_volumes.hpp"
 #include "host/network/loaded_rollers.hpp"
+#include "host/network/turning_rollers.hpp"
 #include "host/files/particle_files.hpp"
 #include "host/files/result_files.hpp"
 #include "host/files/result_folder.hpp"
@@ -120,6 +121,7 @@ void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, con
   out.seconds_network = seconds_of([&] {
     require_loaded_rollers(out.specimen, out.tessellation);
     out.network = build_network(out.specimen, out.tessellation, scene.network);
+    let_rollers_turn(out.specimen, out.network);
     require_laws(scene, out.specimen, out.network);
     if (has_laws_of_phases(scene.network.rule)) apply_rule(scene, surfaces, out);
     count_clusters(out);

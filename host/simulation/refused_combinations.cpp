@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "host/experiments/experiment.hpp"
-#include "host/experiments/transient/half_disc_strength.hpp"
+#include "host/experiments/transient/bottom_notch.hpp"
 #include "host/harmonic/law_stiffness.hpp"
 #include "host/run/checkpoints.hpp"
 #include "host/scene/cooling_conditions.hpp"
@@ -80,14 +80,15 @@ void require_cracks(const Scene& scene) {
                      "\"quasi_static\" or \"explicit\", because cracks are not linear");
 }
 
-/// Refuses what the test of a half disc does not have. \throws InputError
-void require_half_disc(const Scene& scene) {
-  require_domain(scene, domains::HalfDisc::name);
+/// Refuses what a bending test to failure does not have. `domain`: name of the domain that the test needs. \throws
+/// InputError
+void require_bent_to_failure(const Scene& scene, const std::string& domain) {
+  require_domain(scene, domain);
   require_cracks(scene);
-  if (half_disc_notch(scene.specimen.box, scene.network.notches)) return;
+  if (bottom_notch(scene.specimen.box, scene.network.notches)) return;
   refuse_with_kind(scene, "[[specimen.notch]]", "a notch of another kind, or several notches",
-                   "no notch, or one notch with axis = \"x\" that begins at z = 0, ends below the crown and passes "
-                   "through the whole thickness");
+                   "no notch, or one notch with axis = \"x\" that begins at z = 0, ends within the specimen and passes "
+                   "through the whole thickness along y");
 }
 
 bool is_of_disc(const Experiment& experiment) {
@@ -107,7 +108,9 @@ void require_combination(const Scene& scene) {
   if (std::holds_alternative<experiments::Bending>(scene.experiment))
     require_domain(scene, domains::Beam::name);
   else if (std::holds_alternative<experiments::SemicircularBending>(scene.experiment))
-    require_half_disc(scene);
+    require_bent_to_failure(scene, domains::HalfDisc::name);
+  else if (std::holds_alternative<experiments::ThreePointBending>(scene.experiment))
+    require_bent_to_failure(scene, domains::Beam::name);
   else if (std::holds_alternative<experiments::Torsion>(scene.experiment))
     require_torsion(scene);
   else if (is_of_disc(scene.experiment))
@@ -155,7 +158,7 @@ void require_combination(const Scene& scene) {
     if (stepping_of(scene.experiment) == experiments::Stepping::never)
       refuse("kind", kind_of(scene.experiment),
              "\"cyclic\", \"monotonic\", \"relaxation\", \"creep\", \"history\", \"indirect_tensile_strength\", "
-             "\"semicircular_bending\" or \"cooling\"");
+             "\"semicircular_bending\", \"three_point_bending\" or \"cooling\"");
     if (scene.solver.backend == Backend::reference) refuse("backend", "reference", "auto, cpu or cuda");
     if (scene.solver.backend == Backend::cuda && !temperature_history_of(scene.experiment).empty())
       refuse("backend", "cuda and a temperature that changes",

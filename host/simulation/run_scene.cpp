@@ -84,8 +84,8 @@ void require_same_domain(const Scene& scene, const Specimen& specimen) {
     if (strips(d) > 0) out += fmt::format(", strips of {:g} m", strips(d));
     const domains::Rollers of = rollers(d);
     if (of.width > 0)
-      out += fmt::format(", rollers of {:g} m at x = {:g} m below and {:g} m above", of.width,
-                         fmt::join(of.bottom, ", "), fmt::join(of.top, ", "));
+      out += fmt::format(", {}rollers of {:g} m at x = {:g} m below and {:g} m above", of.turn ? "turning " : "",
+                         of.width, fmt::join(of.bottom, ", "), fmt::join(of.top, ", "));
     return out == d.dimensions() ? out + ", no strips and no rollers" : out;
   };
   if (words(expected) != words(found))

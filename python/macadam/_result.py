@@ -213,6 +213,8 @@ class Result:
         for key, name in (("indirect_tensile_strength_pa", "indirect tensile strength"), ("bending_strength_pa", "strength")):
             if rows[0].get(key) is not None:
                 return f"{name} {rows[0][key]:.4g} Pa, largest load {rows[0]['peak_load_n']:.4g} N"
+        if rows[0].get("fracture_energy_j_m2") is not None:
+            return f"fracture energy {rows[0]['fracture_energy_j_m2']:.4g} J/m2, largest load {rows[0]['peak_load_n']:.4g} N"
         points = rows[0].get("points") or []
         for key in ("modulus_pa", "secant_pa", "compliance_1_pa", "stress_pa"):
             ends = [p for p in points if p.get(key) is not None]

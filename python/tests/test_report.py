@@ -368,24 +368,42 @@ def test_a_test_in_time_without_a_drawing_of_its_own_gets_the_general_one(tmp_pa
         report(copy, tmp_path / "r.html")
 
 
-def test_a_half_disc_has_the_results_of_its_standard(tmp_path: Path, no_pictures) -> None:
+BENT = {
+    "semicircular_bending": ("""
+        domain = "half_disc"
+        diameter = 0.021
+        thickness = 0.005
+        notch = [{ axis = "x", at = 0.0105, z = [0, 0.002] }]
+        """, ["Bending strength", "Semicircular bending"]),
+    "three_point_bending": ("""
+        domain = "beam"
+        length = 0.04
+        width = 0.005
+        height = 0.008
+        notch = [{ axis = "x", at = 0.02, z = [0, 0.002] }]
+        """, ["Fracture toughness", "Three-point bending"]),
+}
+
+
+@pytest.mark.parametrize("kind", BENT)
+def test_a_bent_specimen_has_the_results_of_its_standard(kind: str, tmp_path: Path, no_pictures) -> None:
+    specimen, expected = BENT[kind]
     crack = "crack = { tensile_strength = 1e6, fracture_energy = 50, shear_strength = 1.5e6, friction = 0.5 }"
     (tmp_path / "scene.toml").write_text(
         f"""
         contacts = [{{ pair = "M-M", law = "elastic", E = 5e9, alpha = 0.3, {crack} }},
           {{ pair = "M-W", law = "elastic", E = 5e9 }}]
         [specimen]
-        domain = "half_disc"
-        diameter = 0.021
-        thickness = 0.005
+        {specimen}
         mastic = {{ radius = [0.0009, 0.0011], porosity = 0.05 }}
-        notch = [{{ axis = "x", at = 0.0105, z = [0, 0.002] }}]
         [materials]
         aggregate = {{ density = 2000 }}
         mastic = {{ density = 2000 }}
         [loading]
-        kind = "semicircular_bending"
-        displacement = "0.12 mm"
+        kind = "{kind}"
+        rate = "50 mm/min"
+        roller_width = "1.5 mm"
+        displacement = "0.2 mm"
         points = 20
         [solver]
         tolerance = 1e-2
@@ -395,8 +413,8 @@ def test_a_half_disc_has_the_results_of_its_standard(tmp_path: Path, no_pictures
     subprocess.run([PROGRAM, "run", tmp_path / "scene.toml", "--out", tmp_path / "out", "--backend", "cpu"], check=True,
                    capture_output=True)
     page = report(tmp_path / "out", tmp_path / "r.html").read_text(encoding="utf-8")
-    assert "Bending strength" in page and "fracture energy" in page and "largest load" in page
-    assert "Semicircular bending" in page and "Load over the approach" in page and "semicircular_bending, with" not in page
+    assert all(words in page for words in [*expected, "fracture energy", "largest load", "Load over the approach"])
+    assert f"{kind}, with" not in page
 
 
 def test_a_specimen_that_cools_has_its_fracture(tmp_path: Path, no_pictures) -> None:

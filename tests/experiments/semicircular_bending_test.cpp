@@ -19,7 +19,7 @@ namespace macadam {
 namespace {
 
 constexpr double diameter = 0.15, radius = 0.075, thickness = 0.05, notch = 0.015, at_peak = 1e-3;
-constexpr HalfDiscNotch in_middle{notch, true, radius - notch};
+constexpr BottomNotch in_middle{notch, true, radius - notch};
 
 /// Returns a half disc whose lower rollers have this distance, as a part of the diameter.
 Domain half_disc(double span = 0.8) {
@@ -91,7 +91,7 @@ TEST(HalfDiscStrength, CountsTheWorkOfSmallLoads) {
 TEST(HalfDiscStrength, NeedsTheNotchAndTheSpanOfTheStandards) {
   const double load = 3000;
   const auto samples = triangle(load);
-  const auto found = [&](double span, const HalfDiscNotch& of) {
+  const auto found = [&](double span, const BottomNotch& of) {
     return half_disc_strength(samples, peak_at(load), half_disc(span), of);
   };
   const experiments::HalfDiscStrength whole = found(0.8, {0, true, radius});
@@ -135,10 +135,10 @@ TEST(LoadCurve, FindsTheSteepestFall) {
   EXPECT_FALSE(curve.displacement_at(0.1));
 }
 
-TEST(HalfDiscNotch, IsOneCutFromTheFlatSide) {
+TEST(BottomNotch, IsOneCutFromTheFlatSide) {
   Notch cut;
   cut.position = radius, cut.low[2] = 0, cut.high[2] = notch;
-  const auto found = [](const std::vector<Notch>& notches) { return half_disc_notch(half_disc(), notches); };
+  const auto found = [](const std::vector<Notch>& notches) { return bottom_notch(half_disc(), notches); };
   ASSERT_TRUE(found({}));
   EXPECT_EQ(found({})->length, 0);
   ASSERT_TRUE(found({cut}));
@@ -156,6 +156,11 @@ TEST(HalfDiscNotch, IsOneCutFromTheFlatSide) {
   other = cut, other.low[2] = 0.001;
   EXPECT_FALSE(found({other}));
   other = cut, other.axis = 1;
+  EXPECT_FALSE(found({other}));
+  other = cut, other.position = 0.4 * radius, other.high[2] = 0.79 * radius;  // the arc is at 0.8 radii there
+  ASSERT_TRUE(found({other}));
+  EXPECT_NEAR(found({other})->ligament, 0.01 * radius, 1e-15);
+  other.high[2] = 0.81 * radius;
   EXPECT_FALSE(found({other}));
 }
 

@@ -151,8 +151,8 @@ TEST_F(NewCommand, EveryKindRuns) {
 
 TEST_F(NewCommand, EveryTestRuns) {
   for (const std::string& test : scene::tests_of_new_scenes()) {
-    const bool is_disc = test.starts_with("indirect_"), is_beam = test == "bending";
-    const bool is_half_disc = test == "semicircular_bending";
+    const bool is_bent_beam = test == "three_point_bending", is_half_disc = test == "semicircular_bending";
+    const bool is_disc = test.starts_with("indirect_"), is_beam = test == "bending" || is_bent_beam;
     const bool is_cylinder = test == "torsion";
     const bool is_box = !is_disc && !is_beam && !is_half_disc && !is_cylinder;  // as the file's specimen is
     std::string text = scene_text(is_box ? NewKind::file : NewKind::spheres, test);
@@ -176,6 +176,11 @@ TEST_F(NewCommand, EveryTestRuns) {
     if (is_half_disc)
       text =
           replaced(replaced(text, "displacement = \"0.3 mm\"", "displacement = 5e-6"), "points = 100", "points = 10");
+    if (is_bent_beam) {
+      text = replaced(replaced(text, "at = \"60 mm\"", "at = 0.03"), "\"6 mm\"", "0.004");
+      text =
+          replaced(replaced(text, "displacement = \"0.5 mm\"", "displacement = 5e-6"), "points = 100", "points = 10");
+    }
     if (test == "cooling") text = replaced(text, "to = \"-30 degC\"", "to = \"10 degC\"");
     write(folder_ / "mix.toml", text);
     const Outcome outcome = macadam("run " + path("mix.toml") + " --backend cpu --out " + path("out"));

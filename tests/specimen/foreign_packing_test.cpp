@@ -129,6 +129,8 @@ TEST_F(ForeignPackings, OptionsOfPackingsNeedTheKind) {
                          "--test: found " + test + " with --kind packing"));
   EXPECT_TRUE(contains(macadam("new --kind packing --packing x --test semicircular_bending " + path("a.toml")).err,
                        "--test: found semicircular_bending with --kind packing"));
+  EXPECT_TRUE(contains(macadam("new --kind packing --packing x --test three_point_bending " + path("a.toml")).err,
+                       "--test: found three_point_bending with --kind packing"));
   EXPECT_TRUE(contains(macadam("new --packing x " + path("a.toml")).err, "expected --kind packing as well"));
   EXPECT_TRUE(
       contains(macadam("new --unit mm " + path("a.toml")).err, "--unit: found this option without --kind packing"));

@@ -15,8 +15,6 @@ namespace {
 /// Span over diameter to which the formulas of strength and toughness refer, and the relative difference that is
 /// allowed.
 constexpr double usual_span = 0.8, of_usual = 0.01;
-/// A notch is in the middle if its distance from the middle is less than this part of the radius.
-constexpr double middle = 0.01;
 /// The load must fall to this part of its largest value, so that the curve contains its steepest fall.
 constexpr double fallen = 0.5;
 /// Width of the window in which the slope of the curve is measured, over the displacement at the largest load.
@@ -28,21 +26,9 @@ double intensity_factor(double part) { return 4.782 - 1.219 * part + 0.063 * std
 
 }  // namespace
 
-std::optional<HalfDiscNotch> half_disc_notch(const Domain& half_disc, std::span<const Notch> notches) {
-  const double radius = half_disc.gauge_length(2);
-  if (notches.empty()) return HalfDiscNotch{0, true, radius};
-  const Notch& notch = notches.front();
-  const double thickness = half_disc.gauge_length(1);
-  const bool is_through = notch.low[1] <= 0 && notch.high[1] >= thickness;
-  const bool is_from_flat_side = notch.low[2] <= 0 && notch.high[2] > 0 && notch.high[2] < radius;
-  if (notches.size() > 1 || notch.axis != 0 || !is_through || !is_from_flat_side) return {};
-  const double beside = notch.position - radius, height = std::sqrt(std::max(0.0, radius * radius - beside * beside));
-  return HalfDiscNotch{notch.high[2], std::abs(beside) < middle * radius, height - notch.high[2]};
-}
-
 experiments::HalfDiscStrength half_disc_strength(std::span<const StressSample> samples,
                                                  const experiments::FittedPeak& peak, const Domain& half_disc,
-                                                 const HalfDiscNotch& notch) {
+                                                 const BottomNotch& notch) {
   const double radius = half_disc.gauge_length(2), thickness = half_disc.gauge_length(1), diameter = 2 * radius;
   const LoadCurve curve(samples, peak, half_disc);
   experiments::HalfDiscStrength out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file standard_results.hpp  Computes and reports the results that standards define for the strength tests of discs
-/// and half discs.
+/// \file standard_results.hpp  Computes and reports the results that standards define for the strength tests of discs,
+/// half discs and beams.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -105,6 +105,7 @@ void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
 const char* modulus_name(const SteppedResponse& found) {
   if (found.kind == experiments::IndirectTensileStrength::kind) return "indirect_tension";
   if (found.kind == experiments::SemicircularBending::kind) return experiments::SemicircularBending::kind;
+  if (found.kind == experiments::ThreePointBending::kind) return experiments::ThreePointBending::kind;
   return found.confined ? "confined" : "uniaxial";
 }
 
@@ -112,6 +113,7 @@ const char* modulus_name(const SteppedResponse& found) {
 const char* load_kind_words(const SteppedResponse& found) {
   if (found.kind == experiments::IndirectTensileStrength::kind) return "disc between two strips";
   if (found.kind == experiments::SemicircularBending::kind) return "half disc on two rollers";
+  if (found.kind == experiments::ThreePointBending::kind) return "beam on two rollers";
   if (found.kind == experiments::Cooling::kind) return "specimen held between two platens while it cools";
   return modulus_words(found.confined);
 }

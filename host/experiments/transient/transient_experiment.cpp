@@ -26,7 +26,7 @@ using experiments::SpectrumResponse;
 
 namespace {
 
-constexpr std::array<LoadWords, 7> all_words{{
+constexpr std::array<LoadWords, 8> all_words{{
     {"relaxation", "relaxation.csv", "modulus_pa",
      "modulus_pa: modulus after an instantaneous strain; error: relative error of stress and modulus", false,
      "E(t) (MPa)", "stress/strain (MPa)", 1e6},
@@ -37,6 +37,7 @@ constexpr std::array<LoadWords, 7> all_words{{
      "secant (MPa)", 1e6},
     {"indirect_tensile_strength", "indirect_tensile_strength.csv", nullptr, "", false, nullptr, nullptr, 1},
     {"semicircular_bending", "semicircular_bending.csv", nullptr, "", false, nullptr, nullptr, 1},
+    {"three_point_bending", "three_point_bending.csv", nullptr, "", false, nullptr, nullptr, 1},
     {"cooling", "cooling.csv", nullptr, "", false, nullptr, nullptr, 1},
     {"history", "history.csv", nullptr, "error: relative error of stress", false, nullptr, nullptr, 1},
 }};

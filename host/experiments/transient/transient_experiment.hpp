@@ -73,6 +73,7 @@ TransientExperiment load_test(const experiments::Monotonic& spec);
 TransientExperiment load_test(const experiments::StrainHistory& spec);
 TransientExperiment load_test(const experiments::IndirectTensileStrength& spec);
 TransientExperiment load_test(const experiments::SemicircularBending& spec);
+TransientExperiment load_test(const experiments::ThreePointBending& spec);
 TransientExperiment load_test(const experiments::Cooling& spec);
 /// @}
 /// Returns the description of the scene's experiment, or an empty one if the experiment is not a transient one.

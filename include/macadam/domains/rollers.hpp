@@ -9,10 +9,12 @@
 namespace macadam::domains {
 
 /// Rollers below and above a specimen. A roller is a strip of the wall −z or +z: it is `width` long along x and reaches
-/// across the whole specimen along y. The specimen touches these two walls only within the strips. Rollers do not turn.
+/// across the whole specimen along y. The specimen touches these two walls only within the strips.
 struct Rollers {
   std::vector<double> bottom, top;  ///< middles of the rollers on the walls −z and +z, along x [m]
   double width = 0;                 ///< length of each roller along x [m]; 0: no rollers
+  /// Whether the rollers turn with the specimen. Otherwise a roller holds the section above or below it.
+  bool turn = false;
 
   /// Returns the middles of the rollers on the wall −z (index 4) or +z (index 5).
   const std::vector<double>& on(int wall) const { return wall == 4 ? bottom : top; }

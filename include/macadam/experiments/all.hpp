@@ -18,6 +18,7 @@
 #include "macadam/experiments/semicircular_bending.hpp"
 #include "macadam/experiments/strain_history.hpp"
 #include "macadam/experiments/sweep.hpp"
+#include "macadam/experiments/three_point_bending.hpp"
 #include "macadam/experiments/torsion.hpp"
 
 namespace macadam {
@@ -26,7 +27,8 @@ namespace macadam {
 using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
                                 experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension,
                                 experiments::IndirectTensileStrength, experiments::Bending,
-                                experiments::SemicircularBending, experiments::Torsion, experiments::Cooling>;
+                                experiments::SemicircularBending, experiments::ThreePointBending, experiments::Torsion,
+                                experiments::Cooling>;
 
 /// The result of an experiment. Its type depends on the experiment and on the method that ran; it is monostate before a
 /// run.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_results.hpp  Defines the results that the strength tests of discs and of half discs have in common.
+/// \file load_results.hpp  Defines the results that the strength tests of discs, half discs and beams have in
+/// common.
 #pragma once
 
 namespace macadam::experiments {

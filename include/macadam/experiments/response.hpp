@@ -17,6 +17,7 @@
 #include "macadam/experiments/material.hpp"
 #include "macadam/experiments/semicircular_bending.hpp"
 #include "macadam/experiments/stepped.hpp"
+#include "macadam/experiments/three_point_bending.hpp"
 
 namespace macadam::experiments {
 
@@ -79,6 +80,7 @@ struct SteppedResponse : Stepped {
 
   std::optional<DiscStrength> disc = {};           ///< only kind "indirect_tensile_strength"
   std::optional<HalfDiscStrength> half_disc = {};  ///< only kind "semicircular_bending"
+  std::optional<BeamStrength> beam = {};           ///< only kind "three_point_bending"
   std::optional<CoolingResults> cooling = {};      ///< only kind "cooling"
 
   std::optional<Increments> increments = {};  ///< only method "quasi_static"

@@ -178,7 +178,7 @@ def _point(r: dict[str, Any]) -> str:
     )
 
 
-# Names and units of the results of discs and half discs that were loaded until they failed.
+# Names and units of the results of discs, half discs and beams that were loaded until they failed.
 _STANDARD_RESULTS = (
     ("indirect_tensile_strength_pa", "indirect tensile strength", 1e-6, "MPa"),
     ("bending_strength_pa", "bending strength", 1e-6, "MPa"),

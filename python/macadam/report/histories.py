@@ -265,5 +265,6 @@ _DRAWINGS = {
     "monotonic": ("Constant rate of strain", _monotonic),
     "indirect_tensile_strength": ("Indirect tensile strength", _load_curve),
     "semicircular_bending": ("Semicircular bending", _load_curve),
+    "three_point_bending": ("Three-point bending", _load_curve),
     "cooling": ("Thermal stress while cooling", _cooling),
 }
