@@ -36,6 +36,13 @@ domains::Rollers three_rollers(const Section& root, const Sizes& sizes, double d
   return {{middle - 0.5 * span, middle + 0.5 * span}, {middle}, width};
 }
 
+/// Returns the same for a test to failure, in which the rollers turn with the specimen.
+domains::Rollers turning_rollers(const Section& root, const Sizes& sizes, double domain, const std::string& name) {
+  domains::Rollers out = three_rollers(root, sizes, domain, name);
+  out.turn = true;
+  return out;
+}
+
 domains::Rollers rollers_of(const experiments::Bending& test, double length, const Section& root) {
   const double span = test.span.value_or(experiments::usual_span * length),
                width = test.roller_width.value_or(experiments::usual_roller_width * span);
@@ -58,15 +65,13 @@ domains::Rollers rollers_of(const experiments::Bending& test, double length, con
 domains::Rollers rollers_of(const experiments::SemicircularBending& test, double diameter, const Section& root) {
   const double span = test.span.value_or(test.usual_span * diameter),
                width = test.roller_width.value_or(test.usual_roller_width * 0.5 * diameter);
-  return three_rollers(root, {span, width, test.span.has_value()}, diameter, "the diameter");
+  return turning_rollers(root, {span, width, test.span.has_value()}, diameter, "the diameter");
 }
 
 domains::Rollers rollers_of(const experiments::ThreePointBending& test, double length, const Section& root) {
   const double span = test.span.value_or(test.usual_span * test.height),
                width = test.roller_width.value_or(test.usual_roller_width * span);
-  domains::Rollers out = three_rollers(root, {span, width, test.span.has_value()}, length, "the length of the beam");
-  out.turn = true;
-  return out;
+  return turning_rollers(root, {span, width, test.span.has_value()}, length, "the length of the beam");
 }
 
 }  // namespace

@@ -193,6 +193,7 @@ TEST_F(SemicircularBending, PlacesTheRollers) {
   EXPECT_NEAR(rollers.bottom[1], 0.0189, 1e-15);
   EXPECT_EQ(rollers.top, std::vector<double>{0.0105});
   EXPECT_DOUBLE_EQ(rollers.width, 0.003);
+  EXPECT_TRUE(rollers.turn);
   const auto& test = std::get<experiments::SemicircularBending>(scene.experiment);
   EXPECT_EQ(test.radius, 0.0105);
   EXPECT_NEAR(test.rate, 0.05 / 60, 1e-18);
