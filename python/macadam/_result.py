@@ -167,10 +167,10 @@ class Result:
         """The backend that ran: cpu, cuda or reference."""
         return self._run.backend
 
-    def report(self, file: str | PathLike[str], *, figures: str | PathLike[str] | None = None) -> Path:
+    def report(self, file: str | PathLike[str], *, figures: str | PathLike[str] | None = None, view: bool = False) -> Path:
         """Writes a report of the folder, one HTML file: `macadam report`. figures: a folder into which each figure is
-        written too, as SVG, PDF, PNG and CSV."""
-        importlib.import_module("macadam.report").report(self.folder, file, figures=figures, scene=self.scene.text)
+        written too, as SVG, PDF, PNG and CSV. view: also write a view in three dimensions beside the report."""
+        importlib.import_module("macadam.report").report(self.folder, file, figures=figures, scene=self.scene.text, view=view)
         return Path(file)
 
     def plot(self, what: str | None = None) -> Any:

@@ -4,6 +4,8 @@ screenshot shows them, and they print on A4."""
 
 from __future__ import annotations
 
+import http.server
+import json
 import re
 import shutil
 import subprocess
@@ -13,7 +15,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from macadam.report import report
+from macadam.report import report, specimen
 from report_folders import PROGRAM, make
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -120,3 +122,72 @@ def test_wide_tables_stay_on_the_page(tmp_path: Path) -> None:
     done = subprocess.run([CHROMIUM, *options, "--dump-dom", probe.as_uri()], capture_output=True, text=True, timeout=3600)
     over = re.search(r"<title>([\d,]+)</title>", done.stdout)  # 794 pixels are 210 mm
     assert over and not any(map(int, over[1].split(","))), over
+
+
+# Measures the fraction of blue pixels of the view, for each position of the cut, and posts the fractions.
+PROBE = """<script>
+const post = (body) => fetch("http://127.0.0.1:PORT/", { method: "POST", mode: "no-cors", body });
+onerror = (message) => post(JSON.stringify(String(message)));
+const measure = async () => {
+  if (!document.documentElement.dataset.ready) { setTimeout(measure, 50); return; }
+  const view = await K3DInstance, cut = document.getElementById("cut"), found = [];
+  for (cut.value of [0, 0.9]) {
+    cut.dispatchEvent(new Event("input"));
+    const canvas = await view.getScreenshot(1, true);
+    const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    let blue = 0;
+    for (let k = 0; k < pixels.length; k += 4) blue += pixels[k + 2] > pixels[k] + 38 && pixels[k + 2] > pixels[k + 1] + 25;
+    found.push(blue / (pixels.length / 4));
+  }
+  post(JSON.stringify(found));
+};
+measure();
+</script></body>"""
+
+
+class Answer(http.server.BaseHTTPRequestHandler):
+    """Keeps what the page posts."""
+
+    def do_POST(self) -> None:
+        self.server.answer = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+        self.send_response(204)
+        self.end_headers()
+
+    def log_message(self, *arguments: object) -> None:
+        pass
+
+
+def test_the_view_in_three_dimensions_is_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A software renderer draws the view. The mastic is blue; a cut that leaves a tenth of the specimen removes blue."""
+    pytest.importorskip("k3d", reason="no package k3d: pip install 'macadam[view]'")
+    monkeypatch.setattr(specimen, "MOST", 0)
+    report(make("harmonic"), tmp_path / "r.html", view=True)
+    page = (tmp_path / "r-3d.html").read_text(encoding="utf-8")
+    with http.server.HTTPServer(("127.0.0.1", 0), Answer) as server:
+        server.answer = None
+        server.timeout = 3600
+        probe = tmp_path / "probe.html"
+        without_policy = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
+        probe.write_text(without_policy.replace("</body>", PROBE.replace("PORT", str(server.server_port))), encoding="utf-8")
+        line = [CHROMIUM, "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                f"--user-data-dir={tmp_path}/user", "--window-size=900,700", "--remote-debugging-port=0", probe.as_uri()]  # fmt: skip
+        browser = subprocess.Popen(line, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            server.handle_request()
+        finally:
+            browser.terminate()
+            browser.wait()
+    # the specimen covers a third of the window, and most of what is seen of it is mastic
+    assert isinstance(server.answer, list), server.answer
+    assert server.answer[0] > 0.1 and server.answer[1] < 0.7 * server.answer[0], server.answer
+
+
+def test_the_view_in_three_dimensions_asks_for_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("k3d", reason="no package k3d: pip install 'macadam[view]'")
+    monkeypatch.setattr(specimen, "MOST", 0)
+    report(make("harmonic"), tmp_path / "r.html", view=True)
+    log = browse(tmp_path, tmp_path / "r-3d.html", f"--screenshot={tmp_path}/view.png")
+    # K3D reports its start, and the browser that K3D may not look for fonts beside the page. The browser draws nothing
+    # here, because it runs without WebGL.
+    blocked = [line for line in complaints(log) if "Content Security Policy" in line and "Loading the font 'file:" not in line]
+    assert not blocked and "http" not in "".join(complaints(log)).replace("http-equiv", ""), complaints(log)

@@ -55,13 +55,13 @@ def named(requirements):
 
 @pytest.mark.parametrize("part", ["", "mixture", "report", "study"])
 def test_every_module_that_is_imported_is_a_dependency(part):
-    """The extra `report` need not list packages that only pictures of fields need; the extra `fields` does."""
+    """The extra `report` need not list packages that only pictures of fields or the view need; `fields` and `view` do."""
     folder = ROOT / "python" / "macadam" / part
     project = PROJECT["project"]
     extras = project["optional-dependencies"]
     listed = named(project["dependencies"]) | named(extras.get(part, []))
     if part == "report":
-        listed |= named(extras["fields"]) | {"vtkmodules"}  # PyVista's own dependency
+        listed |= named(extras["fields"]) | named(extras["view"]) | {"vtkmodules"}  # PyVista's own dependency
     foreign = set(imports_of(folder.glob("*.py"))) - set(sys.stdlib_module_names) - {"macadam", "__future__"}
     assert foreign <= listed, f"{foreign - listed}: not in pyproject.toml"
 

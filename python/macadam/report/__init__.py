@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reports: one self-contained HTML file from any result folders of macadam.
+"""Reports: one self-contained HTML file from any result folders of macadam, and views in three dimensions beside it.
 
 The module itself can be called like its function `report`. matplotlib is imported when a report is made."""
 
@@ -28,10 +28,11 @@ class _Callable(types.ModuleType):
         *,
         figures: str | Path | None = None,
         scene: str | None = None,
+        view: bool = False,
     ) -> Path:
         from macadam.report.document import report
 
-        return report(dirs, out, title, figures=figures, scene=scene)
+        return report(dirs, out, title, figures=figures, scene=scene, view=view)
 
     def __getattr__(self, name: str) -> Any:
         if name not in __all__:

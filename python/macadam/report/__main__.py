@@ -25,9 +25,15 @@ def main(arguments: list[str] | None = None) -> int:
         metavar="DIR",
         help="also write each figure into this folder: SVG, PDF, PNG of 1,800 pixels and, if it has curves, CSV",
     )
+    parser.add_argument(
+        "--view",
+        action="store_true",
+        help="also write a view in three dimensions of each specimen beside the report, FILE-3d.html; needs the Python "
+        "package k3d",
+    )
     options = parser.parse_args(arguments)
     try:
-        print(report(options.dirs, options.out, options.title, figures=options.figures))
+        print(report(options.dirs, options.out, options.title, figures=options.figures, view=options.view))
     except ReportError as error:
         print(f"macadam report: {error}", file=sys.stderr)
         return 2

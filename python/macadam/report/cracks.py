@@ -159,7 +159,7 @@ def _section(folder: Folder) -> tuple[Any, str]:
     axes.imshow(0.5 + 0.5 * picture, origin="lower", extent=extent, interpolation="antialiased")
     scale = ScalarMappable(Normalize(0, 1), DAMAGE)
     drawn = 0
-    table = _damaged(folder)
+    table = damaged(folder)
     if table is not None:
         table = table.sort_values("damage", kind="stable")  # the most damaged facets are drawn last
         cuts, lines = chords(
@@ -180,10 +180,11 @@ def _section(folder: Folder) -> tuple[Any, str]:
     )
 
 
-def _damaged(folder: Folder) -> Any:
-    """Returns the table of the contacts that have begun to crack, or None without such contacts."""
+def damaged(folder: Folder) -> Any:
+    """Returns the table of the contacts that have begun to crack, or None without such contacts. The folder must have a
+    damage.csv if a contact has begun to crack."""
     cracked = any(c.get("cracked_points") for c in (folder.summary.get("cracks") or {}).values())
-    return folder.table("damage.csv", ["x", "y", "z", "nx", "ny", "nz", "area_m2", "damage"]) if cracked else None
+    return folder.table("damage.csv", ["x", "y", "z", "nx", "ny", "nz", "area_m2", "opening_m", "damage"]) if cracked else None
 
 
 def discs(centre: np.ndarray, normal: np.ndarray, area: np.ndarray, corners: int = 16) -> np.ndarray:
@@ -206,7 +207,7 @@ def _block(folder: Folder) -> tuple[Any, str]:
     figure, axes = look.figure(look.THIRD + 1, specimen.HEIGHT * 1.2)
     outline(axes, corners, "#c3c7cc")
     scale = ScalarMappable(Normalize(DRAWN, 1), DAMAGE)
-    table = _damaged(folder)
+    table = damaged(folder)
     table = None if table is None else table[table["damage"] > DRAWN]
     drawn = 0 if table is None else len(table)
     if drawn:

@@ -11,6 +11,7 @@ from typing import Any
 
 from macadam._files import write_text
 from macadam.report import contacts, cracks, decisions, fields, fits, histories, look, loops, methods, mixture, modulus, scans, specimen
+from macadam.report import view as views
 from macadam.report.export import Export
 from macadam.report.folders import Folder, ReportError, modulus_symbol, read_all
 from macadam.report.page import Page
@@ -33,30 +34,38 @@ def report(
     *,
     figures: str | Path | None = None,
     scene: str | None = None,
+    view: bool = False,
 ) -> Path:
     """Writes one self-contained HTML file about the contents of the result folders.
 
     dirs: one folder, or several, which are shown side by side. out: the file; its folder is made if needed. title:
     title of the page. figures: a folder into which each figure is written too, as SVG, PDF, PNG of 1,800 pixels and, if it
     has curves, CSV. scene: the text of the scene of a single folder; without it, the scene's file is read if it is found.
-    Returns the file. Raises ReportError if a folder is not a results folder, or a file in it cannot be read."""
+    view: also write a view in three dimensions of each specimen beside `out`, in `<out>-3d.html`; it needs the package
+    k3d. Returns the file. Raises ReportError if a folder is not a results folder, if a file in it cannot be read, or if
+    the package for the view is missing."""
     folders = read_all([dirs] if isinstance(dirs, (str, Path)) else list(dirs))
     if scene is not None and len(folders) == 1:
         folders[0].scene_text = scene
+    if view:
+        views.require_package()
     export = None if figures is None else Export(Path(figures))
     with look.style():
-        page = _page(folders, export)
+        page = _page(folders, export, Path(out) if view else None)
     if export:
         export.write_captions()
     return write(page, out, title or _title(folders), _subtitle(folders))
 
 
-# Returns the page with the sections of all modules. A section without content is not shown.
-def _page(folders: list[Folder], export: Export | None = None) -> Page:
+# Returns the page with the sections of all modules. A section without content is not shown. beside: the file of the page,
+# if views in three dimensions are written beside it.
+def _page(folders: list[Folder], export: Export | None = None, beside: Path | None = None) -> Page:
     page = Page(len(folders) > 1, export)
     _overview(page, folders)
     mixture.add(page, folders)
     specimen.add(page, folders)
+    if beside is not None:
+        views.add(page, folders, beside)
     modulus.add(page, folders)
     loops.add(page, folders)
     histories.add(page, folders)
@@ -75,8 +84,8 @@ def _page(folders: list[Folder], export: Export | None = None) -> Page:
 
 
 def write(page: Page, out: str | Path, title: str, subtitle: str) -> Path:
-    """Writes the page to a file and returns the file. After an error there is no incomplete file. Raises ReportError if
-    `out` is a folder."""
+    """Writes the page to a file, its companions beside it, and returns the file. After an error there is no incomplete
+    file. Raises ReportError if `out` is a folder."""
     out = Path(out)
     if out.is_dir():
         raise ReportError(f"{out}: found a folder, expected the name of a file")
@@ -88,6 +97,8 @@ def write(page: Page, out: str | Path, title: str, subtitle: str) -> Path:
         f"Written {now:%Y-%m-%d %H:%M %Z} on {platform.node()}, {platform.system()} {platform.machine()}, "
         f"Python {platform.python_version()}, matplotlib {matplotlib.__version__}. This file needs no other files."
     )
+    for name, text in page.companions.items():
+        write_text(out.with_name(name), text)
     write_text(out, page.html(title, subtitle, foot))
     return out
 

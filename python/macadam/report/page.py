@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from macadam.report import look
 from macadam.report.export import Export
@@ -31,6 +32,7 @@ class Page:
         self.export = export  # writes figures and tables also as files of their own; None: they are only on the page
         self._sections: list[_Section] = []
         self._figures = 0
+        self.companions: dict[str, str] = {}  # files that are written beside the page: name, text
         self.left_out: list[tuple[str, str, str]] = []  # entries left out of the page: folder, what, why
 
     def section(self, title: str) -> None:
@@ -39,6 +41,10 @@ class Page:
     def text(self, words: str, kind: str = "") -> None:
         """Adds a paragraph; `kind` "warning" or "failure" makes it stand out."""
         self._add(f'<p class="{kind}">{escape(words)}</p>' if kind else f"<p>{escape(words)}</p>")
+
+    def link(self, file: str, name: str, words: str) -> None:
+        """Adds a paragraph that begins with a link to a file beside the page."""
+        self._add(f'<p><a href="{escape(quote(file), quote=True)}">{escape(name)}</a>. {escape(words)}</p>')
 
     def heading(self, words: str) -> None:
         self._add(f"<h3>{escape(words)}</h3>")

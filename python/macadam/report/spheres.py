@@ -31,7 +31,7 @@ def spheres(
     radius = specimen["radius"].to_numpy(float)
     if len(rows) > _MOST:
         words += f" Of {look.number(len(rows))} spheres the {look.number(_MOST)} largest are drawn."
-        rows = rows[np.argsort(-radius[rows])[:_MOST]]
+        rows = largest(radius, rows, _MOST)
     place = specimen[["x", "y", "z"]].to_numpy(float)[rows] @ view.T
     order = np.argsort(place[:, 2])
     place, radius, colour = place[order], radius[rows][order], paint(rows)[order]
@@ -62,6 +62,13 @@ def spheres(
     outline(axes, corners, "#5a5f68", False)
     frame(axes, low, high)
     return figure, words
+
+
+def largest(size: np.ndarray, rows: np.ndarray, most: int) -> np.ndarray:
+    """Returns the rows with the largest sizes, at most `most` of them, in the order of `rows`."""
+    if len(rows) <= most:
+        return rows
+    return rows[np.sort(np.argsort(-size[rows], kind="stable")[:most])]
 
 
 def outline(axes: Any, corners: np.ndarray, colour: str, behind: bool | None = None) -> None:
