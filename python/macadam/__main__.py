@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs `python -m macadam …`, and the command `macadam` of an installed package. The commands mixture, report and
-study are Python packages; every other command is passed to the program macadam that comes with the package."""
+"""Runs `python -m macadam …`, and the command `macadam` of an installed package. The commands mcp, mixture, report
+and study are Python packages; every other command is passed to the program macadam that comes with the package."""
 from __future__ import annotations
 
 import importlib.util
@@ -11,7 +11,7 @@ import sys
 from ._program import own_program
 
 #: Commands that are Python packages.
-_HERE = ("mixture", "report", "study")
+_HERE = ("mcp", "mixture", "report", "study")
 #: Python packages that these commands need.
 _NEEDED = ("numpy", "pandas", "matplotlib")
 

@@ -27,7 +27,7 @@ def shell_lines(page):
         if m := re.match(r"```(\w*)", line):
             fence = None if fence is not None else m[1]
         elif (fence == "sh" or fence is None and line.startswith("    ")) and \
-                (m := re.match(r"\s*(?:build/\w+/)?macadam ((?:run|specimen|shapes|ct|fit|calibrate|info|mixture|report|study|new|check)\b.*)", line)):
+                (m := re.match(r"\s*(?:build/\w+/)?macadam ((?:run|specimen|shapes|ct|fit|calibrate|info|mcp|mixture|report|study|new|check)\b.*)", line)):
             yield number, m[1]
 
 
@@ -38,7 +38,7 @@ COMMANDS = [pytest.param(line, id=f"{page.relative_to(ROOT)}:{number}") for page
 def options(command):
     """Returns the options that the help of a command lists. The help of a command written in Python is printed by its
     argument parser."""
-    words = [sys.executable, "-m", f"macadam.{command[0]}"] if command[0] in ("mixture", "report", "study") else [PROGRAM, *command]
+    words = [sys.executable, "-m", f"macadam.{command[0]}"] if command[0] in ("mcp", "mixture", "report", "study") else [PROGRAM, *command]
     told = subprocess.run([*words, "--help"], capture_output=True, text=True, timeout=3600)
     assert told.returncode == 0, f"{' '.join(command)} --help: {told.stderr}"
     return set(re.findall(r"(?<![\w-])--?[a-zA-Z][\w-]*", told.stdout))

@@ -53,7 +53,7 @@ def named(requirements):
     return {re.match(r"[A-Za-z0-9_.-]+", text)[0].replace("-", "_").lower() for text in requirements}
 
 
-@pytest.mark.parametrize("part", ["", "mixture", "report", "study"])
+@pytest.mark.parametrize("part", ["", "mcp", "mixture", "report", "study"])
 def test_every_module_that_is_imported_is_a_dependency(part):
     """The extra `report` need not list packages that only pictures of fields or the view need; `fields` and `view` do."""
     folder = ROOT / "python" / "macadam" / part

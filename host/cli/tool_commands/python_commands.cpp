@@ -19,6 +19,8 @@ void add_python_commands(CLI::App& app) {
       {"macadam report results --out report.html", "macadam report --help"});
   add("mixture", "|E*| of a mixture from binder and recipe (by the Python package)",
       {"macadam mixture examples/mixture/design.toml --out results/mixture", "macadam mixture --help"});
+  add("mcp", "tools for assistants that speak the Model Context Protocol (by the Python package)",
+      {"macadam mcp --folder mixes", "macadam mcp --help"});
   add("study", "many scenes, on this machine or several (by the Python package)",
       {"macadam study examples/study/study.toml --out results/study", "macadam study --help"});
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file python_commands.hpp  macadam report, macadam mixture, macadam study: commands that are written in
-/// Python.
+/// \file python_commands.hpp  macadam report, mixture, mcp and study: commands that are written in Python.
 #pragma once
 
 #include <CLI/CLI.hpp>
