@@ -162,6 +162,12 @@ def sweep(scene: SceneLike, *, frequencies: Sequence[Number], points_per_decade:
     """Computes the complex modulus over frequencies [Hz] and temperatures [°C]: `kind = "sweep"` (docs/relaxation.md).
 
     frequencies: a list, or, if points_per_decade or points is given, the two ends of a range.
+
+        >>> import macadam as mc
+        >>> result = mc.sweep("examples/demo/scene.toml", frequencies=[0.1, 10], points_per_decade=1,
+        ...                   specimen={"box": ["12 mm", "12 mm", "15 mm"]})
+        >>> result.table.frequency_hz.round(6).tolist(), bool(result.table.e_star_pa.is_monotonic_increasing)
+        ([0.1, 1.0, 10.0], True)
     """
     loading = {"kind": "sweep", "frequencies": frequencies, "points_per_decade": points_per_decade, "points": points,
                "temperatures": temperatures}
@@ -180,6 +186,11 @@ def relaxation(scene: SceneLike, *, times: Sequence[Number], points_per_decade: 
     poisson_ratio: for the tables of finite-element programs.
     method: "harmonic", without time steps, or "explicit", stepped in time; on_step, every, resume and so on are then
     allowed too. overrides: as for run(): `**{"solver.density_scaling": 100}` …
+
+        >>> import macadam as mc
+        >>> result = mc.relaxation("examples/demo/scene.toml", times=[0.01, 1, 100], specimen={"box": ["12 mm", "12 mm", "15 mm"]})
+        >>> result.table.time_s.tolist(), bool(result.table.modulus_pa.is_monotonic_decreasing)
+        ([0.01, 1.0, 100.0], True)
     """
     loading = {"kind": "relaxation", "times": times, "points_per_decade": points_per_decade, "points": points,
                "strain": strain, "ramp": ramp, "poisson_ratio": poisson_ratio}
@@ -196,6 +207,11 @@ def creep(scene: SceneLike, *, stress: Number, times: Sequence[Number], points_p
 
     platen_mass: mass of the loaded top wall [kg], for method "explicit".
     times, points_per_decade, points, ramp, poisson_ratio, method, overrides: as for relaxation().
+
+        >>> import macadam as mc
+        >>> result = mc.creep("examples/demo/scene.toml", stress="0.1 MPa", times=[0.01, 1], specimen={"box": ["12 mm", "12 mm", "15 mm"]})
+        >>> result.table.time_s.tolist(), bool(result.table.strain.is_monotonic_increasing)
+        ([0.01, 1.0], True)
     """
     loading = {"kind": "creep", "stress": stress, "times": times, "points_per_decade": points_per_decade,
                "points": points, "ramp": ramp, "release": release, "platen_mass": platen_mass,
@@ -213,6 +229,11 @@ def monotonic(scene: SceneLike, *, rate: Number, times: Sequence[Number] | None 
 
     strain: the strain at which the test ends, in place of times. points: number of evenly spaced times.
     times, points_per_decade, poisson_ratio, method, overrides: as for relaxation().
+
+        >>> import macadam as mc
+        >>> result = mc.monotonic("examples/demo/scene.toml", rate=1e-5, times=[1, 10], specimen={"box": ["12 mm", "12 mm", "15 mm"]})
+        >>> result.table.strain.tolist(), bool(result.table.stress_pa.is_monotonic_increasing)
+        ([1e-05, 0.0001], True)
     """
     loading = {"kind": "monotonic", "rate": rate, "times": times, "points_per_decade": points_per_decade,
                "points": points, "strain": strain, "poisson_ratio": poisson_ratio}
