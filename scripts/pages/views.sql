@@ -362,3 +362,10 @@ FROM "laboratory-tests.csv" d JOIN (
   SELECT material, frequency_hz, avg(e_star_pa) AS e, avg(phase_deg) AS phi
   FROM "laboratory-tests.csv" WHERE test = 'uniaxial' GROUP BY material, frequency_hz) u USING (material, frequency_hz)
 WHERE d.test LIKE 'bending%' GROUP BY material, d.test, frequency_hz;
+
+-- Cracks beside fracture mechanics (bench/fracture/run)
+
+CREATE VIEW fracture_origins AS  -- commits and machines of all tables
+SELECT "commit", machine FROM "fracture-strip.csv" UNION SELECT "commit", machine FROM "fracture-griffith.csv"
+UNION SELECT "commit", machine FROM "fracture-size.csv" UNION SELECT "commit", machine FROM "fracture-disc.csv"
+UNION SELECT "commit", machine FROM "fracture-half-disc.csv";
