@@ -10,7 +10,8 @@ KEYS = 'kind = "{}"\nrate = 0.01\n{} = {!r}\npoints = {}\n'
 STRIPS = (2.0, 4.0, 8.0)  # fracture energies of the strips [J/m2]
 NOTCHES = (4, 6, 8, 12, 16)  # half lengths of the notches of the plates, in spacings
 WIDTHS = (8, 16, 32, 64)  # half widths of the similar plates, in spacings
-STRIP_WIDTHS = (0.08, 0.127, 0.2)  # width of the strips over the diameter of the disc
+# width of the strips over the diameter of the disc, and shear strength over tensile strength
+DISCS = ((0.08, 4.0), (0.08, 8.0), (0.127, 4.0), (0.2, 4.0))
 DEPTHS = (6, 8, 10, 12)  # of the notches of the half discs, in spacings
 
 
@@ -76,12 +77,12 @@ def disc(bench, quick):
     diameter = across * SPACING
     centres = [(x, z) for x, z in spheres(across, across)[0]
                if math.hypot(x - diameter / 2, z - diameter / 2) < diameter / 2 - 0.1 * SPACING]
-    for part in STRIP_WIDTHS[1:2] if quick else STRIP_WIDTHS:
+    for part, shear in DISCS[2:3] if quick else DISCS:
         result = bench.run("disc", f'domain = "disc"\ndiameter = {diameter!r}\nthickness = {SPACING!r}',
                            KEYS.format("indirect_tensile_strength", "displacement", 6.5e-3 * diameter, 40)
-                           + f"strip_width = {part * diameter!r}", crack(energy, 4.0), centres=centres)
-        table.append(bench.row(result, diameter_mm=diameter * 1e3, strip_width=part, fracture_energy_j_m2=energy,
-                               strength_theory_pa=STRENGTH * (1 - part**2)**-1.5,
+                           + f"strip_width = {part * diameter!r}", crack(energy, shear), centres=centres)
+        table.append(bench.row(result, diameter_mm=diameter * 1e3, strip_width=part, shear_over_tension=shear,
+                               fracture_energy_j_m2=energy, strength_theory_pa=STRENGTH * (1 - part**2)**-1.5,
                                strength_pa=result["indirect_tensile_strength_pa"]))
     return table
 
