@@ -26,9 +26,9 @@ std::vector<std::string> tests_of_new_scenes();
 /// Returns the text of a scene. `test` is the experiment, the `kind` in `[loading]`. Explanations of keys come from the
 /// scene reader. With the rules "series" and "volumetric" the laws are those of mastic and rock, in `[materials]`.
 /// `cracks`: contacts between particles have cracks, and the test is stepped; the tests "indirect_tensile_strength",
-/// "semicircular_bending", "three_point_bending" and "cooling" always have cracks. \throws InputError for cracks with one
-/// of these rules or with a test that measures no strength, and for the tests "indirect_tension" and "bending" with the rule
-/// "volumetric".
+/// "semicircular_bending", "three_point_bending" and "cooling" always have cracks. \throws InputError for cracks with
+/// one of these rules or with a test that measures no strength, and for the tests "indirect_tension" and "bending" with
+/// the rule "volumetric".
 std::string new_scene(NewKind kind, const std::string& test, ContactRule rule = ContactRule::centres,
                       bool cracks = false);
 
