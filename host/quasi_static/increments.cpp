@@ -125,8 +125,7 @@ void Increments::accept(std::int64_t steps, const IncrementReport& found, bool b
   const double value = observed_value();
   network_.accept();
   step_ += steps;
-  ++report_.increments;
-  report_.loose = std::max(report_.loose, found.loose);
+  count(found);
   if (by_time) error_sum_ += error_of_rule(static_cast<double>(step_), value);
   largest_error_ = std::max(largest_error_, std::abs(error_sum_));
   largest_ = std::max(largest_, std::abs(value));
@@ -227,6 +226,12 @@ void Increments::advance_by_opening(std::int64_t stop) {
   }
 }
 
+void Increments::count(const IncrementReport& found) {
+  ++report_.increments;
+  report_.loose = std::max(report_.loose, found.loose);
+  report_.residual = std::max(report_.residual, found.residual);
+}
+
 IncrementReport Increments::solve(const WallIncrement& next) {
   const IncrementReport found = network_.solve(next);
   report_.passes += found.passes, report_.iterations += found.iterations;
@@ -274,8 +279,8 @@ std::vector<StateArray> Increments::state() const {
     const Past p = k < past_.size() ? past_[k] : Past{0, 0};
     numbers.insert(numbers.end(), {p.step, p.value});
   }
-  numbers.insert(numbers.end(),
-                 {static_cast<double>(report_.drops), dropped.time_s, dropped.strain, dropped.stress_pa});
+  numbers.insert(numbers.end(), {static_cast<double>(report_.drops), dropped.time_s, dropped.strain, dropped.stress_pa,
+                                 report_.residual});
   out.push_back({"increments", "1", std::move(numbers)});
   return out;
 }
@@ -285,14 +290,14 @@ void Increments::set_state(const std::vector<StateArray>& arrays) {
   for (const StateArray& array : arrays) {
     if (array.name == "increments") n = std::get_if<std::vector<double>>(&array.values);
   }
-  if (!n || n->size() != 34 || !((*n)[19] >= 1 && (*n)[19] <= 3))
-    throw RunError("state: found no array increments with 34 numbers for method \"quasi_static\"");
+  if (!n || n->size() != 35 || !((*n)[19] >= 1 && (*n)[19] <= 3))
+    throw RunError("state: found no array increments with 35 numbers for method \"quasi_static\"");
   network_.set_state(arrays);
   const auto whole = [&](std::size_t k) { return static_cast<std::int64_t>((*n)[k]); };
   usual_ = (*n)[20], usual_opening_ = (*n)[21], error_sum_ = (*n)[22], largest_error_ = (*n)[23];
   step_ = whole(0), length_ = (*n)[1], largest_ = (*n)[2], by_opening_ = (*n)[3] != 0, opening_ = (*n)[4];
   opening_steps_ = whole(5), furthest_ = (*n)[6], lag_ = whole(7);
-  report_ = {whole(8), whole(9), whole(10), whole(11), (*n)[12], whole(13), {}, whole(14)};
+  report_ = {whole(8), whole(9), whole(10), whole(11), (*n)[12], whole(13), (*n)[34], {}, whole(14)};
   if ((*n)[15] != 0) report_.unstable = {(*n)[16], (*n)[17], (*n)[18]};
   report_.drops = whole(30);
   if (report_.drops > 0) report_.first_drop = {(*n)[31], (*n)[32], (*n)[33]};

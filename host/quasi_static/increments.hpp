@@ -42,6 +42,7 @@ struct CourseReport {
   /// at a time is the sum of the errors of all increments before, with their signs.
   double error = 0;
   std::int64_t loose = 0;  ///< largest number of particles without stiffness
+  double residual = 0;     ///< largest IncrementReport::residual of an accepted increment
   /// The state before the first increment that was controlled by the opening of cracks, because no equilibrium was
   /// found at a larger displacement of the wall.
   struct Unstable {
@@ -103,6 +104,8 @@ class Increments {
   /// `by_time`: whether the increment has an error of the trapezoidal rule that can be estimated.
   void accept(std::int64_t steps, const IncrementReport& found, bool by_time);
   void advance_by_opening(std::int64_t stop);
+  /// Counts an accepted increment.
+  void count(const IncrementReport& found);
   /// Takes an increment of `steps` steps, after which no equilibrium is near, and moves the specimen against a drag
   /// until it is in equilibrium again.
   void drop(std::int64_t steps);

@@ -71,8 +71,7 @@ bool Increments::follow_drop(std::int64_t steps) {
       continue;
     }
     network_.accept();
-    ++report_.increments;
-    report_.loose = std::max(report_.loose, found.loose);
+    count(found);
     if (keep == 0 && found.passes <= fast_passes) next.drag = std::max(least_drag, next.drag / drag_ratio);
     keep = std::max(0, keep - 1);
     next.wall = {}, next.warming = 0, next.dt = instant;

@@ -10,7 +10,7 @@ experiments::Increments increments_found(const QuasiStaticStepper& stepper) {
   const quasi_static::CourseReport& report = stepper.report();
   experiments::Increments out;
   out.increments = report.increments, out.rejected = report.rejected, out.systems = report.passes;
-  out.error = report.error;
+  out.error = report.error, out.residual = report.residual;
   out.loose = report.loose, out.by_opening = report.by_opening;
   out.imbalance = stepper.energies().imbalance();
   out.increment_error = stepper.energies().increment_error();

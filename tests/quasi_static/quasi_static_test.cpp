@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "host/quasi_static/increments.hpp"
@@ -192,32 +191,6 @@ TEST(QuasiStaticSolvers, Agree) {
 }
 
 // The top wall carries the given load, at once and while the specimen creeps.
-// A spring of compliance r in series with a law is a part of the law's own spring, 1/E_m' = 1/E_m + r, if shear has the
-// same stiffness as tension. The increments then differ by rounding, which friction and damage amplify.
-TEST_P(QuasiStaticOn, CracksInSeriesWithRock) {
-  TestScene stiff = cracking_t8(), soft = cracking_t8();
-  constexpr double compliance = 4e-11;  // 0.4 to 1.4 of the springs of mastic
-  for (TestScene* scene : {&stiff, &soft}) {
-    for (const PairType pair : {PairType::mm, PairType::ma}) {
-      auto& law = std::get<laws::Cracked<laws::GeneralisedKelvin>>(*scene->laws[static_cast<std::size_t>(pair)]);
-      law.alpha = 1;
-      if (scene == &soft) law.E_m = 1 / (1 / law.E_m + compliance);
-    }
-  }
-  for (Contact& c : stiff.network.contacts) {
-    if (c.pair == PairType::mm || c.pair == PairType::ma) c.series = compliance;
-  }
-  QuasiStatic with_rock = quasi_static(stiff, on(GetParam())), without = quasi_static(soft, on(GetParam()));
-  for (int k = 1; k <= 40; ++k) {
-    for (QuasiStatic* q : {&with_rock, &without}) ASSERT_NO_FATAL_FAILURE(pull(*q, 3e-5, 3e-5));
-    EXPECT_NEAR(stress(with_rock), stress(without), 1e-6 * std::abs(stress(without))) << k;
-  }
-  const auto cracks = without.point_cracks();
-  EXPECT_GT(std::ranges::count_if(cracks, [](const auto& c) { return c.damage > 0; }), 100);
-  EXPECT_LT(with_rock.energies().imbalance(), 1e-9);
-  EXPECT_NEAR(with_rock.energies().elastic_j, without.energies().elastic_j, 1e-6 * without.energies().elastic_j);
-}
-
 TEST_P(QuasiStaticOn, CarriesALoad) {
   const TestScene scene = make_scene(random_specimen(4));
   QuasiStatic q = quasi_static(scene, on(GetParam()));
@@ -329,6 +302,8 @@ TEST_P(QuasiStaticOn, FollowsSnapBack) {
   EXPECT_NEAR(furthest, 3.124e-4, 1e-6);
   EXPECT_NEAR(least, 2.898e-4, 2e-6);
   EXPECT_GT(increments.report().by_opening, 5);
+  EXPECT_GT(increments.report().residual, 0);
+  EXPECT_LE(increments.report().residual, 10 * QuasiStaticOptions{}.residual);
 }
 
 // With a solver by iterations the wall does not go back: the stress drops suddenly, while a drag slows the cracks.

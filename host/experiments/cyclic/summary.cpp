@@ -78,6 +78,7 @@ Json stepped_json(const SteppedFrequency& f, const Scene& scene) {
     out["increments"] = f.increments->increments;
     out["repeated_increments"] = f.increments->rejected;
     out["linear_systems"] = f.increments->systems;
+    out["largest_residual"] = f.increments->residual;
     out["loose_particles"] = f.increments->loose;
   } else {
     out["dt_s"] = f.dt_s;

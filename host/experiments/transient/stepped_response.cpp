@@ -123,6 +123,7 @@ void add_increments(const experiments::Increments& found, nlohmann::ordered_json
   out["increments"] = found.increments;
   out["repeated_increments"] = found.rejected;
   out["linear_systems"] = found.systems;
+  out["largest_residual"] = found.residual;
   out["increment_error"] = found.increment_error;
   out["loose_particles"] = found.loose;
   if (found.sudden_break) {
@@ -238,7 +239,7 @@ std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
   out += shown_head(ratio) + (cools ? fmt::format(" {:>9}", "T (degC)") : "") + fmt::format(" {:>9}", "error") +
          (found.cracks ? fmt::format(" {:>9}", "broken") : "");
   for (const SteppedPoint& p : found.points) {
-    out += shown_line(words, ratio, p) + (cools ? fmt::format(" {:>9.4g}", p.temperature_c) : "") +
+    out += shown_line(words, ratio, p) + (cools ? fmt::format(" {:>9.2f}", p.temperature_c) : "") +
            fmt::format(" {:>9.1e}", p.error) + (found.cracks ? fmt::format(" {:>9}", p.broken_points) : "");
   }
   if (found.increments) return out + increment_words(found);
