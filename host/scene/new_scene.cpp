@@ -255,9 +255,9 @@ std::vector<std::string> tests_of_new_scenes() {
 std::string new_scene(NewKind kind, const std::string& test, ContactRule rule, bool with_cracks) {
   const bool of_strength = needs_cracks(test), cracks = with_cracks || of_strength;
   if (cracks && has_laws_of_phases(rule))
-    throw InputError(fmt::format("{}: found {} with --rule {}, expected --rule centres",
-                                 of_strength ? "--test" : "--cracks", of_strength ? test : "this option",
-                                 to_string(rule)));
+    throw InputError(fmt::format(
+        "{}: found {} with --rule {}, expected --rule centres; scenes with --rule series get a crack by hand",
+        of_strength ? "--test" : "--cracks", of_strength ? test : "this option", to_string(rule)));
   if (cracks && test != "monotonic" && !of_strength) {
     throw InputError(
         fmt::format("--cracks: found this option with --test {}, expected --test monotonic, indirect_tensile_strength, "

@@ -45,7 +45,7 @@ void require_one_answer(const Scene& scene, const ContactNetwork& network, PairT
   const std::string why =
       shear > 1 ? fmt::format(
                       "shear decides: beta_c*beta_w/alpha = {:.4g}*{:.4g}/{:g} = {:.4g} times the energy that "
-                      "tension needs; a larger alpha or a smaller shear_strength needs less",
+                      "tension needs; a smaller shear_strength needs less",
                       crack.strength_ratio(), crack.slip_weight(), alpha, shear)
                 : fmt::format("tension decides: beta_c*beta_w/alpha = {:.4g} is at most 1", shear);
   throw InputError(scene.file.string(), 0, fmt::format("fracture_energy in crack of pair {}", to_string(pair)),
@@ -76,6 +76,11 @@ void require_laws(const Scene& scene, const Specimen& specimen, const ContactNet
                            ? "the laws of both phases in [materials.mastic] and [materials.aggregate]"
                            : "[[contacts]] with pair = \"" + name + "\"");
     }
+  }
+}
+
+void require_fracture_energies(const Scene& scene, const ContactNetwork& network) {
+  for (std::size_t i = 0; i < network.count.size(); ++i) {
     if (network.count[i] == 0) continue;
     std::visit(
         [&]<class L>(const L& law) {

@@ -42,6 +42,8 @@ Range range_needed(const Scene& scene) {
   auto [low, high] = scene::frequencies_used(scene.experiment);
   std::vector<double> temperatures = temperatures_of(scene.experiment);
   if (scene.materials.temperature) temperatures.push_back(*scene.materials.temperature);
+  const TemperatureHistory history = temperature_history_of(scene.experiment);
+  temperatures.insert(temperatures.end(), history.temperatures.begin(), history.temperatures.end());
   double smallest = temperatures.empty() ? 0 : INFINITY, largest = temperatures.empty() ? 0 : -INFINITY;
   for (const double t : temperatures) {
     smallest = std::min(smallest, laws::log10_shift(shift, t));
@@ -90,6 +92,12 @@ void add_scene(ContentDigest& digest, const Scene& scene) {
 Scene sweep_of(const Scene& mastic, const SolverSpec& solver, Range range) {
   Scene out = mastic;
   out.laws = reference_laws(mastic);
+  if (has_laws_of_phases(out.network.rule)) {  // smooth platens, also if the mastic's own scene has glued ones
+    for (const PairType pair : {PairType::mw, PairType::aw}) {
+      auto& law = out.laws[static_cast<std::size_t>(pair)];
+      if (law) std::visit([](auto& l) { l.alpha = 0; }, *law);
+    }
+  }
   out.materials.temperature.reset();
   const auto steps = static_cast<int>(std::lround(std::log10(range.highest / range.lowest) * points_per_decade));
   experiments::Sweep sweep;

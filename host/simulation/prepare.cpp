@@ -124,6 +124,7 @@ void make_contacts(const Scene& scene, const std::vector<Surface>& surfaces, con
     let_rollers_turn(out.specimen, out.network);
     require_laws(scene, out.specimen, out.network);
     if (has_laws_of_phases(scene.network.rule)) apply_rule(scene, surfaces, out);
+    require_fracture_energies(scene, out.network);
     count_clusters(out);
   });
   if (out.spanning_clusters == 0) {

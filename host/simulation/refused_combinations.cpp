@@ -62,6 +62,9 @@ void require_domain(const Scene& scene, const std::string& domain) {
 /// Refuses what the torsion test does not have. \throws InputError
 void require_torsion(const Scene& scene) {
   require_domain(scene, domains::Cylinder::name);
+  if (!scene.network.notches.empty())
+    refuse_with_kind(scene, "[[specimen.notch]]", "a notch",
+                     "no notch, because the torsion constant is that of the whole section");
   const FactsTable laws = facts_of(scene.laws);
   for (const PairType pair : {PairType::aw, PairType::mw}) {
     const std::optional<LawFacts>& law = laws[static_cast<std::size_t>(pair)];

@@ -106,6 +106,7 @@ class SceneRun {
     if (given_) require_same_domain(scene_, given_->specimen);
     if (given_) require_same_rule(scene_, given_->network);
     if (given_) require_laws(scene_, given_->specimen, given_->network);
+    if (given_) require_fracture_energies(scene_, given_->network);
     const Backend backend = wait_for_backend();
     const std::vector<std::string> warnings = checkpoint_warnings(backend);
     if (watcher_.prepared) watcher_.prepared(prepared());

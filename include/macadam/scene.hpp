@@ -191,4 +191,9 @@ std::optional<double> common_log10_shift(const Scene& scene, double temperature)
 /// \throws InputError naming the pair or phase.
 void require_laws(const Scene& scene, const Specimen& specimen, const ContactNetwork& network);
 
+/// Checks that the fracture energies of cracks suffice for every contact, so that each step of a contact has one
+/// solution (docs/cracks.md, (C.13)). The lengths of the contacts must be final. \throws InputError naming pair,
+/// contact and energy.
+void require_fracture_energies(const Scene& scene, const ContactNetwork& network);
+
 }  // namespace macadam

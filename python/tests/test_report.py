@@ -436,7 +436,7 @@ def test_a_specimen_that_cools_has_its_fracture(tmp_path: Path, no_pictures) -> 
         mastic = {{ density = 2000, expansion = 2e-5 }}
         [loading]
         kind = "cooling"
-        to = 4
+        to = -12
         points = 16
         """,
         encoding="utf-8",

@@ -58,7 +58,7 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
            {"run " + path("scene.toml") + " --out ''", "--out: found \"\""},
            {"runn " + job,
             "found \"runn\", expected run (the nearest of run, specimen, shapes, fit, calibrate, ct, info, "
-            "new, check, bench, report, mixture, study, completion, man)"},
+            "new, check, bench, report, mixture, mcp, study, completion, man)"},
            {"run " + job + " more", "more: scene: found no such file"},
            {"run " + job + " --device 0,x",
             "--device: found \"0,x\", expected \"all\", or different whole numbers from 0"},

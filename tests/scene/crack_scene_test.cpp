@@ -165,14 +165,14 @@ TEST(CrackScene, TablesOverTemperatureAreEvaluatedAtTheSceneTemperature) {
   EXPECT_HAS(message("5", "tensile_strength = 1e6" + energy), "which changes no law of the scene");
 }
 
-// The error names the pair, its longest contact, the least energy, and the reason.
-TEST(CrackScene, TooLittleFractureEnergyIsRefusedForTheLongestContact) {
+// The error names the pair, the contact that needs the most energy, this energy, and the reason.
+TEST(CrackScene, TooLittleFractureEnergyIsRefused) {
   HandMade made = cubic_lattice_network(1, 1, 3, 2e-3, 1e-5);
   const auto message = [&](const std::string& values, const std::string& alpha) {
     const std::string law = "law = \"elastic\"\nE = 1e10\nalpha = " + alpha + "\n";
     Scene scene = scene_of(with_crack(values, "M-M", law));
     scene.laws[static_cast<std::size_t>(PairType::mw)] = laws::Elastic{1e10, 0};
-    return message_of([&] { require_laws(scene, made.specimen, made.network); });
+    return message_of([&] { require_fracture_energies(scene, made.network); });
   };
   // G_f > f_t²·d/(2E)·β_c·β_w/α = 0.4 J/m²·40
   const std::string sixteen = message("tensile_strength = \"2 MPa\", fracture_energy = 15.9", "0.1");
@@ -187,6 +187,11 @@ TEST(CrackScene, TooLittleFractureEnergyIsRefusedForTheLongestContact) {
   EXPECT_EQ(message("tensile_strength = \"2 MPa\", softening = \"brittle\"", "0.1"), "nothing was thrown");
   made.network.contacts[1].length *= 2;
   EXPECT_HAS(message("tensile_strength = \"2 MPa\", fracture_energy = 31", "0.1"), "more than 32 J/m2");
+  // Rock in series as soft as the law: half the modulus, and a shear ratio of α·(1 + 1)/(1 + α). The energy is
+  // f_t²·d/E·β_c·β_w/0.6667 = 3.2 J/m²·4/0.6667 in the contact with twice the length
+  made.network.contacts[1].series = 1e-10;
+  EXPECT_HAS(message("tensile_strength = \"2 MPa\", fracture_energy = 9.5", "0.5"), "more than 9.6 J/m2");
+  EXPECT_EQ(message("tensile_strength = \"2 MPa\", fracture_energy = 9.7", "0.5"), "nothing was thrown");
 }
 
 // A scene with cracks and without a method is followed by increments, which have no inertia; the key is not ignored.

@@ -88,6 +88,20 @@ TEST_F(MasticFrom, TheShiftOfTheSpecimenAppliesAtTheSceneTemperature) {
   EXPECT_LE(scene.mastic_source->computed->lowest_hz, 2 * a_T / std::sqrt(10.0));
 }
 
+// While the temperature falls from 20 to 0 degrees C, log10 a_T rises from -1.08 to 1.27. The points of the test are a
+// decade of time, with half a decade more on both sides. The crack of the pair stays with the computed law.
+TEST_F(MasticFrom, TheRangeCoversATemperatureThatChanges) {
+  mortar();
+  Scene scene = read(from_mortar +
+                     "[[contacts]]\npair = \"M-M\"\ncrack = { tensile_strength = 1e6, fracture_energy = 500 }\n"
+                     "[loading]\nkind = \"monotonic\"\nrate = 1e-3\nstrain = 1e-3\npoints = 10\n"
+                     "temperature = [[0, 20], [1, 0]]\n");
+  compute_mastic_law(scene);
+  const auto& computed = *scene.mastic_source->computed;
+  EXPECT_GE(std::log10(computed.highest_hz / computed.lowest_hz), 1 + 1.08 + 1.27 + 1);
+  EXPECT_EQ(std::get<laws::Cracked<laws::GeneralisedKelvin>>(scene.laws[0].value()).crack.fracture_energy, 500);
+}
+
 TEST_F(MasticFrom, ARunReportsTheLaw) {
   mortar();
   const RunResult result = run(read(from_mortar + cyclic), folder_ / "out");

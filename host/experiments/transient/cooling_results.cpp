@@ -4,15 +4,25 @@
 
 #include <fmt/format.h>
 
-#include "host/experiments/transient/peak_fit.hpp"
-
 namespace macadam {
 
 using experiments::CoolingResults;
 
+namespace {
+
+/// A specimen in one piece counts as broken if its stress has fallen to this part of the largest one.
+constexpr double fallen_to = 0.5;
+
+bool is_broken(const experiments::SteppedResponse& found, double largest_pa) {
+  if (found.rupture || (found.increments && found.increments->sudden_break)) return true;
+  return !found.points.empty() && found.points.back().stress_pa < fallen_to * largest_pa;
+}
+
+}  // namespace
+
 CoolingResults cooling_results(const experiments::SteppedResponse& found, const experiments::Peak& largest,
                                const TemperatureHistory& temperature) {
-  return {largest.stress_pa, temperature.at(largest.time_s), passed_peak(found, largest.stress_pa)};
+  return {largest.stress_pa, temperature.at(largest.time_s), is_broken(found, largest.stress_pa)};
 }
 
 std::string cooling_words(const CoolingResults& results) {

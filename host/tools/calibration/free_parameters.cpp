@@ -25,7 +25,8 @@ constexpr double unbounded = 1e4;
 
 void require_valid_input(const Scene& scene, const ModulusData& data, const CalibrationOptions& options) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
-  if (!scene.specimen.box.has_uniform_section() || scene.specimen.box.rollers())
+  if (!scene.specimen.box.has_uniform_section() || scene.specimen.box.rollers() ||
+      std::holds_alternative<experiments::Torsion>(scene.experiment))
     throw InputError(scene.file.string(), 0, "kind in [loading]", std::string("\"") + kind_of(scene.experiment) + '"',
                      "\"cyclic\" or \"sweep\", whose moduli a calibration compares with the measured ones");
   if (data.points.empty()) throw InputError(data.source, 0, "measurements", "none", "at least one");

@@ -28,7 +28,7 @@ struct Cooling {
 struct CoolingResults {
   double largest_stress_pa = 0;  ///< largest tensile stress; if the specimen broke, the fracture stress
   double temperature_c = 0;      ///< at the largest stress [°C]; if the specimen broke, the fracture temperature
-  bool broke = false;            ///< whether the specimen broke, see passed_peak()
+  bool broke = false;            ///< in two pieces, suddenly, or by a fall of the stress to half of its largest value
 };
 
 }  // namespace macadam::experiments

@@ -47,8 +47,8 @@ class Workspace:
         """Writes a commented scene of an asphalt mix into a new file and returns its path and text. SI units.
 
         file: name of the scene, such as "mix.toml"; an existing file is never replaced. test: kind of the loading test:
-        cyclic, sweep, relaxation, creep, monotonic, history, indirect_tension, indirect_tensile_strength, bending or
-        semicircular_bending. cracks: whether contacts crack; for tests of strength."""
+        cyclic, sweep, relaxation, creep, monotonic, history, indirect_tension, indirect_tensile_strength, bending,
+        semicircular_bending, three_point_bending, torsion or cooling. cracks: whether contacts crack; for tests of strength."""
         path = inside(self.root, file)
         done = self._call("new", f"--test={test}", *(["--cracks"] if cracks else []), str(path))
         if done.returncode:
@@ -93,9 +93,11 @@ class Workspace:
     def report(self, folder: str, file: str = "report.html", view: bool = False) -> dict[str, Any]:
         """Writes an HTML report with pictures about a folder of results and returns its path.
 
-        folder: the folder that run() wrote. file: name of the page. view: also write a page with a view in three
+        folder: the folder that run() wrote. file: name of the page, which ends in .html. view: also write a page with a view in three
         dimensions beside it."""
         path, page = inside(self.root, folder), inside(self.root, file)
+        if page.suffix != ".html":
+            raise RequestError(f"file: found {file!r}, expected a name that ends in .html")
         try:
             report(path, page, view=view)
         except (ReportError, OSError) as error:

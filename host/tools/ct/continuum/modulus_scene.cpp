@@ -50,7 +50,7 @@ ScanPhases phases_of(const Scene& scene) {
                                    "poisson_ratio in [materials.aggregate]", "Poisson's ratio of the rock")),
                  {}};
   const std::vector<double> frequencies = frequencies_of(scene.experiment);
-  if (frequencies.empty())
+  if (frequencies.empty() || std::holds_alternative<experiments::Torsion>(scene.experiment))
     throw InputError(file, 0, "kind in [loading]", std::string("\"") + kind_of(scene.experiment) + '"',
                      "\"cyclic\" or \"sweep\", which give the frequencies");
   const auto add = [&](const LawTable& laws, std::optional<double> temperature) {
