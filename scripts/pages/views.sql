@@ -369,3 +369,38 @@ CREATE VIEW fracture_origins AS  -- commits and machines of all tables
 SELECT "commit", machine FROM "fracture-strip.csv" UNION SELECT "commit", machine FROM "fracture-griffith.csv"
 UNION SELECT "commit", machine FROM "fracture-size.csv" UNION SELECT "commit", machine FROM "fracture-disc.csv"
 UNION SELECT "commit", machine FROM "fracture-half-disc.csv";
+
+-- Measured peaks of the IDEAL-CT of a lane [kN, mm], and the computed load at that displacement by set of parameters.
+CREATE VIEW validation_lanes AS
+SELECT m.*, parameters, max(k) AS discs, avg(load) AS load, min(load) AS load_min, max(load) AS load_max, rise, strength, energy, thickness
+FROM (SELECT lane, count(*) AS n, avg(peak_load_n) / 1e3 AS peak, avg(displacement_at_peak_m) * 1e3 AS at,
+    sqrt((avg(peak_load_n * peak_load_n) - avg(peak_load_n) * avg(peak_load_n)) * count(*) / (count(*) - 1)) / 1e3 AS peak_sd,
+    sqrt((avg(displacement_at_peak_m * displacement_at_peak_m) - avg(displacement_at_peak_m) * avg(displacement_at_peak_m)) * count(*) / (count(*) - 1)) * 1e3 AS at_sd
+  FROM "validation-measured.csv" GROUP BY lane) m
+JOIN (SELECT c.lane AS lane, c.parameters AS parameters, c.seed AS k, c.load_n / 1e3 AS load, min(abs(c.displacement_m - w.at)) AS nearest,
+    v.peak_load_n > 1.001 * c.load_n AS rise, v.tensile_strength_pa AS strength, v.fracture_energy_j_m2 AS energy, v.thickness_m AS thickness
+  FROM "validation-curves.csv" c JOIN (SELECT lane, avg(displacement_at_peak_m) AS at FROM "validation-measured.csv" GROUP BY lane) w ON w.lane = c.lane
+  JOIN "validation.csv" v ON v.lane = c.lane AND v.parameters = c.parameters AND v.seed = c.seed
+  GROUP BY c.lane, c.parameters, c.seed) USING (lane)
+GROUP BY lane, parameters;
+
+-- |G*| of cylinders in torsion minus E*/(2·(1 + ν)) of boxes in the uniaxial test [%], and phi [degrees].
+CREATE VIEW torsion_against_box AS
+SELECT material, frequency_hz, avg(d.g_star_pa) AS g, u.e / (2 * (1 + u.nu)) AS expected, 100 * (avg(d.g_star_pa) * 2 * (1 + u.nu) / u.e - 1) AS difference, avg(d.phase_deg) - u.phi AS phi
+FROM "laboratory-tests.csv" d JOIN (
+  SELECT material, frequency_hz, avg(e_star_pa) AS e, avg(phase_deg) AS phi, avg(poisson_ratio) AS nu
+  FROM "laboratory-tests.csv" WHERE test = 'uniaxial' GROUP BY material, frequency_hz) u USING (material, frequency_hz)
+WHERE d.test = 'torsion' GROUP BY material, frequency_hz;
+
+-- |E*| of one material in every test, beside the uniaxial test: difference [%] of the modulus and [degrees] of phi, and the
+-- range over the seeds [%]. In torsion |E*| is 2·(1 + ν)·|G*| with the uniaxial ν. Strips and rollers are smooth.
+CREATE VIEW five_tests AS
+SELECT material, frequency_hz, test, avg(m) AS modulus, 100 * (avg(m) / e - 1) AS difference, avg(phi) - phi0 AS phase, 100 * (max(m) - min(m)) / avg(m) AS range,
+  avg(poisson_ratio) AS poisson
+FROM (SELECT d.material AS material, d.frequency_hz AS frequency_hz, d.test AS test, iif(d.test = 'torsion', d.g_star_pa * 2 * (1 + u.nu), d.e_star_pa) AS m, d.phase_deg AS phi,
+    u.e AS e, u.phi AS phi0, d.poisson_ratio AS poisson_ratio
+  FROM "laboratory-tests.csv" d JOIN (
+    SELECT material, frequency_hz, avg(e_star_pa) AS e, avg(phase_deg) AS phi, avg(poisson_ratio) AS nu
+    FROM "laboratory-tests.csv" WHERE test = 'uniaxial' GROUP BY material, frequency_hz) u USING (material, frequency_hz)
+  WHERE d.strips <> 'glued' OR d.test = 'torsion' OR d.strips IS NULL)
+GROUP BY material, frequency_hz, test;
