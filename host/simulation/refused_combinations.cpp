@@ -59,7 +59,8 @@ void require_domain(const Scene& scene, const std::string& domain) {
   if (scene.output.sensitivities) refuse_with_kind(scene, "sensitivities in [output]", "true", "false");
 }
 
-/// Refuses what the torsion test does not have. \throws InputError
+/// Refuses a torsion test with another domain than a cylinder, a notch, or platens without shear stiffness. \throws
+/// InputError
 void require_torsion(const Scene& scene) {
   require_domain(scene, domains::Cylinder::name);
   if (!scene.network.notches.empty())
@@ -83,8 +84,8 @@ void require_cracks(const Scene& scene) {
                      "\"quasi_static\" or \"explicit\", because cracks are not linear");
 }
 
-/// Refuses what a bending test to failure does not have. `domain`: name of the domain that the test needs. \throws
-/// InputError
+/// Refuses a bending test to failure with another domain, without cracks, or with an unsuitable notch. `domain`: name
+/// of the domain that the test needs. \throws InputError
 void require_bent_to_failure(const Scene& scene, const std::string& domain) {
   require_domain(scene, domain);
   require_cracks(scene);

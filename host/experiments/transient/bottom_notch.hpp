@@ -13,7 +13,7 @@ namespace macadam {
 /// A notch from the bottom of a half disc or a beam.
 struct BottomNotch {
   double length = 0;       ///< from the bottom upwards [m]; 0: no notch
-  bool in_middle = false;  ///< whether the notch lies in the plane between the two lower rollers
+  bool in_middle = false;  ///< whether the notch is at the middle of the length
   double ligament = 0;     ///< height of the specimen above the notch [m]
 };
 

@@ -17,8 +17,9 @@ struct Increments {
   /// Numbers of accepted increments, of increments that were repeated with a shorter length, and of linear systems.
   std::int64_t increments = 0, rejected = 0, systems = 0;
   double error = 0;  ///< largest estimated error, relative to the largest stress (creep: strain)
-  /// Largest force out of balance at the end of an increment, relative to the size of the forces. Where iterations find
-  /// no better solution, it may be ten times QuasiStaticOptions::residual.
+  /// Largest force out of balance at the end of an increment, relative to the size of the forces. With the iterative
+  /// solver it may be up to ten times QuasiStaticOptions::residual, because a smaller one may not be found near a loss
+  /// of stability.
   double residual = 0;
   double imbalance = 0;  ///< error of the balance of energies (energy_error)
   /// Difference between the crack energy computed from the states of the cracks and the work of their stresses, divided

@@ -147,6 +147,6 @@ class Workspace:
         return str(path.relative_to(self.root))
 
 
-# Returns what a program that failed said.
+# Returns the error message of a program that failed, or its exit code.
 def _message(done: subprocess.CompletedProcess[str]) -> str:
     return done.stderr.strip() or f"exit code {done.returncode}"
