@@ -24,11 +24,11 @@
 namespace macadam {
 
 /// The experiment that `[loading]` of a scene requests. Its `kind` selects one of these types.
-using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
-                                experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension,
-                                experiments::IndirectTensileStrength, experiments::Bending,
-                                experiments::SemicircularBending, experiments::ThreePointBending, experiments::Torsion,
-                                experiments::Cooling>;
+using Experiment =
+    std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
+                 experiments::Monotonic, experiments::StrainHistory, experiments::IndirectTension,
+                 experiments::IndirectTensileStrength, experiments::Bending, experiments::SemicircularBending,
+                 experiments::ThreePointBending, experiments::Torsion, experiments::Cooling>;
 
 /// The result of an experiment. Its type depends on the experiment and on the method that ran; it is monostate before a
 /// run.
