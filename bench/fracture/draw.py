@@ -16,15 +16,20 @@ def numbers(table, key):
     return [float(row[key]) for row in table]
 
 
-def strip(table, axes):
-    axes.plot(numbers(table, "fracture_energy_j_m2"),
-              [float(row["stress_pa"]) / float(row["stress_theory_pa"]) for row in table], "o", color=BLUE,
-              label="computed over theory (V.1)")
+def over_theory(axes, x, table, name, equation, bar):
+    """Draws a column of the table over its theoretical value, and the band of the bar [%]."""
+    stem, _, unit = name.rpartition("_")
+    axes.plot(x, [float(row[name]) / float(row[f"{stem}_theory_{unit}"]) for row in table], "o", color=BLUE,
+              label=f"computed over theory ({equation})")
     axes.axhline(1, color=RED)
-    axes.axhspan(0.97, 1.03, color=RED, alpha=0.1, label="bar of 3 %")
+    axes.axhspan(1 - bar / 100, 1 + bar / 100, color=RED, alpha=0.1, label=f"bar of {bar} %")
+    axes.legend()
+
+
+def strip(table, axes):
+    over_theory(axes, numbers(table, "fracture_energy_j_m2"), table, "stress_pa", "V.1", 3)
     axes.set_xlabel("fracture energy (J/m²), or characteristic length (mm)")
     axes.set_ylabel("critical stress over theory")
-    axes.legend()
 
 
 def griffith(table, axes):
@@ -64,15 +69,10 @@ def disc(table, axes):
 
 
 def half_disc(table, axes):
-    axes.plot([2 * float(row["notch_mm"]) / float(row["diameter_mm"]) for row in table],
-              [float(row["load_n"]) / float(row["load_theory_n"]) for row in table], "o", color=BLUE,
-              label="computed over theory (V.5)")
-    axes.axhline(1, color=RED)
-    axes.axhspan(0.95, 1.05, color=RED, alpha=0.1, label="bar of 5 %")
+    over_theory(axes, [2 * float(row["notch_mm"]) / float(row["diameter_mm"]) for row in table], table, "load_n", "V.5", 5)
     axes.set_xlabel("notch over radius")
     axes.set_ylabel("largest load over theory")
     axes.set_ylim(0.9, 1.1)
-    axes.legend()
 
 
 PICTURES = {"strip": strip, "griffith": griffith, "size": size, "disc": disc, "half-disc": half_disc}

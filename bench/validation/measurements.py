@@ -40,7 +40,7 @@ def gradation(folder, lane):
     rows = rows_of(folder, MIXTURES, "Gradation")
     column = next(k for k, title in enumerate(rows[1]) if title == f"Lane {lane}" and k >= 4)
     found = [(r[1] / 1e3, r[column] / 100) for r in rows[2:] if isinstance(r[column], (int, float)) and r[1] <= 19]
-    # what does not pass 19 mm counts as finer, because the coarsest sieve of a recipe passes everything
+    # aggregate above 19 mm counts as finer, because the coarsest sieve of a recipe passes everything
     return [[sieve, 1.0 if sieve >= 0.019 else part] for sieve, part in found]
 
 
